@@ -1,0 +1,9 @@
+//! Inverse kinematics: from a position of platform, tool or part to the sliders (section III.C).
+
+mod part;
+mod platform;
+mod tool;
+
+pub use part::{part, part_working};
+pub use platform::{platform, platform_working};
+pub use tool::{tool, tool_working};

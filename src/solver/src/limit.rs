@@ -1,0 +1,81 @@
+//! Names of the constraints, and a constraint's state.
+
+/// The constraints of the workspace (section IV.A of the paper).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Constraint {
+    /// A slider within its stroke, mm.
+    Stroke,
+    /// A leg long enough to reach, mm.
+    LegLength,
+    /// A rod inclined enough to its guideway, cosine.
+    SerialSingularity,
+    /// The parallel conditioning `det_P`.
+    ParallelSingularity,
+    /// A rod within its cone at the slider, rad.
+    SliderJoint,
+    /// A rod within its cone at the platform, rad.
+    PlatformJoint,
+    /// Leg I's rods uncrossed, mm.
+    RodCrossing,
+    /// Distance between rods, mm.
+    RodInterference,
+    /// The table's tilting angle within its range, rad.
+    Tilt,
+    /// The table's rotary angle within its range, rad.
+    Rotary,
+}
+
+/// The part of the machine that a margin belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Element {
+    /// The lower or upper end of slider 1, 2 or 3's stroke.
+    Stroke {
+        /// 1, 2 or 3.
+        slider: u8,
+        /// True at the upper value of rho.
+        high: bool,
+    },
+    /// Leg 1, 2 or 3.
+    Leg(u8),
+    /// A rod: 11, 12, 21, 22, 31 or 32.
+    Rod(u8),
+    /// Two rods.
+    Rods(u8, u8),
+    /// The lower or upper end of a table angle's range.
+    Range {
+        /// True at the upper end.
+        high: bool,
+    },
+    /// The platform as a whole.
+    Platform,
+}
+
+/// One constraint's margin: positive inside, zero on the limit, negative outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margin {
+    /// Which constraint.
+    pub constraint: Constraint,
+    /// Where.
+    pub element: Element,
+    /// How far from the limit, in the constraint's unit (mm, rad or none).
+    pub value: f64,
+}
+
+/// Why a question has no posture for an answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Refusal {
+    /// A number is not finite or beyond [`DOMAIN`].
+    OutOfDomain,
+    /// No posture exists; the constraint that prevents it, with its (negative) margin.
+    Blocked(Margin),
+    /// The sliders do not hold the platform: it can move with all of them locked.
+    SelfMotion,
+}
+
+/// Largest magnitude of a length (mm) or an angle (rad) in a question.
+pub const DOMAIN: f64 = 1e7;
+
+/// Refuses numbers outside the domain.
+pub(crate) fn in_domain(numbers: &[f64]) -> Result<(), Refusal> {
+    if numbers.iter().all(|n| n.abs() <= DOMAIN) { Ok(()) } else { Err(Refusal::OutOfDomain) }
+}

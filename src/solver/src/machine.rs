@@ -1,0 +1,196 @@
+//! A machine of the VERNE architecture: its plain data, and the checked machine made from it.
+
+mod fault;
+mod reference;
+mod validate;
+
+pub use fault::MachineFault;
+
+use crate::jacobian;
+
+/// Dimensions of the parallel module, in mm, with the paper's symbols (Fig. 3, Eqs (3)-(6)).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(non_snake_case, reason = "the paper's symbols: D1 and d1 are two dimensions")]
+pub struct Geometry {
+    /// x of leg I's joints on the platform, in the platform frame.
+    pub D1: f64,
+    /// x of leg I's guideway, in the base frame.
+    pub d1: f64,
+    /// x of legs II and III's joints on the platform, in the platform frame.
+    pub D2: f64,
+    /// x of legs II and III's guideways, in the base frame.
+    pub d2: f64,
+    /// Half-distance of leg I's joints on the platform.
+    pub R1: f64,
+    /// Half-distance of leg I's joints on the slider.
+    pub r1: f64,
+    /// Half-distance of legs II and III on the platform.
+    pub R2: f64,
+    /// Half-distance of legs II and III's guideways.
+    pub r4: f64,
+    /// Rod length of leg I.
+    pub L1: f64,
+    /// Rod length of leg II.
+    pub L2: f64,
+    /// Rod length of leg III.
+    pub L3: f64,
+    /// Half-width w of the parallelograms of legs II and III, along x.
+    pub parallelogram_half_width: f64,
+    /// Radius of every rod.
+    pub rod_radius: f64,
+}
+
+/// The tilting table's offsets, in mm (Eq (7)).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Table {
+    /// z of the tilting axis in the base frame.
+    pub da: f64,
+    /// Offset from the tilting axis to the table's origin.
+    pub dt: f64,
+}
+
+/// Limits of joints and of singularities. Angles in radians, lengths in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Range of each slider, `[min, max]`.
+    pub stroke: [[f64; 2]; 3],
+    /// Half-angle of the cone that each rod may use at its slider.
+    pub slider_cone: f64,
+    /// Half-angle of the cone that each rod may use at the platform.
+    pub platform_cone: f64,
+    /// Least cosine between a rod and its guideway.
+    pub serial_margin: f64,
+    /// Least parallel conditioning `det_P`, in the sign it has at home.
+    pub parallel_margin: f64,
+    /// Range of the tilting angle theta1.
+    pub tilt: [f64; 2],
+    /// Range of the rotary angle theta2.
+    pub rotary: [f64; 2],
+    /// Axes of the slider cones in the base frame, for rod 11, rod 12, leg II, leg III;
+    /// any length but zero. `None`: the rods' own directions at home.
+    pub slider_axes: Option<[[f64; 3]; 4]>,
+    /// Axes of the platform cones in the platform frame, in the same order and direction
+    /// (from slider to platform). `None`: the rods' own directions at home.
+    pub platform_axes: Option<[[f64; 3]; 4]>,
+}
+
+/// Plain numbers that may or may not make a machine; [`Machine::new`] decides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineData {
+    /// Short name, as used in requests.
+    pub name: String,
+    /// Where the numbers come from.
+    pub description: String,
+    /// The parallel module.
+    pub geometry: Geometry,
+    /// The tilting table.
+    pub table: Table,
+    /// The limits.
+    pub limits: Limits,
+}
+
+/// A valid machine: one that exists has positive lengths, ordered ranges, solvable elimination
+/// (e1 ≠ e2, R1 > r1) and a home pose in the working mode away from singularity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    data: MachineData,
+    pub(crate) derived: Derived,
+}
+
+/// What the formulas use again and again, derived once from the data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Derived {
+    /// e1 = D1 - d1 and e2 = D2 - d2.
+    pub(crate) e1: f64,
+    pub(crate) e2: f64,
+    /// C = R1² + r1² and k = 2 R1 r1, so that u² + v² = C - k cos a.
+    pub(crate) c: f64,
+    pub(crate) k: f64,
+    /// Largest length of the machine: the scale of tolerances.
+    pub(crate) scale: f64,
+    /// Unit axes of the slider cones (base frame) and platform cones (platform frame).
+    pub(crate) slider_axes: [[f64; 3]; 4],
+    pub(crate) platform_axes: [[f64; 3]; 4],
+    /// `det_P` at home; its sign is the machine's.
+    pub(crate) home_det: f64,
+}
+
+impl Machine {
+    /// Checks the numbers and derives what the formulas need. The error lists every fault found,
+    /// each with its field.
+    pub fn new(data: MachineData) -> Result<Self, Vec<MachineFault>> {
+        let faults = validate::faults(&data);
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let derived = Derived::new(&data);
+        let machine = Self { data, derived };
+        if machine.derived.home_det.abs() < validate::LEAST_HOME_DET {
+            return Err(vec![MachineFault::new("geometry", "the home pose is a parallel singularity")]);
+        }
+        Ok(machine)
+    }
+
+    /// The data the machine was made from.
+    pub fn data(&self) -> &MachineData {
+        &self.data
+    }
+
+    /// The machine's name.
+    pub fn name(&self) -> &str {
+        &self.data.name
+    }
+
+    pub(crate) fn geometry(&self) -> &Geometry {
+        &self.data.geometry
+    }
+
+    pub(crate) fn limits(&self) -> &Limits {
+        &self.data.limits
+    }
+
+    pub(crate) fn table(&self) -> &Table {
+        &self.data.table
+    }
+}
+
+impl Derived {
+    fn new(data: &MachineData) -> Self {
+        let g = &data.geometry;
+        let e1 = g.D1 - g.d1;
+        let e2 = g.D2 - g.d2;
+        let home = home_directions(g);
+        let slider_axes = data.limits.slider_axes.map_or(home, |axes| axes.map(unit));
+        let platform_axes = data.limits.platform_axes.map_or(home, |axes| axes.map(unit));
+        let scale =
+            [g.L1, g.L2, g.L3, g.R1, g.r1, g.R2, g.r4, e1.abs(), e2.abs()].into_iter().fold(0.0, f64::max);
+        Self {
+            e1,
+            e2,
+            c: g.R1 * g.R1 + g.r1 * g.r1,
+            k: 2.0 * g.R1 * g.r1,
+            scale,
+            slider_axes,
+            platform_axes,
+            home_det: jacobian::det_at_home(g),
+        }
+    }
+}
+
+/// Unit directions A -> B of rod 11, rod 12 and the rods of legs II and III at x = y = alpha = 0.
+fn home_directions(g: &Geometry) -> [[f64; 3]; 4] {
+    let (e1, e2) = (g.D1 - g.d1, g.D2 - g.d2);
+    let (u, p) = (g.R1 - g.r1, g.R2 - g.r4);
+    let down = |length: f64, x: f64, y: f64| (length * length - x * x - y * y).max(0.0).sqrt();
+    [
+        unit([e1, u, down(g.L1, e1, u)]),
+        unit([e1, -u, down(g.L1, e1, u)]),
+        unit([e2, -p, down(g.L2, e2, p)]),
+        unit([e2, p, down(g.L3, e2, p)]),
+    ]
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let norm = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+    v.map(|c| c / norm)
+}

@@ -1,0 +1,27 @@
+//! What keeps numbers from being a machine.
+
+use std::fmt;
+
+/// One fault of a machine's data: which field, and what would be accepted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MachineFault {
+    /// Path of the field with `/` between its parts, such as `limits/stroke/0`.
+    pub field: String,
+    /// What is wrong, and what would be accepted.
+    pub detail: String,
+}
+
+impl MachineFault {
+    /// A fault of one field.
+    pub fn new(field: impl Into<String>, detail: impl Into<String>) -> Self {
+        Self { field: field.into(), detail: detail.into() }
+    }
+}
+
+impl fmt::Display for MachineFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.field, self.detail)
+    }
+}
+
+impl std::error::Error for MachineFault {}

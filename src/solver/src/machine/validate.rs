@@ -1,0 +1,144 @@
+//! The conditions that make plain numbers a machine.
+
+use std::f64::consts::PI;
+
+use super::{Geometry, Limits, MachineData, MachineFault};
+
+/// Largest length accepted in a machine, mm.
+const LARGEST: f64 = 1e6;
+/// Smallest length accepted where a length must be positive, mm.
+const SMALLEST: f64 = 1e-3;
+/// Least difference, relative to the machine, at which two dimensions count as different.
+const DISTINCT: f64 = 1e-6;
+/// Least |`det_P`| at home.
+pub(super) const LEAST_HOME_DET: f64 = 1e-9;
+
+/// All faults of the data; the home pose is looked at only where the numbers themselves are sound.
+pub(super) fn faults(data: &MachineData) -> Vec<MachineFault> {
+    let mut faults = Faults(Vec::new());
+    faults.check(!data.name.is_empty() && data.name.len() <= 64, "name", "must have 1 to 64 characters");
+    geometry(&data.geometry, &mut faults);
+    for (field, value) in [("table/da", data.table.da), ("table/dt", data.table.dt)] {
+        faults.number(field, value);
+    }
+    limits(&data.limits, &mut faults);
+    if faults.0.is_empty() {
+        elimination(&data.geometry, &mut faults);
+        home(&data.geometry, &mut faults);
+    }
+    faults.0
+}
+
+struct Faults(Vec<MachineFault>);
+
+impl Faults {
+    fn check(&mut self, holds: bool, field: &str, detail: &str) {
+        if !holds {
+            self.0.push(MachineFault::new(field, detail));
+        }
+    }
+
+    fn number(&mut self, field: &str, value: f64) {
+        self.check(value.abs() <= LARGEST, field, "must be a finite number between -1e6 and 1e6 mm");
+    }
+
+    fn length(&mut self, field: &str, value: f64) {
+        self.check(
+            (SMALLEST..=LARGEST).contains(&value),
+            field,
+            "must be a positive length between 1e-3 and 1e6 mm",
+        );
+    }
+
+    fn range(&mut self, field: &str, [low, high]: [f64; 2], largest: f64, unit: &str) {
+        let holds = low.abs() <= largest && high.abs() <= largest && low < high;
+        self.check(
+            holds,
+            field,
+            &format!("must be [min, max] with min < max, both within ±{largest} {unit}"),
+        );
+    }
+}
+
+fn geometry(g: &Geometry, faults: &mut Faults) {
+    for (field, value) in [("D1", g.D1), ("d1", g.d1), ("D2", g.D2), ("d2", g.d2)] {
+        faults.number(&format!("geometry/{field}"), value);
+    }
+    let lengths = [
+        ("R1", g.R1),
+        ("r1", g.r1),
+        ("R2", g.R2),
+        ("r4", g.r4),
+        ("L1", g.L1),
+        ("L2", g.L2),
+        ("L3", g.L3),
+        ("parallelogram_half_width", g.parallelogram_half_width),
+    ];
+    for (field, value) in lengths {
+        faults.length(&format!("geometry/{field}"), value);
+    }
+    let radius = (0.0..=LARGEST).contains(&g.rod_radius);
+    faults.check(radius, "geometry/rod_radius", "must be a length between 0 and 1e6 mm");
+}
+
+fn limits(l: &Limits, faults: &mut Faults) {
+    for (i, &stroke) in l.stroke.iter().enumerate() {
+        faults.range(&format!("limits/stroke/{i}"), stroke, LARGEST, "mm");
+    }
+    for (field, cone) in [("slider_cone", l.slider_cone), ("platform_cone", l.platform_cone)] {
+        let holds = cone > 0.0 && cone <= PI;
+        faults.check(holds, &format!("limits/{field}"), "must be a half-angle above 0 and up to 180 degrees");
+    }
+    for (field, margin) in [("serial_margin", l.serial_margin), ("parallel_margin", l.parallel_margin)] {
+        let holds = (0.0..1.0).contains(&margin);
+        faults.check(holds, &format!("limits/{field}"), "must be at least 0 and below 1");
+    }
+    for (field, range) in [("tilt", l.tilt), ("rotary", l.rotary)] {
+        let degrees = range.map(f64::to_degrees);
+        faults.range(&format!("limits/{field}"), degrees, 36_000.0, "degrees");
+    }
+    for (field, axes) in [("slider_axes", l.slider_axes), ("platform_axes", l.platform_axes)] {
+        for (i, axis) in axes.iter().flatten().enumerate() {
+            let norm = axis.iter().map(|c| c * c).sum::<f64>().sqrt();
+            let holds = (1e-6..=LARGEST).contains(&norm);
+            faults.check(
+                holds,
+                &format!("limits/{field}/{i}"),
+                "must be a direction: three numbers, not all zero",
+            );
+        }
+    }
+}
+
+/// The divisions of the closed forms must exist.
+fn elimination(g: &Geometry, faults: &mut Faults) {
+    let (e1, e2) = (g.D1 - g.d1, g.D2 - g.d2);
+    let apart = |a: f64, b: f64| (a - b).abs() > DISTINCT * a.abs().max(b.abs()).max(SMALLEST);
+    faults.check(
+        apart(e1, e2),
+        "geometry/D1",
+        "D1 - d1 must differ from D2 - d2: with equal offsets x cannot be determined",
+    );
+    faults.check(
+        g.R1 > g.r1 && apart(g.R1, g.r1),
+        "geometry/R1",
+        "must be greater than r1: the rods of leg I would be parallel or crossed at home",
+    );
+}
+
+/// At x = y = alpha = 0 every leg must reach the platform from above.
+fn home(g: &Geometry, faults: &mut Faults) {
+    let legs = [
+        ("geometry/L1", g.L1, g.D1 - g.d1, g.R1 - g.r1),
+        ("geometry/L2", g.L2, g.D2 - g.d2, g.R2 - g.r4),
+        ("geometry/L3", g.L3, g.D2 - g.d2, g.R2 - g.r4),
+    ];
+    for (field, length, x, y) in legs {
+        let needed = x.hypot(y);
+        faults.check(
+            length > needed * (1.0 + DISTINCT),
+            field,
+            &format!("must be longer than {needed:.6} mm, or there is no home pose at x = y = alpha = 0"),
+        );
+    }
+}

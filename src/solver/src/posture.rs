@@ -1,0 +1,56 @@
+//! A posture: platform pose and slider positions that satisfy Eqs (3)-(6), with its labels.
+
+use arrayvec::ArrayVec;
+
+use crate::pose::PlatformPose;
+
+/// Which end of a leg is higher.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Side {
+    /// The slider is above the platform (s = +1).
+    Above,
+    /// The slider is below the platform (s = -1).
+    Below,
+}
+
+impl Side {
+    /// +1 for above, -1 for below.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Above => 1.0,
+            Self::Below => -1.0,
+        }
+    }
+}
+
+/// Label of a solution: the sign of each leg's root, and whether leg I's rods cross.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Mode {
+    /// s1, s2, s3.
+    pub legs: [Side; 3],
+    /// R1 cos alpha < r1.
+    pub crossed: bool,
+}
+
+/// A posture of the parallel module, put back into Eqs (3)-(6).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Posture {
+    /// Pose of the platform.
+    pub pose: PlatformPose,
+    /// Slider positions, mm.
+    pub rho: [f64; 3],
+    /// Label.
+    pub mode: Mode,
+    /// The working mode: every slider end above its platform end on all six rods, uncrossed.
+    pub working: bool,
+    /// Two solutions have merged here, as closely as double precision can tell: a singularity.
+    pub merged: bool,
+    /// Largest error of a rod's length when pose and rho are put back into Eqs (3)-(6), mm.
+    pub residual: f64,
+}
+
+/// The most postures that one question can have (whole machine, inverse).
+pub const MOST: usize = 24;
+
+/// All postures that answer one question.
+pub type Postures = ArrayVec<Posture, MOST>;
