@@ -17,8 +17,12 @@ pub(crate) fn nearest(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     // A leg's own rods first: they are usually the nearest, and the rest is then seen to be
     // further apart at a glance. Rods 22 and 32 stand to each other as 21 and 31 do.
     meet::<0, 1>(&mut nearest, &ends, rods);
-    meet::<2, 3>(&mut nearest, &ends, rods);
-    meet::<4, 5>(&mut nearest, &ends, rods);
+    for (leg, first) in [(2, 2), (3, 4)] {
+        let square = square_parallel(2.0 * g.parallelogram_half_width, &rods.vectors[leg]);
+        if square < nearest.0 {
+            nearest = (square, first, first + 1);
+        }
+    }
     meet::<0, 2>(&mut nearest, &ends, rods);
     meet::<0, 3>(&mut nearest, &ends, rods);
     meet::<0, 4>(&mut nearest, &ends, rods);
@@ -48,6 +52,15 @@ fn meet<const I: usize, const J: usize>(nearest: &mut Nearest, ends: &[[f64; 3];
     if square < nearest.0 {
         *nearest = (square, I, J);
     }
+}
+
+/// Squared distance of a parallelogram's two rods, `width` apart along x: a foot of the
+/// perpendicular where there is one, else an end.
+#[inline]
+fn square_parallel(width: f64, rod: &[f64; 3]) -> f64 {
+    let (along, square) = (width * rod[0], dot(rod, rod));
+    let t = (along / square).clamp(-1.0, 1.0);
+    width * width - t * (2.0 * along - t * square)
 }
 
 /// Squared distance of two segments that run back from their platform ends, which lie `gap`
