@@ -1,0 +1,1 @@
+//! The solver against the reference sets, the oracle and the laws of the machine.
