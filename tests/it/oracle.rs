@@ -3,6 +3,7 @@
 //! ignorant of how the solver works: of a machine it reads the plain data only.
 
 mod agreement;
+pub(crate) mod built;
 mod circle;
 mod forward;
 mod found;
@@ -11,8 +12,8 @@ mod legs;
 mod polish;
 mod truth;
 
-pub(crate) use agreement::{Tally, agree, listed};
+pub(crate) use agreement::{Tally, agree, distance, listed};
 pub(crate) use forward::forward;
-pub(crate) use found::{Answer, Found, posture};
+pub(crate) use found::{Answer, Found, wrapped};
 pub(crate) use inverse::{Path, inverse};
 pub(crate) use legs::Legs;

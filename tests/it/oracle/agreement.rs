@@ -85,7 +85,7 @@ fn nearest(legs: &Legs, found: &Found, postures: &[&Posture]) -> Option<(usize, 
 }
 
 /// Largest difference of a coordinate, alpha on the lever R1.
-fn distance(legs: &Legs, found: &Found, posture: &Posture) -> f64 {
+pub(crate) fn distance(legs: &Legs, found: &Found, posture: &Posture) -> f64 {
     let (p, q) = (&posture.pose, &found.q);
     let sliders = (0..3).map(|i| posture.rho[i] - found.rho[i]);
     [p.x - q[0], p.y - q[1], p.z - q[2], legs.g.R1 * wrapped(p.alpha - q[3])]
@@ -95,8 +95,8 @@ fn distance(legs: &Legs, found: &Found, posture: &Posture) -> f64 {
 }
 
 fn same_labels(found: &Found, posture: &Posture) -> Result<(), String> {
-    let same = found.working == posture.working && found.mode == posture.mode && !posture.merged;
-    if found.signs_certain && !same {
+    let same = found.working == posture.working && found.mode == posture.mode;
+    if posture.merged || found.signs_certain && !same {
         return Err(format!("labels differ: oracle {found:?}, solver {posture:?}"));
     }
     Ok(())

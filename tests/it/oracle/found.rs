@@ -74,11 +74,6 @@ impl Found {
     }
 }
 
-/// A posture with labels of the oracle's, at a pose that reaches the sliders given.
-pub(crate) fn posture(legs: &Legs, q: Vector4<f64>, rho: [f64; 3]) -> Posture {
-    Found::new(legs, q, rho, 1.0).posture(legs)
-}
-
 /// An angle in (-π, π].
 pub(crate) fn wrapped(angle: f64) -> f64 {
     let turned = angle - TAU * (angle / TAU).round();
