@@ -5,6 +5,7 @@
 mod agreement;
 pub(crate) mod built;
 mod circle;
+mod comparison;
 mod forward;
 mod found;
 mod inverse;
@@ -12,7 +13,8 @@ mod legs;
 mod polish;
 mod truth;
 
-pub(crate) use agreement::{Tally, agree, distance, listed};
+pub(crate) use agreement::{distance, listed};
+pub(crate) use comparison::Comparison;
 pub(crate) use forward::forward;
 pub(crate) use found::{Answer, Found, wrapped};
 pub(crate) use inverse::{Path, inverse};

@@ -50,7 +50,7 @@ fn check(machine: &Machine, found: &Found) {
     let expected = least(&legs, found) - 2.0 * legs.g.rod_radius;
     let tolerance = 1e-9 * scale(machine);
     let (got, pair) = (margins.rod_interference, margins.nearest_rods);
-    assert!((got - expected).abs() < tolerance, "{got}, expected {expected}: {found:?} {:?}", legs.g);
+    assert!((got - expected).abs() < tolerance, "{got} of {pair:?}, expected {expected}: {found:?} {:?}", legs.g);
 
     assert!(pair.iter().all(|rod| RODS.contains(rod)) && pair[0] != pair[1], "{pair:?}");
     let [first, second] = pair.map(|rod| segment(&legs, found, rod));

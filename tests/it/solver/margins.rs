@@ -178,9 +178,11 @@ fn feasible_is_every_margin_at_least_zero() {
     let (mut yes, mut no) = (0, 0);
     for (machine, found) in postures(138, 3000) {
         let mut data = machine.data().clone();
+        // Limits wide enough that a good part of the postures keeps them all.
         data.limits.stroke = found.rho.map(|rho| [rho - 1e-3 * scale(&machine), rho + scale(&machine)]);
-        data.limits.parallel_margin = 0.0;
-        let machine = Machine::new(data).expect("wider strokes");
+        (data.limits.slider_cone, data.limits.platform_cone) = (2.0, 2.0);
+        (data.limits.parallel_margin, data.limits.serial_margin) = (0.0, 0.0);
+        let machine = Machine::new(data).expect("wider limits");
         let m = Margins::of(&machine, &found.posture(&Legs::of(&machine)), None);
         let all = m.stroke.iter().flatten().chain(&m.leg_length).chain(&m.serial_singularity);
         let all = all.chain([&m.parallel_singularity, &m.rod_crossing, &m.rod_interference]);

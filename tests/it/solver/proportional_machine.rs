@@ -4,7 +4,7 @@
 use verne_solver::{Machine, MachineData, Refusal, forward, forward_working};
 
 use crate::machines::Draw;
-use crate::oracle::{self, Tally, agree};
+use crate::oracle::{self, Comparison};
 
 fn data() -> MachineData {
     let mut data = Machine::verne().data().clone();
@@ -18,40 +18,39 @@ fn machine() -> Machine {
     Machine::new(data()).expect("its home pose is regular")
 }
 
-fn check(rho: [f64; 3], tally: &mut Tally) {
+fn check(rho: [f64; 3], comparison: &mut Comparison) {
     let machine = machine();
-    let all = forward(&machine, rho).unwrap_or_default();
     let answer = oracle::forward(&machine, rho);
-    agree(&machine, &answer, &all, tally).unwrap_or_else(|what| panic!("rho {rho:?}: {what}"));
+    comparison.of(&format!("rho {rho:?}"), &machine, &answer, &forward(&machine, rho));
 }
 
 #[test]
 fn sliders_anywhere() {
-    let (mut draw, mut tally) = (Draw::seeded(71), Tally::default());
+    let (mut draw, mut comparison) = (Draw::seeded(71), Comparison::default());
     for _ in 0..300 {
-        check([0, 1, 2].map(|_| draw.between(0.0, 800.0)), &mut tally);
+        check([0, 1, 2].map(|_| draw.between(0.0, 800.0)), &mut comparison);
     }
-    assert!(tally.lenient < 5 && tally.solutions > 600, "{tally:?}");
+    comparison.conclude(5, 600);
 }
 
 #[test]
 fn rho2_equals_rho3() {
-    let (mut draw, mut tally) = (Draw::seeded(72), Tally::default());
+    let (mut draw, mut comparison) = (Draw::seeded(72), Comparison::default());
     for _ in 0..300 {
         let [rho1, rho2] = [draw.between(0.0, 800.0), draw.between(0.0, 800.0)];
-        check([rho1, rho2, rho2], &mut tally);
+        check([rho1, rho2, rho2], &mut comparison);
     }
-    assert!(tally.lenient < 5 && tally.solutions > 600, "{tally:?}");
+    comparison.conclude(5, 600);
 }
 
 #[test]
 fn rho1_half_way() {
-    let (mut draw, mut tally) = (Draw::seeded(73), Tally::default());
+    let (mut draw, mut comparison) = (Draw::seeded(73), Comparison::default());
     for _ in 0..300 {
         let (middle, apart) = (draw.between(0.0, 800.0).round(), draw.between(10.0, 500.0).round());
-        check([middle, middle - apart, middle + apart], &mut tally);
+        check([middle, middle - apart, middle + apart], &mut comparison);
     }
-    assert!(tally.lenient < 5 && tally.solutions > 600, "{tally:?}");
+    comparison.conclude(5, 600);
 }
 
 #[test]

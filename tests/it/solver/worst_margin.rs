@@ -4,7 +4,7 @@ use verne_solver::machine::{Geometry, Limits};
 use verne_solver::{Constraint, Element, Machine, Margin, Margins, Posture, TableAngles};
 
 use crate::oracle::Legs;
-use crate::oracle::built::{hung, leaning};
+use crate::oracle::built::{hung, leaning, upright};
 
 /// The reference machine with every limit out of the way but what `change` sets.
 fn machine(change: impl FnOnce(&mut Limits, &mut Geometry)) -> Machine {
@@ -23,10 +23,10 @@ fn machine(change: impl FnOnce(&mut Limits, &mut Geometry)) -> Machine {
     Machine::new(data).expect("a valid machine")
 }
 
-/// A working posture well inside the reference machine's workspace, leaning a little.
+/// A working posture well inside the reference machine's workspace.
 fn posture(z: f64) -> Posture {
     let legs = Legs::of(&Machine::verne());
-    let leg1 = leaning(&legs, -0.05, 60.0, z, 1.0).expect("leg I reaches");
+    let leg1 = leaning(&legs, -0.3, 250.0, z, -1.0).expect("leg I reaches");
     let found = hung(&legs, leg1, [1.0, 1.0]).expect("legs II and III reach");
     assert!(found.working, "{found:?}");
     found.posture(&legs)
@@ -86,8 +86,14 @@ fn serial_singularity_names_the_rod() {
 
 #[test]
 fn parallel_singularity_names_the_platform() {
+    // Near the edge of the workspace: in the middle det_P exceeds every limit there may be.
     let machine = machine(|limits, _| limits.parallel_margin = 0.99);
-    assert_eq!(worst(&machine, None), (Constraint::ParallelSingularity, Element::Platform));
+    let legs = Legs::of(&machine);
+    let edge = hung(&legs, upright(&legs, 0.0, -400.0, 1250.0, 1.0).unwrap(), [1.0, 1.0]).unwrap();
+    let margins = Margins::of(&machine, &edge.posture(&legs), None);
+    let worst = margins.worst(&machine);
+    assert!(worst.value < 0.0 && !margins.feasible(), "{worst:?}");
+    assert_eq!((worst.constraint, worst.element), (Constraint::ParallelSingularity, Element::Platform));
 }
 
 #[test]
