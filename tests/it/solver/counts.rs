@@ -12,7 +12,6 @@ fn conclude(comparison: &Comparison, most: usize) {
     assert!(tally.most >= most && tally.empty > 0, "{tally:?}");
 }
 
-
 #[test]
 fn assembly_modes_of_the_reference_machine() {
     let (machine, mut draw, mut comparison) = (Machine::verne(), Draw::seeded(11), Comparison::default());

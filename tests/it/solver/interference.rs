@@ -50,7 +50,11 @@ fn check(machine: &Machine, found: &Found) {
     let expected = least(&legs, found) - 2.0 * legs.g.rod_radius;
     let tolerance = 1e-9 * scale(machine);
     let (got, pair) = (margins.rod_interference, margins.nearest_rods);
-    assert!((got - expected).abs() < tolerance, "{got} of {pair:?}, expected {expected}: {found:?} {:?}", legs.g);
+    assert!(
+        (got - expected).abs() < tolerance,
+        "{got} of {pair:?}, expected {expected}: {found:?} {:?}",
+        legs.g
+    );
 
     assert!(pair.iter().all(|rod| RODS.contains(rod)) && pair[0] != pair[1], "{pair:?}");
     let [first, second] = pair.map(|rod| segment(&legs, found, rod));
@@ -70,12 +74,9 @@ fn of_crossing_parallel_and_symmetric_rods() {
     use std::f64::consts::PI;
     let machine = Machine::verne();
     let legs = Legs::of(&machine);
-    for (alpha, s1, sides) in [
-        (0.0, 1.0, [1.0, 1.0]),
-        (PI, 1.0, [1.0, 1.0]),
-        (PI, -1.0, [1.0, -1.0]),
-        (0.0, -1.0, [-1.0, 1.0]),
-    ] {
+    for (alpha, s1, sides) in
+        [(0.0, 1.0, [1.0, 1.0]), (PI, 1.0, [1.0, 1.0]), (PI, -1.0, [1.0, -1.0]), (0.0, -1.0, [-1.0, 1.0])]
+    {
         for x in [-300.0, -120.0, 0.0, 77.0, 300.0] {
             check(&machine, &hung(&legs, upright(&legs, alpha, x, 1200.0, s1).unwrap(), sides).unwrap());
         }

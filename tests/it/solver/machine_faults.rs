@@ -3,6 +3,7 @@
 use verne_solver::{Machine, MachineData};
 
 type Change = fn(&mut MachineData);
+type Number = fn(&mut MachineData) -> &mut f64;
 
 /// The faults' fields of the reference machine with a change.
 fn fields(change: impl FnOnce(&mut MachineData)) -> Vec<String> {
@@ -15,7 +16,7 @@ fn fields(change: impl FnOnce(&mut MachineData)) -> Vec<String> {
 
 #[test]
 fn numbers_that_are_none() {
-    let fields_and_places: [(&str, fn(&mut MachineData) -> &mut f64); 24] = [
+    let fields_and_places: [(&str, Number); 24] = [
         ("geometry/D1", |d| &mut d.geometry.D1),
         ("geometry/d1", |d| &mut d.geometry.d1),
         ("geometry/D2", |d| &mut d.geometry.D2),
@@ -85,14 +86,20 @@ fn cone_axes_that_point_nowhere() {
 #[test]
 fn equal_offsets_leave_x_undetermined() {
     let fields = fields(|d| (d.geometry.D2, d.geometry.d2) = (200.0, 700.0));
-    assert!(fields.iter().all(|field| ["geometry/D1", "geometry/D2"].contains(&field.as_str())), "{fields:?}");
+    assert!(
+        fields.iter().all(|field| ["geometry/D1", "geometry/D2"].contains(&field.as_str())),
+        "{fields:?}"
+    );
 }
 
 #[test]
 fn leg_one_s_rods_parallel_or_crossed_at_home() {
     for r1 in [275.0, 274.999_999_9, 300.0] {
         let fields = fields(|d| d.geometry.r1 = r1);
-        assert!(fields.contains(&"geometry/R1".to_owned()) || fields.contains(&"geometry/r1".to_owned()), "{fields:?}");
+        assert!(
+            fields.contains(&"geometry/R1".to_owned()) || fields.contains(&"geometry/r1".to_owned()),
+            "{fields:?}"
+        );
     }
 }
 

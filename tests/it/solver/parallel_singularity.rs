@@ -126,20 +126,29 @@ impl Fold {
                 _ => assert!(one || pair, "{what}"),
             }
         }
-        assert!(others.iter().all(|&far| far == others[0]), "{:?} {:?} other modes: {others:?}", self.q, self.rho);
+        assert!(
+            others.iter().all(|&far| far == others[0]),
+            "{:?} {:?} other modes: {others:?}",
+            self.q,
+            self.rho
+        );
     }
 }
 
 #[test]
 fn of_the_reference_machine() {
     let (machine, mut draw) = (Machine::verne(), Draw::seeded(91));
-    folds(&machine, &mut draw, 60).iter().for_each(|fold| fold.check(&machine));
+    for fold in folds(&machine, &mut draw, 60) {
+        fold.check(&machine);
+    }
 }
 
 #[test]
 fn of_the_asymmetric_machine() {
     let (machine, mut draw) = (reference::asymmetric(), Draw::seeded(92));
-    folds(&machine, &mut draw, 60).iter().for_each(|fold| fold.check(&machine));
+    for fold in folds(&machine, &mut draw, 60) {
+        fold.check(&machine);
+    }
 }
 
 #[test]

@@ -10,8 +10,8 @@ use crate::oracle::{self, Comparison, Path};
 
 /// y from exactly zero to a micrometre on a metre, on both sides.
 const OFFSETS: [f64; 22] = [
-    0.0, -0.0, 1e-12, -1e-12, 1e-11, -1e-11, 1e-10, -1e-10, 1e-9, -1e-9, 1e-8, -1e-8, 1e-7, -1e-7, 1e-6, -1e-6,
-    1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3,
+    0.0, -0.0, 1e-12, -1e-12, 1e-11, -1e-11, 1e-10, -1e-10, 1e-9, -1e-9, 1e-8, -1e-8, 1e-7, -1e-7, 1e-6,
+    -1e-6, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3,
 ];
 
 /// Positions in the plane where the reference machine has all sixteen postures.
