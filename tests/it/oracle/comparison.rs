@@ -1,8 +1,8 @@
 //! Many of the solver's answers against the oracle's, with the disagreements collected.
 
-use verne_solver::{Machine, Postures, Refusal};
+use verne_solver::{Machine, Posture, Postures, Refusal};
 
-use super::agreement::{Tally, agree};
+use super::agreement::{Tally, agree, distance};
 use super::found::Answer;
 use super::legs::Legs;
 
@@ -27,6 +27,25 @@ impl Comparison {
     ) {
         let checked = self.check(machine, answer, got);
         self.failures.extend(checked.err().map(|what| format!("{question}: {what}")));
+    }
+
+    /// Compares the working mode alone: it is one of the oracle's, or refused if there is none.
+    pub(crate) fn of_working(
+        &mut self,
+        question: &str,
+        machine: &Machine,
+        answer: &Answer,
+        got: &Result<Posture, Refusal>,
+    ) {
+        let legs = Legs::of(machine);
+        let mut working = answer.found.iter().filter(|found| found.working);
+        let agrees = match got {
+            Ok(posture) => working.any(|found| distance(&legs, found, posture) < 1e-8 * legs.scale()),
+            Err(_) => !working.any(|found| found.signs_certain && !found.weak()),
+        };
+        if !agrees {
+            self.failures.push(format!("{question}, working: {got:?}, the oracle has {:?}", answer.found));
+        }
     }
 
     fn check(

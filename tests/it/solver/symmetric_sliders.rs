@@ -18,7 +18,9 @@ fn with_legs_alike(machine: &Machine) -> Machine {
 
 fn check(machine: &Machine, rho: [f64; 3], comparison: &mut Comparison) -> Vec<Posture> {
     let all = forward(machine, rho);
-    comparison.of(&format!("rho {rho:?}"), machine, &oracle::forward(machine, rho), &all);
+    let answer = oracle::forward(machine, rho);
+    comparison.of(&format!("rho {rho:?}"), machine, &answer, &all);
+    comparison.of_working(&format!("rho {rho:?}"), machine, &answer, &forward_working(machine, rho));
     all.unwrap_or_default().into_iter().collect()
 }
 

@@ -116,12 +116,16 @@ fn near_the_plane_at_any_distance() {
         let (p, length) = ([x, y, z], draw.tool_length(&machine));
         let answer = oracle::inverse(&machine, &Path::platform(p));
         comparison.of(&format!("p {p:?}"), &machine, &answer, &platform(&machine, p));
+        comparison.of_working(&format!("p {p:?}"), &machine, &answer, &platform_working(&machine, p));
         let answer = oracle::inverse(&machine, &Path::tool(p, length));
         comparison.of(&format!("u {p:?} tool {length}"), &machine, &answer, &tool(&machine, p, length));
+        let alone = tool_working(&machine, p, length);
+        comparison.of_working(&format!("u {p:?} tool {length}"), &machine, &answer, &alone);
         let target = PartPose { x, y, z: draw.between(-0.5, 0.5) * scale(&machine), ..PartPose::default() };
         let answer = oracle::inverse(&machine, &Path::part(&machine, &target, length));
         let question = format!("{target:?} tool {length}");
         comparison.of(&question, &machine, &answer, &part(&machine, &target, length));
+        comparison.of_working(&question, &machine, &answer, &part_working(&machine, &target, length));
     }
     comparison.conclude(20, 12_000);
 }
