@@ -1,9 +1,11 @@
 //! Postures built instead of searched: alpha is chosen and the rest follows in closed form.
 
 use nalgebra::Vector4;
+use verne_solver::Machine;
 
 use super::found::Found;
 use super::legs::Legs;
+use crate::machines::{Draw, scale};
 
 /// Leg I at a chosen alpha (not 0 or π) and y: x and rho1 follow, x on the chosen side of leg I's
 /// guideway. `None` out of reach.
@@ -40,4 +42,22 @@ pub(crate) fn hung(legs: &Legs, (q, rho1): (Vector4<f64>, f64), sides: [f64; 2])
     let rho = [rho1, top2 - sides[0] * under2.sqrt(), top3 - sides[1] * under3.sqrt()];
     let reached = rho[1].is_finite() && rho[2].is_finite();
     reached.then(|| Found::new(legs, q, rho, 1.0 / legs.rates(&q, &rho).singular_values()[3]))
+}
+
+/// Random postures of random machines.
+pub(crate) fn postures(seed: u64, wanted: usize) -> Vec<(Machine, Found)> {
+    let mut draw = Draw::seeded(seed);
+    let mut found = Vec::new();
+    while found.len() < wanted {
+        let machine = draw.any_machine();
+        let (legs, unit) = (Legs::of(&machine), scale(&machine));
+        let (alpha, y) = (draw.between(-3.0, 3.0) * draw.pick(&[0.1, 1.0]), unit * draw.between(-0.5, 0.5));
+        let y = y * alpha.sin().abs();
+        let sides = [draw.pick(&[1.0, 1.0, -1.0]), draw.pick(&[1.0, 1.0, -1.0])];
+        let leg1 = leaning(&legs, alpha, y, unit * draw.between(0.5, 2.0), draw.pick(&[1.0, -1.0]));
+        if let Some(posture) = leg1.and_then(|leg1| hung(&legs, leg1, sides)) {
+            found.push((machine, posture));
+        }
+    }
+    found
 }

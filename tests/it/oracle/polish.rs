@@ -5,8 +5,8 @@ use nalgebra::{Matrix2, Vector2, Vector4};
 use super::inverse::Path;
 use super::legs::Legs;
 
-/// Polishes x, y, z, alpha for given sliders. Returns the pose and the amplification of errors,
-/// or `None` if Newton's method leaves the neighbourhood: the zero was not one.
+/// Polishes x, y, z, alpha for given sliders. Returns the pose with the least errors and their
+/// amplification: the error of the pose, alpha on the lever R1, for an error of a rod's length.
 pub(crate) fn forward(legs: &Legs, start: Vector4<f64>, rho: &[f64; 3]) -> (Vector4<f64>, f64) {
     let lever = Vector4::new(1.0, 1.0, 1.0, 1.0 / legs.g.R1);
     let mut best = (legs.residual(&start, rho), start);

@@ -1,11 +1,13 @@
-//! The oracle itself against the published reference sets.
+//! The oracle itself: against the published reference sets, and against postures that were built
+//! rather than searched.
 
 use std::f64::consts::PI;
 
 use nalgebra::Vector4;
 use verne_solver::PartPose;
 
-use super::found::{Answer, wrapped};
+use super::built::postures;
+use super::found::{Answer, Found, wrapped};
 use super::inverse::{Path, inverse};
 use super::{Legs, forward};
 use crate::reference::{self, Solution};
@@ -46,4 +48,31 @@ fn inverse_is_the_reference() {
         };
         check(&Legs::of(&case.machine), &case.tag, &inverse(&case.machine, &path), &case.solutions);
     }
+}
+
+/// The posture is among the answer's, once.
+fn found_once(built: &Found, answer: &Answer, unit: f64) {
+    let same = |found: &&Found| {
+        let sliders = (0..3).map(|i| (found.rho[i] - built.rho[i]).abs()).fold(0.0, f64::max);
+        (found.q - built.q).xyz().amax().max(sliders) < 1e-7 * unit
+            && wrapped(found.q[3] - built.q[3]).abs() < 1e-6
+    };
+    assert_eq!(answer.found.iter().filter(same).count(), 1, "{built:?} in {answer:?}");
+}
+
+#[test]
+fn every_built_posture_is_found() {
+    let mut checked = 0;
+    for (machine, built) in postures(1, 2000) {
+        let legs = Legs::of(&machine);
+        let drops = [11, 12, 21, 31].map(|rod| legs.rod(rod, &built.q, &built.rho).z.abs() / legs.scale());
+        if built.amplification > 1e4 || drops.into_iter().any(|drop| drop < 1e-3) {
+            continue; // about to merge with another
+        }
+        found_once(&built, &forward(&machine, built.rho), legs.scale());
+        let path = Path::platform([built.q[0], built.q[1], built.q[2]]);
+        found_once(&built, &inverse(&machine, &path), legs.scale());
+        checked += 1;
+    }
+    assert!(checked > 1800, "{checked}");
 }

@@ -5,27 +5,9 @@ use nalgebra::{Matrix4, Vector4};
 use verne_solver::jacobian::{conditioning, parallel_matrix, velocities};
 use verne_solver::{Machine, MachineData, PlatformPose, Posture};
 
-use crate::machines::{Draw, scale};
-use crate::oracle::built::{hung, leaning, upright};
+use crate::machines::scale;
+use crate::oracle::built::{hung, postures, upright};
 use crate::oracle::{Found, Legs};
-
-/// Random postures of random machines.
-pub(super) fn postures(seed: u64, wanted: usize) -> Vec<(Machine, Found)> {
-    let mut draw = Draw::seeded(seed);
-    let mut found = Vec::new();
-    while found.len() < wanted {
-        let machine = draw.any_machine();
-        let (legs, unit) = (Legs::of(&machine), scale(&machine));
-        let (alpha, y) = (draw.between(-3.0, 3.0) * draw.pick(&[0.1, 1.0]), unit * draw.between(-0.5, 0.5));
-        let y = y * alpha.sin().abs();
-        let sides = [draw.pick(&[1.0, 1.0, -1.0]), draw.pick(&[1.0, 1.0, -1.0])];
-        let leg1 = leaning(&legs, alpha, y, unit * draw.between(0.5, 2.0), draw.pick(&[1.0, -1.0]));
-        if let Some(posture) = leg1.and_then(|leg1| hung(&legs, leg1, sides)) {
-            found.push((machine, posture));
-        }
-    }
-    found
-}
 
 /// Rates of the four rods' lengths with x, y, z, R1 alpha by central differences.
 fn differences(legs: &Legs, found: &Found) -> Matrix4<f64> {

@@ -51,10 +51,10 @@ impl Findings {
         what: &str,
         machine: &Machine,
         numbers: &[f64],
-        answer: Result<Vec<Posture>, Refusal>,
+        answer: &Result<Vec<Posture>, Refusal>,
     ) {
         let outside = numbers.iter().any(|n| n.is_nan() || n.abs() > DOMAIN);
-        let sound = match &answer {
+        let sound = match answer {
             Ok(postures) => !outside && !postures.is_empty(),
             Err(Refusal::OutOfDomain) => outside,
             Err(Refusal::Blocked(margin)) => !outside && margin.value < 0.0 && margin.value.is_finite(),
@@ -104,10 +104,10 @@ fn forward_and_platform() {
     for _ in 0..10_000 {
         let machine = draw.any_machine();
         let n = [0, 1, 2].map(|_| number(&mut draw, scale(&machine)));
-        findings.check("forward", &machine, &n, many(forward(&machine, n)));
-        findings.check("forward_working", &machine, &n, one(forward_working(&machine, n)));
-        findings.check("platform", &machine, &n, many(platform(&machine, n)));
-        findings.check("platform_working", &machine, &n, one(platform_working(&machine, n)));
+        findings.check("forward", &machine, &n, &many(forward(&machine, n)));
+        findings.check("forward_working", &machine, &n, &one(forward_working(&machine, n)));
+        findings.check("platform", &machine, &n, &many(platform(&machine, n)));
+        findings.check("platform_working", &machine, &n, &one(platform_working(&machine, n)));
     }
     findings.conclude(2000);
 }
@@ -119,13 +119,13 @@ fn tool_and_part() {
         let machine = draw.any_machine();
         let n = [0; 4].map(|_| number(&mut draw, scale(&machine)));
         let (u, length) = ([n[0], n[1], n[2]], n[3]);
-        findings.check("tool", &machine, &n, many(tool(&machine, u, length)));
-        findings.check("tool_working", &machine, &n, one(tool_working(&machine, u, length)));
+        findings.check("tool", &machine, &n, &many(tool(&machine, u, length)));
+        findings.check("tool_working", &machine, &n, &one(tool_working(&machine, u, length)));
         let phi = [0; 2].map(|_| number(&mut draw, 3.0));
         let n = [n[0], n[1], n[2], n[3], phi[0], phi[1]];
         let target = PartPose { x: n[0], y: n[1], z: n[2], phi1: n[4], phi2: n[5] };
-        findings.check("part", &machine, &n, many(part(&machine, &target, length)));
-        findings.check("part_working", &machine, &n, one(part_working(&machine, &target, length)));
+        findings.check("part", &machine, &n, &many(part(&machine, &target, length)));
+        findings.check("part_working", &machine, &n, &one(part_working(&machine, &target, length)));
     }
     findings.conclude(1000);
 }

@@ -3,9 +3,8 @@
 use nalgebra::Vector3;
 use verne_solver::{Machine, Margins};
 
-use super::conditioning::postures;
 use crate::machines::scale;
-use crate::oracle::built::{hung, upright};
+use crate::oracle::built::{hung, postures, upright};
 use crate::oracle::{Found, Legs};
 
 const RODS: [u8; 6] = [11, 12, 21, 22, 31, 32];

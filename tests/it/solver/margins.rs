@@ -3,9 +3,8 @@
 use nalgebra::Vector3;
 use verne_solver::{Machine, Margins, TableAngles};
 
-use super::conditioning::postures;
 use crate::machines::{Draw, scale};
-use crate::oracle::built::{hung, upright};
+use crate::oracle::built::{hung, postures, upright};
 use crate::oracle::{Found, Legs};
 
 /// The rods that the arrays of four stand for.

@@ -3,9 +3,9 @@
 use verne_solver::jacobian::velocities;
 use verne_solver::{Machine, Posture, forward_working};
 
-use super::conditioning::postures;
 use crate::machines::{Draw, scale};
 use crate::oracle::Legs;
+use crate::oracle::built::postures;
 
 fn pose(posture: &Posture) -> [f64; 4] {
     let p = &posture.pose;
