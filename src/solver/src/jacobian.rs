@@ -68,10 +68,11 @@ pub fn velocities(machine: &Machine, posture: &Posture) -> Option<[[f64; 3]; 4]>
 pub(crate) fn matrix(g: &Geometry, rods: &Rods) -> ParallelMatrix {
     let ratio = g.R2 / g.R1;
     let arms = [1.0, -1.0, -ratio, ratio];
-    std::array::from_fn(|i| {
+    let row = |i: usize| {
         let [x, y, z] = rods.directions[i];
         [x, y, z, arms[i] * (rods.c * z - rods.s * y)]
-    })
+    };
+    [row(0), row(1), row(2), row(3)]
 }
 
 /// Determinant by complementary 2×2 minors.
@@ -97,5 +98,5 @@ pub(crate) fn at_home(g: &Geometry) -> Rods {
     let (u, p) = (g.R1 - g.r1, g.R2 - g.r4);
     let drop = |length: f64, x: f64, y: f64| (length * length - x * x - y * y).max(0.0).sqrt();
     let w = [drop(g.L1, x[0], u), drop(g.L2, x[1], p), drop(g.L3, x[1], p)];
-    Rods::new(g, x, 0.0, w, [1.0, 0.0])
+    Rods::new(g, &[1.0 / g.L1, 1.0 / g.L1, 1.0 / g.L2, 1.0 / g.L3], x, 0.0, w, [1.0, 0.0])
 }

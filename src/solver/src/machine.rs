@@ -110,6 +110,8 @@ pub(crate) struct Derived {
     /// C = R1² + r1² and k = 2 R1 r1, so that u² + v² = C - k cos a.
     pub(crate) c: f64,
     pub(crate) k: f64,
+    /// 1/L of rod 11, rod 12, leg II, leg III.
+    pub(crate) inverse_lengths: [f64; 4],
     /// 1/R1².
     pub(crate) inverse_r1_square: f64,
     /// acos(r1/R1): the rods of leg I do not cross for |alpha| below it.
@@ -180,13 +182,14 @@ impl Derived {
             e2,
             c: g.R1 * g.R1 + g.r1 * g.r1,
             k: 2.0 * g.R1 * g.r1,
+            inverse_lengths: [1.0 / g.L1, 1.0 / g.L1, 1.0 / g.L2, 1.0 / g.L3],
             inverse_r1_square: 1.0 / (g.R1 * g.R1),
             uncrossed: (g.r1 / g.R1).acos(),
             scale,
             slider_axes,
             platform_axes,
             home_det: jacobian::det_at_home(g),
-            home_distance: interference::nearest(g, &rods, [e1, e2], 0.0).0.max(SMALL_DISTANCE),
+            home_distance: interference::nearest(g, &rods).0.max(SMALL_DISTANCE),
         }
     }
 }
