@@ -87,7 +87,7 @@ fn rods_of_leg_one_meet_in_half_a_turn() {
     let machine = Machine::verne();
     let legs = Legs::of(&machine);
     let leg1 = upright(&legs, std::f64::consts::PI, 0.0, 1200.0, 1.0).unwrap();
-    let posture = hung(&legs, leg1, [1.0, 1.0]).unwrap().posture(&legs);
+    let posture = hung(&legs, leg1, [1.0, -1.0]).unwrap().posture(&legs);
     let margins = Margins::of(&machine, &posture, None);
     assert!((margins.rod_interference + 50.0).abs() < 1e-9, "{margins:?}");
     assert_eq!(margins.nearest_rods, [11, 12]);
