@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 use arrayvec::ArrayVec;
 
 use crate::circle::{Site, TrigPolynomial, isolate};
-pub(crate) use sheet::polish;
+pub(crate) use sheet::{determinant, polish};
 
 /// Two equations f = 0 in (a, w) and their derivatives.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +52,14 @@ pub(crate) struct Root {
     pub(crate) w: f64,
     /// Two solutions that double precision cannot tell apart.
     pub(crate) merged: bool,
+}
+
+impl Root {
+    /// A start for Newton's method.
+    #[inline]
+    pub(crate) fn at(a: f64, [c, s]: [f64; 2], w: f64) -> Self {
+        Self { a, c, s, w, merged: false }
+    }
 }
 
 /// All solutions of a loop closure.
@@ -125,7 +133,7 @@ fn approached<const M: usize>(poly: &TrigPolynomial<M>, [mut low, mut high]: [f6
 #[cold]
 fn at_angle<const M: usize, C: Closure<M>>(closure: &C, a: f64) -> Root {
     let (s, c) = a.sin_cos();
-    Root { a, c, s, w: closure.w_at_root(c, s), merged: false }
+    Root::at(a, [c, s], closure.w_at_root(c, s))
 }
 
 fn add(roots: &mut Roots, root: Root) {

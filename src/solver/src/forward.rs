@@ -5,14 +5,13 @@ mod obstacle;
 
 use std::f64::consts::PI;
 
-use crate::closure::{Closure, Root, Roots, find_roots, polish, wrapped};
-use crate::jacobian::{determinant, matrix};
+use crate::closure::{Closure, Root, Roots, determinant, find_roots, polish, wrapped};
+use crate::jacobian::at_home;
 use crate::limit::{Refusal, in_domain};
-use crate::machine::Machine;
+use crate::machine::{Derived, Geometry, Machine};
 use crate::pose::PlatformPose;
 use crate::posture::{Mode, Posture, Postures, Side, gathered};
 use crate::residual::{residual, tolerance};
-use crate::rods::Rods;
 use elimination::Assembly;
 
 /// All assembly modes (up to 8) for slider positions `rho`; at least one, or the refusal.
@@ -41,9 +40,9 @@ pub fn forward_working(machine: &Machine, rho: [f64; 3]) -> Result<Posture, Refu
 #[inline]
 fn direct(machine: &Machine, assembly: &Assembly, rho: [f64; 3]) -> Option<Posture> {
     let w = assembly.sheets(1.0, 0.0)?[0];
-    let root = polish(assembly, Root { a: 0.0, c: 1.0, s: 0.0, w, merged: false })?;
+    let root = polish(assembly, Root::at(0.0, [1.0, 0.0], w))?;
     let posture = posture(machine, assembly, rho, &root)?;
-    (posture.working && on_home_side(machine, &posture)).then_some(posture)
+    (posture.working && on_home_side(machine, assembly, &root)).then_some(posture)
 }
 
 /// The working mode among all roots of the sheet, wherever they are.
@@ -57,7 +56,7 @@ fn among_all(machine: &Machine, assembly: &Assembly, rho: [f64; 3]) -> Result<Po
     for root in roots {
         let working = posture(machine, assembly, rho, &root).filter(|posture| posture.working);
         if let Some(posture) = working
-            && (found.is_none() || on_home_side(machine, &posture))
+            && (found.is_none() || on_home_side(machine, assembly, &root))
         {
             found = Some(posture);
         }
@@ -66,14 +65,20 @@ fn among_all(machine: &Machine, assembly: &Assembly, rho: [f64; 3]) -> Result<Po
 }
 
 #[inline]
-fn on_home_side(machine: &Machine, posture: &Posture) -> bool {
-    let rods = Rods::of(machine, posture);
-    determinant(&matrix(machine.geometry(), &rods)) * machine.derived.home_det > 0.0
+fn on_home_side(machine: &Machine, assembly: &Assembly, root: &Root) -> bool {
+    determinant(assembly, root) * machine.derived.home_turn > 0.0
+}
+
+/// The closure's determinant at home, all sliders above: its sign is the machine's.
+pub(crate) fn turn_at_home(g: &Geometry, derived: &Derived) -> f64 {
+    let [w1, w2, w3] = at_home(g).drops;
+    let assembly = Assembly::new(g, derived, [-w1, -w2, -w3]);
+    determinant(&assembly, &Root::at(0.0, [1.0, 0.0], w1 / (g.R1 - g.r1)))
 }
 
 fn question(machine: &Machine, rho: [f64; 3]) -> Result<Assembly, Refusal> {
     in_domain(&rho)?;
-    let assembly = Assembly::new(machine, rho);
+    let assembly = Assembly::new(machine.geometry(), &machine.derived, rho);
     if assembly.is_free(machine.derived.scale) { Err(Refusal::SelfMotion) } else { Ok(assembly) }
 }
 

@@ -5,7 +5,7 @@ use super::{Closure, Root};
 /// Newton steps until the last digit; convergence is quadratic, so few are ever used.
 const STEPS: usize = 12;
 /// A step below this leaves an error of its square: nothing in double precision.
-const SMALL: f64 = 1e-8;
+const SMALL: f64 = 3e-8;
 /// Up to this angle the series of cos and sin below are exact in double precision.
 const SERIES: f64 = 0.15;
 
@@ -58,7 +58,7 @@ pub(super) fn root_between<const M: usize, C: Closure<M>>(
     let nearer = usize::from((sheets[1] - w).abs() < (sheets[0] - w).abs());
     [nearer, 1 - nearer]
         .into_iter()
-        .find_map(|sheet| polish(closure, Root { a, c, s, w: sheets[sheet], merged: false }).filter(inside))
+        .find_map(|sheet| polish(closure, Root::at(a, [c, s], sheets[sheet])).filter(inside))
 }
 
 /// The two roots of a bracket, one at either side of `at` and one on each sheet: each is alone on
@@ -72,11 +72,18 @@ pub(super) fn either_side<const M: usize, C: Closure<M>>(
 ) -> Option<[Root; 2]> {
     let (s, c) = at.sin_cos();
     let [above, below] = closure.sheets(c, s)?;
-    let start = |w: f64| Root { a: at, c, s, w, merged: false };
-    let [first, second] = polish_both(closure, [start(above), start(below)])?;
+    let [first, second] = polish_both(closure, [above, below].map(|w| Root::at(at, [c, s], w)))?;
     let pair = if first.a < second.a { [first, second] } else { [second, first] };
     let placed = low <= pair[0].a && pair[0].a <= at && at <= pair[1].a && pair[1].a <= high;
     placed.then_some(pair)
+}
+
+/// The determinant of the closure's derivatives: zero at a parallel singularity, and a multiple of
+/// `det_P` whose factor has one sign for a machine.
+#[inline]
+pub(crate) fn determinant<const M: usize, C: Closure<M>>(closure: &C, root: &Root) -> f64 {
+    let e = closure.equations(root.c, root.s, root.w);
+    e.da[0] * e.dw[1] - e.da[1] * e.dw[0]
 }
 
 /// The Newton step in (a, w).

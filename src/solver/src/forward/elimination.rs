@@ -2,7 +2,7 @@
 
 use crate::circle::{TrigPolynomial, linear};
 use crate::closure::{Closure, Equations};
-use crate::machine::Machine;
+use crate::machine::{Derived, Geometry};
 
 /// With (y, w1) = λ (-v, u), which satisfies the difference of Eqs (3) and (4), and x from their
 /// mean with Eqs (5) and (6), two equations remain:
@@ -31,9 +31,7 @@ pub(super) struct Assembly {
 }
 
 impl Assembly {
-    pub(super) fn new(machine: &Machine, rho: [f64; 3]) -> Self {
-        let g = machine.geometry();
-        let derived = &machine.derived;
+    pub(super) fn new(g: &Geometry, derived: &Derived, rho: [f64; 3]) -> Self {
         let [a, b] = [rho[0] - rho[1], rho[0] - rho[2]];
         let gap = rho[2] - rho[1];
         let s = a + b;

@@ -153,9 +153,11 @@ pub(super) fn postures(machine: &Machine, closed: &Closed, found: &mut Postures)
     let merged = second.merged || third.merged;
     for leg2 in &second.legs[usize::from(second.merged)..] {
         for leg3 in &third.legs[usize::from(third.merged)..] {
-            if let Some(posture) = platform.posture([&first, leg2, leg3], merged) {
-                // At most six angles of leg I exist, and four postures of each: there is room.
-                let _ = found.try_push(posture);
+            // At most six angles of leg I exist, and four postures of each: there is room.
+            if let Some(posture) = platform.posture([&first, leg2, leg3], merged)
+                && !found.is_full()
+            {
+                found.push(posture);
             }
         }
     }

@@ -60,7 +60,7 @@ impl Track {
         let leg = LegOne::new(machine, self);
         // From the level platform on the sheet w1 > 0: the working mode's only basin in practice.
         let direct = leg.sheets(1.0, 0.0).and_then(|[w, _]| {
-            let root = polish(&leg, Root { a: 0.0, c: 1.0, s: 0.0, w, merged: false })?;
+            let root = polish(&leg, Root::at(0.0, [1.0, 0.0], w))?;
             legs::working(machine, &self.closed(&root)).ok()
         });
         match direct {

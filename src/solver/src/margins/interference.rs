@@ -6,47 +6,61 @@ use crate::rods::{FAMILY, RODS, Rods};
 /// Of two rods whose directions differ by less than the square root of this, any point of the one
 /// will do to start from: the distance does not depend on where along them it is measured.
 const PARALLEL: f64 = 1e-14;
-/// Pairs of rods as indices of the six. Rods 22 and 32 stand to each other as 21 and 31 do.
-const PAIRS: [(usize, usize); 14] = [
-    (0, 1),
-    (2, 3),
-    (4, 5),
-    (0, 2),
-    (0, 3),
-    (0, 4),
-    (0, 5),
-    (1, 2),
-    (1, 3),
-    (1, 4),
-    (1, 5),
-    (2, 4),
-    (2, 5),
-    (3, 4),
-];
+/// The nearest pair so far: square of the distance, and the rods as indices of the six.
+type Nearest = (f64, usize, usize);
 
 /// The least distance between two rods' axes as segments, mm, and the two rods' numbers.
 #[inline]
 pub(crate) fn nearest(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     let ends = rods.platform_ends(g);
-    let mut nearest = (f64::INFINITY, (0, 0));
-    for pair in PAIRS {
-        let (i, j) = pair;
-        let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
-        let gap = difference(ends[i], ends[j]);
-        // Both segments project onto the gap's direction at least this far apart (times |gap|):
-        // most pairs are thus seen to be further apart than the nearest so far.
-        let square_gap = dot(&gap, &gap);
-        let apart = square_gap - dot(a, &gap).max(0.0) + dot(b, &gap).min(0.0);
-        if apart > 0.0 && apart * apart >= nearest.0 * square_gap {
-            continue;
-        }
-        let square = square_distance(&gap, a, b);
+    let mut nearest = (f64::INFINITY, 0, 0);
+    // A leg's own rods first: they are usually the nearest, and the rest is then seen to be
+    // further apart at a glance. Rods 22 and 32 stand to each other as 21 and 31 do.
+    meet::<0, 1>(&mut nearest, &ends, rods);
+    for (leg, first) in [(2, 2), (3, 4)] {
+        let square = square_parallel(2.0 * g.parallelogram_half_width, &rods.vectors[leg]);
         if square < nearest.0 {
-            nearest = (square, pair);
+            nearest = (square, first, first + 1);
         }
     }
-    let (square, (i, j)) = nearest;
+    meet::<0, 2>(&mut nearest, &ends, rods);
+    meet::<0, 3>(&mut nearest, &ends, rods);
+    meet::<0, 4>(&mut nearest, &ends, rods);
+    meet::<0, 5>(&mut nearest, &ends, rods);
+    meet::<1, 2>(&mut nearest, &ends, rods);
+    meet::<1, 3>(&mut nearest, &ends, rods);
+    meet::<1, 4>(&mut nearest, &ends, rods);
+    meet::<1, 5>(&mut nearest, &ends, rods);
+    meet::<2, 4>(&mut nearest, &ends, rods);
+    meet::<2, 5>(&mut nearest, &ends, rods);
+    meet::<3, 4>(&mut nearest, &ends, rods);
+    let (square, i, j) = nearest;
     (square.sqrt(), [RODS[i], RODS[j]])
+}
+
+#[inline]
+fn meet<const I: usize, const J: usize>(nearest: &mut Nearest, ends: &[[f64; 3]; 6], rods: &Rods) {
+    let (a, b) = (&rods.vectors[FAMILY[I]], &rods.vectors[FAMILY[J]]);
+    let gap = difference(ends[I], ends[J]);
+    // The segments' projections on the gap's direction are at least this far apart, times |gap|.
+    let square_gap = dot(&gap, &gap);
+    let apart = square_gap - dot(a, &gap).max(0.0) + dot(b, &gap).min(0.0);
+    if apart > 0.0 && apart * apart >= nearest.0 * square_gap {
+        return;
+    }
+    let square = square_distance(&gap, a, b);
+    if square < nearest.0 {
+        *nearest = (square, I, J);
+    }
+}
+
+/// Squared distance of a parallelogram's two rods, `width` apart along x: a foot of the
+/// perpendicular where there is one, else an end.
+#[inline]
+fn square_parallel(width: f64, rod: &[f64; 3]) -> f64 {
+    let (along, square) = (width * rod[0], dot(rod, rod));
+    let t = (along / square).clamp(-1.0, 1.0);
+    width * width - t * (2.0 * along - t * square)
 }
 
 /// Squared distance of two segments that run back from their platform ends, which lie `gap`
