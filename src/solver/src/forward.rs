@@ -11,7 +11,7 @@ use crate::limit::{Refusal, in_domain};
 use crate::machine::{Derived, Geometry, Machine};
 use crate::pose::PlatformPose;
 use crate::posture::{Mode, Posture, Postures, Side, gathered};
-use crate::residual::{residual, tolerance};
+use crate::residual::{Checked, RESIDUAL_TOLERANCE, checked, size};
 use elimination::Assembly;
 
 /// All assembly modes (up to 8) for slider positions `rho`; at least one, or the refusal.
@@ -94,8 +94,8 @@ fn posture(machine: &Machine, assembly: &Assembly, rho: [f64; 3], root: &Root) -
         z: rho[0] + w1,
         alpha: wrapped(root.a),
     };
-    let residual = residual(machine, &pose, rho);
-    if residual > tolerance(machine, pose.z) {
+    let Checked { pose, residual } = checked(machine, pose, rho);
+    if residual > RESIDUAL_TOLERANCE * size(machine, pose.z) {
         return None;
     }
     let q = g.R2 * root.s;

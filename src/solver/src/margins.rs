@@ -44,7 +44,7 @@ impl Margins {
     pub fn of(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Self {
         let (g, limits, derived) = (machine.geometry(), machine.limits(), &machine.derived);
         let pose = &posture.pose;
-        let rods = Rods::of(machine, posture);
+        let rods = Rods::of(machine, &posture.pose, posture.rho);
         let (distance, nearest_rods) = interference::nearest(g, &rods);
         let q = g.R2 * rods.s;
         let [rho1, rho2, rho3] = posture.rho;

@@ -1,7 +1,7 @@
 //! The six rods of a posture in space.
 
 use crate::machine::{Geometry, Machine};
-use crate::posture::Posture;
+use crate::pose::PlatformPose;
 
 /// Number of each rod: leg, then rod of the leg.
 pub(crate) const RODS: [u8; 6] = [11, 12, 21, 22, 31, 32];
@@ -21,11 +21,10 @@ pub(crate) struct Rods {
 
 impl Rods {
     #[inline]
-    pub(crate) fn of(machine: &Machine, posture: &Posture) -> Self {
+    pub(crate) fn of(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> Self {
         let g = machine.geometry();
-        let pose = &posture.pose;
         let (s, c) = pose.alpha.sin_cos();
-        let w = posture.rho.map(|rho| pose.z - rho);
+        let w = rho.map(|rho| pose.z - rho);
         let (e1, e2) = (machine.derived.e1, machine.derived.e2);
         Self::new(g, &machine.derived.inverse_lengths, [pose.x + e1, pose.x + e2], pose.y, w, [c, s])
     }
@@ -60,10 +59,10 @@ impl Rods {
         [
             [g.D1, first[0], first[1]],
             [g.D1, -first[0], -first[1]],
-            [g.D2 - half, -others[0], -others[1]],
             [g.D2 + half, -others[0], -others[1]],
-            [g.D2 - half, others[0], others[1]],
+            [g.D2 - half, -others[0], -others[1]],
             [g.D2 + half, others[0], others[1]],
+            [g.D2 - half, others[0], others[1]],
         ]
     }
 }

@@ -10,6 +10,9 @@ use super::{Closure, Root};
 const WINDOW: f64 = 1e-3;
 /// Step of the second difference of a sheet.
 const DIFFERENCE: f64 = 1e-5;
+/// Newton steps to a sheet's extremum, and the step at which it stands: the value there is flat.
+const STEPS: usize = 20;
+const SETTLED: f64 = 1e-10;
 /// Two roots closer than this cannot be told apart: the square root of the rounding.
 const RESOLUTION: f64 = 4e-8;
 
@@ -19,7 +22,7 @@ pub(super) fn roots<const M: usize, C: Closure<M>>(
     closure: &C,
     bracket: [f64; 2],
     at: f64,
-) -> ArrayVec<Root, 4> {
+) -> ArrayVec<Root, 10> {
     let window = [bracket[0].max(at - WINDOW), bracket[1].min(at + WINDOW)];
     let mut roots = ArrayVec::new();
     for sheet in 0..2 {
@@ -85,8 +88,8 @@ fn sheet_extremum<const M: usize, C: Closure<M>>(
     [low, high]: [f64; 2],
     at: f64,
 ) -> Option<(f64, f64, f64)> {
-    let mut a = at;
-    for _ in 0..20 {
+    let (mut a, mut found) = (at, None);
+    for _ in 0..STEPS {
         let [before, after] = [a - DIFFERENCE, a + DIFFERENCE].map(|a| on_sheet(closure, sheet, a));
         let here = on_sheet(closure, sheet, a)?;
         let curvature = (after?.slope - before?.slope) / (2.0 * DIFFERENCE);
@@ -94,12 +97,13 @@ fn sheet_extremum<const M: usize, C: Closure<M>>(
         if !(next >= low && next <= high) {
             return None;
         }
-        if (next - a).abs() <= 1e-11 {
-            return Some((next, on_sheet(closure, sheet, next)?.value, curvature));
+        found = Some((next, on_sheet(closure, sheet, next)?.value, curvature));
+        if (next - a).abs() <= SETTLED {
+            break;
         }
         a = next;
     }
-    None
+    found
 }
 
 /// Where the sheets themselves end in the window (w₊ = w₋), the angle does not parametrise the
@@ -109,12 +113,16 @@ fn at_fold<const M: usize, C: Closure<M>>(
     sheet: usize,
     window: [f64; 2],
     at: f64,
-) -> Option<Root> {
+) -> ArrayVec<Root, 5> {
     let starts = [at, window[0], window[1], 0.5 * (at + window[0]), 0.5 * (at + window[1])];
-    starts.into_iter().filter_map(|a| root_at(closure, sheet, a, false)).find_map(|start| {
-        let root = polish(closure, start)?;
-        ((root.a - at).abs() <= 2.0 * WINDOW).then_some(root)
-    })
+    starts
+        .into_iter()
+        .filter_map(|a| root_at(closure, sheet, a, false))
+        .filter_map(|start| {
+            let root = polish(closure, start)?;
+            ((root.a - at).abs() <= 2.0 * WINDOW).then_some(root)
+        })
+        .collect()
 }
 
 fn root_at<const M: usize, C: Closure<M>>(closure: &C, sheet: usize, a: f64, merged: bool) -> Option<Root> {

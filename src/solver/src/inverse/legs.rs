@@ -4,7 +4,7 @@ use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
 use crate::pose::{PlatformPose, Point};
 use crate::posture::{Mode, Posture, Postures, Side};
-use crate::residual::tolerance;
+use crate::residual::{FINE, RESIDUAL_TOLERANCE};
 
 /// Relative to L², what is left for a leg's drop is zero up to rounding: its two sides are one.
 const FLAT: f64 = 8.0 * f64::EPSILON;
@@ -22,6 +22,8 @@ pub(super) struct Closed {
     pub(super) w1: f64,
     pub(super) side: Side,
     pub(super) merged: bool,
+    /// The size of the numbers that P was found from: its rounding.
+    pub(super) size: f64,
 }
 
 /// cos and sin of the angle that is given out. The check of a solution starts from them, not from
@@ -77,7 +79,7 @@ impl<'a> Platform<'a> {
             q: g.R2 * closed.s,
             x2: closed.p[0] + machine.derived.e2,
             checked: [g.R2 * c - g.r4, g.R2 * s],
-            tolerance: tolerance(machine, closed.p[2]),
+            tolerance: RESIDUAL_TOLERANCE * closed.size,
         };
         let [x, y, z] = closed.p;
         let rho = z - closed.w1;
@@ -145,6 +147,12 @@ impl<'a> Platform<'a> {
     }
 }
 
+/// Whether leg I closes to the last digits.
+#[inline]
+pub(super) fn is_fine(machine: &Machine, closed: &Closed) -> bool {
+    Platform::new(machine, closed).1.error <= FINE * closed.size
+}
+
 /// All postures of a closed leg I.
 #[inline]
 pub(super) fn postures(machine: &Machine, closed: &Closed, found: &mut Postures) {
@@ -175,7 +183,7 @@ pub(super) fn working(machine: &Machine, closed: &Closed) -> Result<Posture, Mar
     let third = platform.leg(1.0, Side::Above, third.sqrt());
     match platform.posture([&first, &second, &third], false) {
         Some(posture) if posture.working => Ok(posture),
-        _ => Err(platform.out_of_mode()),
+        _ => Err(out_of_mode(machine, closed).unwrap_or_else(|| out_of_reach(-0.0, -0.0))),
     }
 }
 
@@ -191,19 +199,19 @@ pub(super) fn signed_root(x: f64) -> f64 {
     x.abs().sqrt().copysign(x)
 }
 
-impl Platform<'_> {
-    /// Leg I is closed, but its rods cross or a slider end lies below its platform end.
-    #[cold]
-    fn out_of_mode(&self) -> Margin {
-        let g = self.machine.geometry();
-        if self.u <= 0.0 {
-            return Margin { constraint: Constraint::RodCrossing, element: Element::Leg(1), value: self.u };
-        }
-        let w1 = self.closed.w1;
-        let (rod, drop) = if self.v > 0.0 { (12, w1 - self.v) } else { (11, w1 + self.v) };
-        let value = drop / g.L1 - self.machine.limits().serial_margin;
-        Margin { constraint: Constraint::SerialSingularity, element: Element::Rod(rod), value }
+/// What keeps a closed leg I out of the working mode: its rods cross, or a slider end lies lower
+/// than its platform end; `None` if nothing does.
+#[cold]
+pub(super) fn out_of_mode(machine: &Machine, closed: &Closed) -> Option<Margin> {
+    let g = machine.geometry();
+    let (u, v) = (g.R1 * closed.c - g.r1, g.R1 * closed.s);
+    if u <= 0.0 {
+        return Some(Margin { constraint: Constraint::RodCrossing, element: Element::Leg(1), value: u });
     }
+    let (rod, drop) = if v > 0.0 { (12, closed.w1 - v) } else { (11, closed.w1 + v) };
+    let value = drop / g.L1 - machine.limits().serial_margin;
+    let margin = Margin { constraint: Constraint::SerialSingularity, element: Element::Rod(rod), value };
+    (drop <= 0.0).then_some(margin)
 }
 
 /// What keeps legs II and III from reaching a pose at all, if anything does.

@@ -20,25 +20,27 @@ pub(super) fn of_all(machine: &Machine, track: &Track) -> Margin {
     find_roots(&LegOne::new(machine, track), PI, &mut roots);
     roots
         .iter()
-        .filter_map(|root| legs::reach_of_others(machine, &track.closed(root)))
+        .filter_map(|root| legs::reach_of_others(machine, &track.closed(machine, root)))
         .max_by(|a, b| a.value.total_cmp(&b.value))
         .unwrap_or_else(|| of_leg_one(machine, track))
 }
 
-/// Leg I closes at no angle at which its rods do not cross: by how much its rods cross where it
-/// closes, or by how much it misses at the best angle.
+/// Leg I closes at no angle in the working mode: its rods cross or a slider end lies low where it
+/// closes, or it does not close and misses by so much at the best angle.
 #[cold]
 pub(super) fn of_leg_one(machine: &Machine, track: &Track) -> Margin {
     let leg = LegOne::new(machine, track);
-    let g = machine.geometry();
     let mut roots = Roots::new();
     find_roots(&leg, PI, &mut roots);
-    let above = roots.iter().filter(|root| root.w >= 0.0);
-    let crossed = above.map(|root| g.R1 * root.c - g.r1).max_by(f64::total_cmp);
-    if let Some(value) = crossed.filter(|value| *value < 0.0) {
-        return Margin { constraint: Constraint::RodCrossing, element: Element::Leg(1), value };
-    }
-    Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value: best_slack(&leg).min(0.0) }
+    roots
+        .iter()
+        .filter_map(|root| legs::out_of_mode(machine, &track.closed(machine, root)))
+        .max_by(|a, b| a.value.total_cmp(&b.value))
+        .unwrap_or_else(|| {
+            // The slack is negative where there is no root, but for the rounding at the limit itself.
+            let value = best_slack(&leg).min(-f64::EPSILON * machine.derived.scale);
+            Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value }
+        })
 }
 
 /// The greatest slack of leg I over the platform's angles.

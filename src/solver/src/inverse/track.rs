@@ -11,6 +11,7 @@ use crate::limit::{Margin, Refusal};
 use crate::machine::Machine;
 use crate::pose::Point;
 use crate::posture::{Posture, Postures, Side, gathered};
+use crate::residual::size;
 
 /// P = (x, y0 + yc cos a + ys sin a, z0 + zc cos a + zs sin a): where the platform has to be at
 /// each of its angles, for a tool given in the base or the table frame.
@@ -46,7 +47,7 @@ impl Track {
         let mut roots = Roots::new();
         find_roots(&LegOne::new(machine, self), PI, &mut roots);
         gathered(
-            |found| roots.iter().for_each(|root| legs::postures(machine, &self.closed(root), found)),
+            |found| roots.iter().for_each(|root| legs::postures(machine, &self.closed(machine, root), found)),
             || obstacle::of_all(machine, self),
         )
     }
@@ -61,7 +62,7 @@ impl Track {
         // From the level platform on the sheet w1 > 0: the working mode's only basin in practice.
         let direct = leg.sheets(1.0, 0.0).and_then(|[w, _]| {
             let root = polish(&leg, Root::at(0.0, [1.0, 0.0], w))?;
-            legs::working(machine, &self.closed(&root)).ok()
+            legs::working(machine, &self.closed(machine, &root)).ok()
         });
         match direct {
             Some(posture) => Ok(posture),
@@ -76,7 +77,7 @@ impl Track {
         let mut roots = Roots::new();
         find_roots(leg, machine.derived.uncrossed, &mut roots);
         for root in roots.iter().filter(|root| root.w >= 0.0) {
-            match legs::working(machine, &self.closed(root)) {
+            match legs::working(machine, &self.closed(machine, root)) {
                 Ok(posture) => return Ok(posture),
                 Err(margin) => refused = refused.or(Some(margin)),
             }
@@ -86,7 +87,7 @@ impl Track {
 
     /// The platform's pose at a root of leg I's closure.
     #[inline]
-    pub(super) fn closed(&self, root: &Root) -> Closed {
+    pub(super) fn closed(&self, machine: &Machine, root: &Root) -> Closed {
         let p = self.at(root.c, root.s);
         let alpha = wrapped(root.a);
         let (c, s) = (root.c, root.s);
@@ -99,6 +100,7 @@ impl Track {
             w1: root.w,
             side: Side::of(root.w),
             merged: root.merged,
+            size: size(machine, p[2]) + self.y[1].abs() + self.y[2].abs(),
         }
     }
 }
