@@ -38,6 +38,10 @@ pub(crate) trait Closure<const M: usize> {
     fn w_at_root(&self, c: f64, s: f64) -> f64;
     /// The magnitude of w that counts as one.
     fn unit(&self) -> f64;
+    /// The size of the quadratic equation's terms.
+    fn square(&self) -> f64;
+    /// The Newton step whose square, times the closure's curvature, is nothing in double precision.
+    fn last_step(&self) -> f64;
 }
 
 /// A solution of the loop closure.
@@ -65,6 +69,8 @@ impl Root {
 /// All solutions of a loop closure.
 pub(crate) type Roots = ArrayVec<Root, 8>;
 
+/// [`Closure::last_step`] of a closure whose curvature is of the order of one.
+pub(crate) const LAST_STEP: f64 = 3e-8;
 /// Relative error of the polynomial's coefficients, with a wide margin: a touch is decided on the
 /// sheets, which is always right and only slower.
 const NOISE: f64 = 1e-10;
@@ -86,9 +92,7 @@ pub(crate) fn find_roots<const M: usize, C: Closure<M>>(closure: &C, range: f64,
                 add(found, alone(closure, &poly, [at, high], 0.5 * (at + high)));
             }
         },
-        Site::Touch { low, high, at } => {
-            touch::roots(closure, [low, high], at).into_iter().for_each(|root| add(found, root));
-        }
+        Site::Touch { low, high, at } => touch::add_roots(closure, [low, high], at, found),
     });
 }
 

@@ -73,7 +73,7 @@ pub enum Refusal {
 }
 
 /// Largest magnitude of a length (mm) or an angle (rad) in a question.
-pub const DOMAIN: f64 = 1e6;
+pub const DOMAIN: f64 = 1e7;
 
 /// Refuses numbers outside the domain.
 pub(crate) fn in_domain(numbers: &[f64]) -> Result<(), Refusal> {

@@ -14,6 +14,8 @@ pub const RESIDUAL_TOLERANCE: f64 = 1e-13;
 /// Relative error above which the elimination has lost digits that the equations still have: the
 /// solution is then corrected on Eqs (3)-(6) themselves.
 pub(crate) const FINE: f64 = 1e-15;
+/// Relative error above which nothing is corrected.
+const ROUGH: f64 = 1e-9;
 /// Newton steps of a correction.
 const STEPS: usize = 4;
 
@@ -30,11 +32,10 @@ pub(crate) struct Checked {
 #[inline]
 pub(crate) fn checked(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
     let residual = worst(&errors(machine, &pose, rho).0);
-    if residual <= FINE * size(machine, pose.z) {
-        Checked { pose, residual }
-    } else {
-        corrected(machine, pose, rho)
-    }
+    let size = size(machine, pose.z);
+    // What is further off is no rounded solution: correcting it would find another one.
+    let rounded = residual > FINE * size && residual < ROUGH * size;
+    if rounded { corrected(machine, pose, rho) } else { Checked { pose, residual } }
 }
 
 /// Newton's method on (3)-(6) in (x, y, z, a), as long as it gains.

@@ -4,8 +4,8 @@ use super::{Closure, Root};
 
 /// Newton steps until the last digit; convergence is quadratic, so few are ever used.
 const STEPS: usize = 12;
-/// A step below this leaves an error of its square: nothing in double precision.
-const SMALL: f64 = 3e-8;
+/// Roundings of each term of the linear equation, generously.
+const ROUNDINGS: f64 = 8.0;
 /// Up to this angle the series of cos and sin below are exact in double precision.
 const SERIES: f64 = 0.15;
 
@@ -41,7 +41,8 @@ fn polish_both<const M: usize, C: Closure<M>>(closure: &C, starts: [Root; 2]) ->
 
 #[inline]
 fn settled<const M: usize, C: Closure<M>>(closure: &C, root: &Root, step: [f64; 2]) -> bool {
-    (step[0].abs() < SMALL) & (step[1].abs() <= SMALL * (root.w.abs() + closure.unit()))
+    let last = closure.last_step();
+    (step[0].abs() < last) & (step[1].abs() <= last * (root.w.abs() + closure.unit()))
 }
 
 /// The root in a bracket that holds one, from either sheet.
@@ -126,6 +127,8 @@ fn rotated(c: f64, s: f64, angle: f64) -> (f64, f64) {
 pub(super) struct OnSheet {
     pub(super) value: f64,
     pub(super) slope: f64,
+    /// What rounding may have done to the value.
+    pub(super) noise: f64,
 }
 
 /// Sheet 0 (w₊) or 1 (w₋) at an angle; `None` where it does not exist.
@@ -134,5 +137,8 @@ pub(super) fn on_sheet<const M: usize, C: Closure<M>>(closure: &C, sheet: usize,
     let w = closure.sheets(c, s)?[sheet];
     let e = closure.equations(c, s, w);
     let slope = e.da[0] - e.dw[0] * e.da[1] / e.dw[1];
-    slope.is_finite().then_some(OnSheet { value: e.f[0], slope })
+    // The equation's two terms, one of them with w, cancel at a root; and w is itself rounded, by
+    // what the quadratic equation leaves of its digits.
+    let noise = ROUNDINGS * f64::EPSILON * e.dw[0].abs() * (w.abs() + closure.square() / e.dw[1].abs());
+    slope.is_finite().then_some(OnSheet { value: e.f[0], slope, noise })
 }

@@ -1,7 +1,7 @@
 //! The forward question's loop closure in (a, λ), and its polynomial of degree four.
 
 use crate::circle::{TrigPolynomial, linear};
-use crate::closure::{Closure, Equations};
+use crate::closure::{Closure, Equations, LAST_STEP};
 use crate::machine::{Derived, Geometry};
 
 /// With (y, w1) = λ (-v, u), which satisfies the difference of Eqs (3) and (4), and x from their
@@ -145,5 +145,13 @@ impl Closure<5> for Assembly {
 
     fn unit(&self) -> f64 {
         1.0
+    }
+
+    fn square(&self) -> f64 {
+        self.l1_square
+    }
+
+    fn last_step(&self) -> f64 {
+        LAST_STEP
     }
 }

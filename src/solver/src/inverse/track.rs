@@ -6,7 +6,7 @@ use super::legs::{self, Closed, check};
 use super::obstacle;
 use super::platform::{platform, platform_working};
 use crate::circle::{TrigPolynomial, linear};
-use crate::closure::{Closure, Equations, Root, Roots, find_roots, polish, wrapped};
+use crate::closure::{Closure, Equations, LAST_STEP, Root, Roots, find_roots, polish, wrapped};
 use crate::limit::{Margin, Refusal};
 use crate::machine::Machine;
 use crate::pose::Point;
@@ -117,6 +117,7 @@ pub(super) struct LegOne {
     /// L1² - X1² - C.
     e: f64,
     scale: f64,
+    last_step: f64,
 }
 
 impl LegOne {
@@ -133,6 +134,8 @@ impl LegOne {
             k: derived.k,
             e: (g.L1 - x1) * (g.L1 + x1) - derived.c,
             scale: derived.scale,
+            // A long arm bends the closure by as much as it is longer than the machine.
+            last_step: LAST_STEP * derived.scale / (derived.scale + track.y[1].abs() + track.y[2].abs()),
         }
     }
 
@@ -191,5 +194,13 @@ impl Closure<4> for LegOne {
 
     fn unit(&self) -> f64 {
         self.scale
+    }
+
+    fn square(&self) -> f64 {
+        self.scale * self.scale
+    }
+
+    fn last_step(&self) -> f64 {
+        self.last_step
     }
 }
