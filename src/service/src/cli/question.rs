@@ -1,0 +1,68 @@
+//! `verne fk` and `verne ik`: the questions of the query string, answered here.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use crate::answers::{answer_fk, answer_ik};
+use crate::error::Error;
+use crate::registry::Registry;
+use crate::wire::answer::Answer;
+use crate::wire::machine_ref::MachineRef;
+use crate::wire::parse::parse_body;
+use crate::wire::query::{FkQuery, IkQuery, point_into_query};
+
+/// Answers `verne fk`.
+pub(super) fn fk(query: FkQuery) -> Result<Answer, String> {
+    let machine = machine(&query.machine)?;
+    let answer = query
+        .into_request()
+        .map(|request| crate::wire::request::FkRequest { machine, ..request })
+        .and_then(|request| answer_fk(&request, &Registry::default()));
+    answer.map_err(in_flags)
+}
+
+/// Answers `verne ik`.
+pub(super) fn ik(query: IkQuery) -> Result<Answer, String> {
+    let machine = machine(&query.machine)?;
+    let answer = query
+        .into_request()
+        .map(|request| crate::wire::request::IkRequest { machine, ..request })
+        .and_then(|request| answer_ik(&request, &Registry::default()));
+    answer.map_err(in_flags)
+}
+
+/// A machine's name, or the path of its file.
+fn machine(name: &str) -> Result<MachineRef, String> {
+    let path = Path::new(name);
+    if !path.is_file() && !name.contains(['/', '.']) {
+        return Ok(MachineRef::Name(name.to_owned()));
+    }
+    let text = std::fs::read(path).map_err(|error| format!("--machine {name}: {error}"))?;
+    parse_body(&text)
+        .map(|object| MachineRef::Whole(Box::new(object)))
+        .map_err(|error| format!("--machine {name} is not a machine{}", listed(error)))
+}
+
+/// An error in the words of the command line.
+fn in_flags(error: Error) -> String {
+    match point_into_query(error) {
+        Error::Fields(mut faults) => {
+            for fault in &mut faults {
+                let path = fault.pointer.trim_start_matches("/query").trim_start_matches('/');
+                let (flag, inside) = path.split_once('/').unwrap_or((path, ""));
+                fault.pointer = format!("--{} {inside}", flag.replace('_', "-")).trim_end().to_owned();
+            }
+            format!("this cannot be asked{}", listed(Error::Fields(faults)))
+        }
+        other => other.to_string(),
+    }
+}
+
+fn listed(error: Error) -> String {
+    let Error::Fields(faults) = error else { return format!(": {error}") };
+    faults.into_iter().fold(String::new(), |mut text, fault| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "\n  {}: {}", fault.pointer, fault.detail);
+        text
+    })
+}

@@ -1,0 +1,124 @@
+//! The one map from errors to HTTP: status, stable `code`, and the problem document (RFC 9457).
+
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use crate::error::{Error, Fault};
+
+/// Media type of every failure.
+pub const PROBLEM_JSON: &str = "application/problem+json";
+
+/// A failure, as RFC 9457 writes it.
+#[derive(Debug, Serialize, ToSchema)]
+pub struct Problem {
+    /// Always `about:blank`: `code` tells failures apart.
+    #[serde(rename = "type")]
+    #[schema(example = "about:blank")]
+    kind: &'static str,
+    /// The status in words.
+    title: String,
+    /// The HTTP status.
+    status: u16,
+    /// Stable name of the failure, for programs.
+    code: &'static str,
+    /// What happened, for people.
+    detail: String,
+    /// The fields that cannot be used.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    errors: Vec<FieldProblem>,
+}
+
+/// One bad field.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = FieldProblem)]
+struct FieldProblem {
+    /// JSON Pointer into the body, such as `/machine/limits/stroke/0`; `/query/<name>` for a query parameter.
+    pointer: String,
+    /// What is wrong, and what would be accepted.
+    detail: String,
+}
+
+impl From<Fault> for FieldProblem {
+    fn from(Fault { pointer, detail }: Fault) -> Self {
+        Self { pointer, detail }
+    }
+}
+
+fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
+    match error {
+        Error::Syntax(_) => (StatusCode::BAD_REQUEST, "bad_json"),
+        Error::BodyLost(_) => (StatusCode::BAD_REQUEST, "bad_request"),
+        Error::Fields(_) => (StatusCode::UNPROCESSABLE_ENTITY, "invalid_request"),
+        Error::NotJson(_) => (StatusCode::UNSUPPORTED_MEDIA_TYPE, "unsupported_media_type"),
+        Error::BodyTooLarge(_) => (StatusCode::PAYLOAD_TOO_LARGE, "body_too_large"),
+        Error::TooManyRows { .. } => (StatusCode::PAYLOAD_TOO_LARGE, "too_many_rows"),
+        Error::NoSuchMachine(_) => (StatusCode::NOT_FOUND, "machine_not_found"),
+        Error::NoSuchPath => (StatusCode::NOT_FOUND, "not_found"),
+        Error::Internal => (StatusCode::INTERNAL_SERVER_ERROR, "internal"),
+    }
+}
+
+impl Problem {
+    fn new(status: StatusCode, code: &'static str, detail: String) -> Self {
+        let title = status.canonical_reason().unwrap_or("Error").to_owned();
+        Self { kind: "about:blank", title, status: status.as_u16(), code, detail, errors: Vec::new() }
+    }
+
+    /// The document for a bare status that the framework answered by itself.
+    fn of_status(status: StatusCode) -> Self {
+        let (code, detail) = match status {
+            StatusCode::METHOD_NOT_ALLOWED => ("method_not_allowed", "The header Allow names the methods."),
+            StatusCode::NOT_FOUND => ("not_found", "Nothing lives at this path."),
+            StatusCode::SERVICE_UNAVAILABLE => ("timed_out", "The answer took longer than the time allowed."),
+            StatusCode::INTERNAL_SERVER_ERROR => ("internal", "A defect of the service."),
+            _ => ("bad_request", "The request cannot be answered."),
+        };
+        Self::new(status, code, detail.to_owned())
+    }
+}
+
+impl From<Error> for Problem {
+    fn from(error: Error) -> Self {
+        let (status, code) = status_and_code(&error);
+        let mut problem = Self::new(status, code, error.to_string());
+        if let Error::Fields(faults) = error {
+            problem.errors = faults.into_iter().map(FieldProblem::from).collect();
+        }
+        problem
+    }
+}
+
+impl IntoResponse for Problem {
+    fn into_response(self) -> Response {
+        let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let body = serde_json::to_vec(&self).unwrap_or_default();
+        (status, [(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON))], body).into_response()
+    }
+}
+
+impl IntoResponse for Error {
+    fn into_response(self) -> Response {
+        Problem::from(self).into_response()
+    }
+}
+
+/// Gives a problem document to every failure that the framework answered without one (a method
+/// that is not allowed, a time-out, a panic); headers such as Allow stay.
+pub async fn give_every_failure_a_document(response: Response) -> Response {
+    let status = response.status();
+    if !(status.is_client_error() || status.is_server_error()) || is_problem(&response) {
+        return response;
+    }
+    let (mut parts, _) = response.into_parts();
+    let document = Problem::of_status(status).into_response();
+    let (headers, body) = (document.headers().clone(), document.into_body());
+    parts.headers.remove(header::CONTENT_LENGTH);
+    parts.headers.extend(headers);
+    Response::from_parts(parts, body)
+}
+
+fn is_problem(response: &Response) -> bool {
+    response.headers().get(header::CONTENT_TYPE).is_some_and(|found| found == PROBLEM_JSON)
+}
