@@ -1,8 +1,12 @@
 //! Inverse kinematics: from a position of platform, tool or part to the sliders (section III.C).
 
+mod first_leg;
+mod legs;
+mod obstacle;
 mod part;
 mod platform;
 mod tool;
+mod track;
 
 pub use part::{part, part_working};
 pub use platform::{platform, platform_working};

@@ -1,11 +1,22 @@
-//! Differential kinematics: parallel and serial singularities.
+//! Differential kinematics: parallel and serial singularities (types 2 and 1).
+//!
+//! The derivative of Eqs (3)-(6), each a rod's squared length, is twice `b · d(B - A)`: with
+//! b = B - A the row of rod 11 is (bx, by, bz, -R1 sin a · by + R1 cos a · bz) against
+//! (x, y, z, a) and -bz against its slider; the other rods differ in the sign and length of the
+//! arm.
+
+use nalgebra::{Matrix4, Matrix4x3};
 
 use crate::machine::{Geometry, Machine};
 use crate::posture::Posture;
+use crate::rods::Rods;
 
 /// The dimensionless 4×4 matrix of rods 11, 12, leg II, leg III (rows, divided by the rod length)
 /// against x, y, z, R1 alpha (columns).
 pub type ParallelMatrix = [[f64; 4]; 4];
+
+/// Below this ratio of singular values a matrix is singular to double precision.
+const SINGULAR: f64 = 1e-15;
 
 /// How a posture stands to singularities.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,23 +31,71 @@ pub struct Conditioning {
 
 /// The parallel matrix of a posture.
 pub fn parallel_matrix(machine: &Machine, posture: &Posture) -> ParallelMatrix {
-    let _ = (machine, posture);
-    [[0.0; 4]; 4]
+    matrix(machine.geometry(), &Rods::of(machine, posture))
 }
 
 /// Determinant and condition number of the parallel matrix, and the serial cosines.
 pub fn conditioning(machine: &Machine, posture: &Posture) -> Conditioning {
-    let _ = (machine, posture);
-    unimplemented!()
+    let rods = Rods::of(machine, posture);
+    let rows = matrix(machine.geometry(), &rods);
+    let values = Matrix4::from_fn(|row, column| rows[row][column]).singular_values();
+    let (most, least) = (values.max(), values.min());
+    Conditioning {
+        det: determinant(&rows),
+        condition_number: (least > SINGULAR * most).then(|| most / least),
+        serial: rods.directions.map(|direction| direction[2]),
+    }
 }
 
-/// Rates d(x, y, z, alpha)/d(rho1, rho2, rho3); `None` at a parallel singularity.
+/// Rates d(x, y, z, alpha)/d(rho1, rho2, rho3), in mm/mm and rad/mm; `None` at a parallel
+/// singularity.
 pub fn velocities(machine: &Machine, posture: &Posture) -> Option<[[f64; 3]; 4]> {
-    let _ = (machine, posture);
-    None
+    let rods = Rods::of(machine, posture);
+    let rows = matrix(machine.geometry(), &rods);
+    let [d1, d2, d3, d4] = rods.directions.map(|direction| direction[2]);
+    let sliders = Matrix4x3::new(d1, 0.0, 0.0, d2, 0.0, 0.0, 0.0, d3, 0.0, 0.0, 0.0, d4);
+    let rates = Matrix4::from_fn(|row, column| rows[row][column]).lu().solve(&sliders)?;
+    let radius = machine.geometry().R1;
+    let rates: [[f64; 3]; 4] = std::array::from_fn(|row| {
+        let unit = if row == 3 { 1.0 / radius } else { 1.0 };
+        std::array::from_fn(|column| rates[(row, column)] * unit)
+    });
+    rates.iter().flatten().all(|rate| rate.is_finite()).then_some(rates)
 }
 
+/// The dimensionless parallel matrix.
+#[inline]
+pub(crate) fn matrix(g: &Geometry, rods: &Rods) -> ParallelMatrix {
+    let ratio = g.R2 / g.R1;
+    let arms = [1.0, -1.0, -ratio, ratio];
+    std::array::from_fn(|i| {
+        let [x, y, z] = rods.directions[i];
+        [x, y, z, arms[i] * (rods.c * z - rods.s * y)]
+    })
+}
+
+/// Determinant by complementary 2×2 minors.
+#[inline]
+pub(crate) fn determinant(m: &ParallelMatrix) -> f64 {
+    let upper = |i: usize, j: usize| m[0][i] * m[1][j] - m[0][j] * m[1][i];
+    let lower = |i: usize, j: usize| m[2][i] * m[3][j] - m[2][j] * m[3][i];
+    upper(0, 1) * lower(2, 3) - upper(0, 2) * lower(1, 3)
+        + upper(0, 3) * lower(1, 2)
+        + upper(1, 2) * lower(0, 3)
+        - upper(1, 3) * lower(0, 2)
+        + upper(2, 3) * lower(0, 1)
+}
+
+/// `det_P` in a pose at home: x = y = alpha = 0.
 pub(crate) fn det_at_home(g: &Geometry) -> f64 {
-    let _ = g;
-    1.0
+    determinant(&matrix(g, &at_home(g)))
+}
+
+/// The rods at home, all sliders above.
+pub(crate) fn at_home(g: &Geometry) -> Rods {
+    let x = [g.D1 - g.d1, g.D2 - g.d2];
+    let (u, p) = (g.R1 - g.r1, g.R2 - g.r4);
+    let drop = |length: f64, x: f64, y: f64| (length * length - x * x - y * y).max(0.0).sqrt();
+    let w = [drop(g.L1, x[0], u), drop(g.L2, x[1], p), drop(g.L3, x[1], p)];
+    Rods::new(g, x, 0.0, w, [1.0, 0.0])
 }

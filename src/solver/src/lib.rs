@@ -1,6 +1,8 @@
 //! Kinematics of the VERNE machine's architecture.
 
 pub mod axis;
+mod circle;
+mod closure;
 mod forward;
 mod inverse;
 pub mod jacobian;
@@ -9,6 +11,8 @@ pub mod machine;
 mod margins;
 mod pose;
 mod posture;
+mod residual;
+mod rods;
 mod table;
 
 pub use forward::{forward, forward_working};
@@ -18,4 +22,5 @@ pub use machine::{Machine, MachineData, MachineFault};
 pub use margins::Margins;
 pub use pose::{PartPose, PlatformPose, Point, TableAngles};
 pub use posture::{MOST, Mode, Posture, Postures, Side};
+pub use residual::RESIDUAL_TOLERANCE;
 pub use table::{part_pose, table_angles, tool_point};

@@ -7,6 +7,10 @@ mod validate;
 pub use fault::MachineFault;
 
 use crate::jacobian;
+use crate::margins::interference;
+
+/// Rods that cross at home are measured against this distance, mm.
+const SMALL_DISTANCE: f64 = 1e-3;
 
 /// Dimensions of the parallel module, in mm, with the paper's symbols (Fig. 3, Eqs (3)-(6)).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,6 +110,10 @@ pub(crate) struct Derived {
     /// C = R1² + r1² and k = 2 R1 r1, so that u² + v² = C - k cos a.
     pub(crate) c: f64,
     pub(crate) k: f64,
+    /// 1/R1².
+    pub(crate) inverse_r1_square: f64,
+    /// acos(r1/R1): the rods of leg I do not cross for |alpha| below it.
+    pub(crate) uncrossed: f64,
     /// Largest length of the machine: the scale of tolerances.
     pub(crate) scale: f64,
     /// Unit axes of the slider cones (base frame) and platform cones (platform frame).
@@ -113,6 +121,8 @@ pub(crate) struct Derived {
     pub(crate) platform_axes: [[f64; 3]; 4],
     /// `det_P` at home; its sign is the machine's.
     pub(crate) home_det: f64,
+    /// Least distance between two rods' axes at home, mm: the scale of rod interference.
+    pub(crate) home_distance: f64,
 }
 
 impl Machine {
@@ -159,7 +169,8 @@ impl Derived {
         let g = &data.geometry;
         let e1 = g.D1 - g.d1;
         let e2 = g.D2 - g.d2;
-        let home = home_directions(g);
+        let rods = jacobian::at_home(g);
+        let home = rods.directions.map(unit);
         let slider_axes = data.limits.slider_axes.map_or(home, |axes| axes.map(unit));
         let platform_axes = data.limits.platform_axes.map_or(home, |axes| axes.map(unit));
         let scale =
@@ -169,25 +180,15 @@ impl Derived {
             e2,
             c: g.R1 * g.R1 + g.r1 * g.r1,
             k: 2.0 * g.R1 * g.r1,
+            inverse_r1_square: 1.0 / (g.R1 * g.R1),
+            uncrossed: (g.r1 / g.R1).acos(),
             scale,
             slider_axes,
             platform_axes,
             home_det: jacobian::det_at_home(g),
+            home_distance: interference::nearest(g, &rods, [e1, e2], 0.0).0.max(SMALL_DISTANCE),
         }
     }
-}
-
-/// Unit directions A -> B of rod 11, rod 12 and the rods of legs II and III at x = y = alpha = 0.
-fn home_directions(g: &Geometry) -> [[f64; 3]; 4] {
-    let (e1, e2) = (g.D1 - g.d1, g.D2 - g.d2);
-    let (u, p) = (g.R1 - g.r1, g.R2 - g.r4);
-    let down = |length: f64, x: f64, y: f64| (length * length - x * x - y * y).max(0.0).sqrt();
-    [
-        unit([e1, u, down(g.L1, e1, u)]),
-        unit([e1, -u, down(g.L1, e1, u)]),
-        unit([e2, -p, down(g.L2, e2, p)]),
-        unit([e2, p, down(g.L3, e2, p)]),
-    ]
 }
 
 fn unit(v: [f64; 3]) -> [f64; 3] {

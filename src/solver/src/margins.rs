@@ -1,9 +1,15 @@
 //! Signed margins of a posture against every constraint: positive inside, zero on the limit.
 
-use crate::limit::Margin;
+mod cone;
+pub(crate) mod interference;
+mod worst;
+
+use crate::jacobian::{determinant, matrix};
+use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
 use crate::pose::TableAngles;
 use crate::posture::Posture;
+use crate::rods::Rods;
 
 /// All margins of one posture. Arrays of four are rod 11, rod 12, the rods of leg II, the rods of
 /// leg III (a parallelogram's two rods are parallel).
@@ -11,7 +17,7 @@ use crate::posture::Posture;
 pub struct Margins {
     /// `[rho - min, max - rho]` of each slider, mm.
     pub stroke: [[f64; 2]; 3],
-    /// Signed root of what each leg's length leaves for its drop along z, mm.
+    /// What each leg's length leaves for its drop along z, mm.
     pub leg_length: [f64; 3],
     /// Cosine between rod and guideway less the limit.
     pub serial_singularity: [f64; 4],
@@ -36,19 +42,59 @@ pub struct Margins {
 impl Margins {
     /// The margins of a posture, with the table's where it takes part.
     pub fn of(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Self {
-        let _ = (machine, posture, table);
-        unimplemented!()
+        let (g, limits, derived) = (machine.geometry(), machine.limits(), &machine.derived);
+        let pose = &posture.pose;
+        let rods = Rods::of(machine, posture);
+        let x = [pose.x + derived.e1, pose.x + derived.e2];
+        let (distance, nearest_rods) = interference::nearest(g, &rods, x, pose.y);
+        let q = g.R2 * rods.s;
+        let [rho1, rho2, rho3] = posture.rho;
+        let drops = [pose.z - rho1, pose.z - q - rho2, pose.z + q - rho3];
+        Self {
+            stroke: std::array::from_fn(|i| between(limits.stroke[i], posture.rho[i])),
+            leg_length: drops.map(f64::abs),
+            serial_singularity: rods.directions.map(|direction| direction[2] - limits.serial_margin),
+            parallel_singularity: determinant(&matrix(g, &rods)) * derived.home_det.signum()
+                - limits.parallel_margin,
+            slider_joint: cone::margins(limits.slider_cone, &derived.slider_axes, &rods.directions),
+            platform_joint: cone::margins(
+                limits.platform_cone,
+                &derived.platform_axes,
+                &cone::in_platform(&rods),
+            ),
+            rod_crossing: g.R1 * rods.c - g.r1,
+            rod_interference: distance - 2.0 * g.rod_radius,
+            nearest_rods,
+            tilt: table.map(|table| between(limits.tilt, table.theta1)),
+            rotary: table.map(|table| between(limits.rotary, table.theta2)),
+        }
     }
 
     /// Whether every margin is at least zero.
     pub fn feasible(&self) -> bool {
-        unimplemented!()
+        let inside = |ends: &[f64; 2]| ends[0] >= 0.0 && ends[1] >= 0.0;
+        let all = |margins: &[f64]| margins.iter().all(|margin| *margin >= 0.0);
+        self.stroke.iter().all(inside)
+            && all(&self.leg_length)
+            && all(&self.serial_singularity)
+            && all(&self.slider_joint)
+            && all(&self.platform_joint)
+            && all(&[self.parallel_singularity, self.rod_crossing, self.rod_interference])
+            && self.tilt.iter().chain(&self.rotary).all(inside)
     }
 
-    /// The worst margin: the least one as a fraction of its constraint's own range (stroke, rod
-    /// length, cone half-angle, value at home, ...), so that lengths and angles compare.
-    pub fn worst(&self, machine: &Machine) -> Margin {
-        let _ = machine;
-        unimplemented!()
+    /// What keeps a posture from being in the working mode: crossed rods, or the slider end that
+    /// lies lowest against its platform end.
+    pub(crate) fn out_of_mode(&self) -> Margin {
+        if self.rod_crossing <= 0.0 {
+            let (constraint, element) = (Constraint::RodCrossing, Element::Leg(1));
+            return Margin { constraint, element, value: self.rod_crossing };
+        }
+        let (i, value) = worst::least(&self.serial_singularity);
+        Margin { constraint: Constraint::SerialSingularity, element: worst::ROD[i], value }
     }
+}
+
+fn between([low, high]: [f64; 2], value: f64) -> [f64; 2] {
+    [value - low, high - value]
 }

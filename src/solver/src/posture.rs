@@ -14,6 +14,12 @@ pub enum Side {
 }
 
 impl Side {
+    /// The side of a slider whose platform end lies `drop` below it (z points down).
+    #[inline]
+    pub(crate) fn of(drop: f64) -> Self {
+        if drop < 0.0 { Self::Below } else { Self::Above }
+    }
+
     /// +1 for above, -1 for below.
     pub fn sign(self) -> f64 {
         match self {

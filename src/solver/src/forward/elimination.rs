@@ -1,0 +1,154 @@
+//! The forward question's loop closure in (a, λ), and its polynomial of degree four.
+
+use crate::circle::{TrigPolynomial, linear};
+use crate::closure::{Closure, Equations};
+use crate::machine::Machine;
+
+/// With (y, w1) = λ (-v, u), which satisfies the difference of Eqs (3) and (4), and x from their
+/// mean with Eqs (5) and (6), two equations remain:
+///
+/// ```text
+/// λ D - N = 0            X1² + (λ² + 1)(C - k cos a) - L1² = 0,   X1 = (λ u S + T) / d
+/// ```
+///
+/// with S = 2 rho1 - rho2 - rho3, d = 2 (e1 - e2) and, of the first degree in cos a and sin a,
+/// D = 4 sin a (R2 r1 - R1 r4) + 2 (rho3 - rho2) u, N = K - m S and T (the spec's T plus
+/// (e1 - e2)²).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Assembly {
+    r1_platform: f64,
+    r1_slider: f64,
+    c: f64,
+    k: f64,
+    l1_square: f64,
+    s: f64,
+    inverse_d: f64,
+    d_sin: f64,
+    d_gap: f64,
+    n0: f64,
+    n_sin: f64,
+    t: [f64; 3],
+}
+
+impl Assembly {
+    pub(super) fn new(machine: &Machine, rho: [f64; 3]) -> Self {
+        let g = machine.geometry();
+        let derived = &machine.derived;
+        let [a, b] = [rho[0] - rho[1], rho[0] - rho[2]];
+        let gap = rho[2] - rho[1];
+        let s = a + b;
+        let offset = derived.e1 - derived.e2;
+        let t0 = g.R2 * g.R2 + g.r4 * g.r4 - 0.5 * (g.L2 * g.L2 + g.L3 * g.L3) - derived.c
+            + g.L1 * g.L1
+            + 0.5 * (a * a + b * b)
+            + offset * offset;
+        Self {
+            r1_platform: g.R1,
+            r1_slider: g.r1,
+            c: derived.c,
+            k: derived.k,
+            l1_square: g.L1 * g.L1,
+            s,
+            inverse_d: 0.5 / offset,
+            d_sin: 4.0 * (g.R2 * g.r1 - g.R1 * g.r4),
+            d_gap: 2.0 * gap,
+            n0: (g.L2 - g.L3) * (g.L2 + g.L3) - gap * s,
+            n_sin: 2.0 * g.R2 * s,
+            t: [t0, derived.k - 2.0 * g.R2 * g.r4, -g.R2 * gap],
+        }
+    }
+
+    fn d(&self) -> TrigPolynomial<2> {
+        linear(-self.d_gap * self.r1_slider, self.d_gap * self.r1_platform, self.d_sin)
+    }
+
+    fn n(&self) -> TrigPolynomial<2> {
+        linear(self.n0, 0.0, self.n_sin)
+    }
+
+    /// Whether D and N vanish at every angle: then λ is free, and the platform with it.
+    pub(super) fn is_free(&self, scale: f64) -> bool {
+        self.d().bound(0) + self.n().bound(0) <= 1e-13 * scale * scale
+    }
+
+    /// The λ that comes nearest to satisfying the quadratic equation at an angle without sheets.
+    pub(super) fn vertex(&self, c: f64, s: f64) -> f64 {
+        let per_w = (self.r1_platform * c - self.r1_slider) * self.s * self.inverse_d;
+        let x0 = (self.t[0] + self.t[1] * c + self.t[2] * s) * self.inverse_d;
+        -per_w * x0 / (per_w * per_w + self.c - self.k * c)
+    }
+
+    /// X1 = x + D1 - d1.
+    #[inline]
+    pub(super) fn x1(&self, c: f64, s: f64, lambda: f64) -> f64 {
+        let u = self.r1_platform * c - self.r1_slider;
+        (lambda * u * self.s + self.t[0] + self.t[1] * c + self.t[2] * s) * self.inverse_d
+    }
+}
+
+impl Closure<5> for Assembly {
+    #[inline]
+    fn polynomial(&self) -> (TrigPolynomial<5>, f64) {
+        let (d, n) = (self.d(), self.n());
+        let u = linear(-self.r1_slider, self.r1_platform, 0.0);
+        let t = linear(self.t[0], self.t[1], self.t[2]);
+        let spread = linear(self.c, -self.k, 0.0);
+        // F = X² + (C - k cos a) N² + (C - k cos a - L1²) D² with X = D X1.
+        let x = t.times::<2, 3>(&d).plus(self.s, &u.times::<2, 3>(&n));
+        let squares = n.times::<2, 3>(&n).plus(1.0, &d.times::<2, 3>(&d));
+        let d_square = d.times::<2, 3>(&d);
+        let rest = squares.times::<2, 4>(&spread).plus(-self.l1_square, &d_square.raised());
+        let weight = self.inverse_d * self.inverse_d;
+        let mut poly = rest.raised::<5>();
+        poly = poly.plus(weight, &x.times::<3, 5>(&x));
+        let (bx, bn, bd) = (x.bound(0), n.bound(0), d.bound(0));
+        let magnitude = weight * bx * bx + (self.c + self.k) * (bn * bn + bd * bd) + self.l1_square * bd * bd;
+        (poly, magnitude)
+    }
+
+    #[inline]
+    fn equations(&self, c: f64, s: f64, w: f64) -> Equations {
+        let u = self.r1_platform * c - self.r1_slider;
+        let du = -self.r1_platform * s;
+        let d = self.d_sin * s + self.d_gap * u;
+        let dd = self.d_sin * c + self.d_gap * du;
+        let n = self.n0 + self.n_sin * s;
+        let spread = self.c - self.k * c;
+        let x1 = (w * u * self.s + self.t[0] + self.t[1] * c + self.t[2] * s) * self.inverse_d;
+        let x1_da = (w * du * self.s - self.t[1] * s + self.t[2] * c) * self.inverse_d;
+        let x1_dw = u * self.s * self.inverse_d;
+        let stretch = w * w + 1.0;
+        Equations {
+            f: [w * d - n, x1 * x1 + stretch * spread - self.l1_square],
+            da: [w * dd - self.n_sin * c, 2.0 * x1 * x1_da + stretch * self.k * s],
+            dw: [d, 2.0 * x1 * x1_dw + 2.0 * w * spread],
+        }
+    }
+
+    fn sheets(&self, c: f64, s: f64) -> Option<[f64; 2]> {
+        let u = self.r1_platform * c - self.r1_slider;
+        let spread = self.c - self.k * c;
+        let per_w = u * self.s * self.inverse_d;
+        let x0 = (self.t[0] + self.t[1] * c + self.t[2] * s) * self.inverse_d;
+        let (a2, a1, a0) = (per_w * per_w + spread, per_w * x0, x0 * x0 + spread - self.l1_square);
+        let disc = a1 * a1 - a2 * a0;
+        (disc >= 0.0).then(|| {
+            let root = disc.sqrt();
+            // The larger root first, the other by Vieta: no cancellation.
+            let far = -(a1 + root.copysign(a1));
+            let [x, y] = if far == 0.0 { [0.0, 0.0] } else { [far / a2, a0 / far] };
+            if x > y { [x, y] } else { [y, x] }
+        })
+    }
+
+    #[inline]
+    fn w_at_root(&self, c: f64, s: f64) -> f64 {
+        let u = self.r1_platform * c - self.r1_slider;
+        let d = self.d_sin * s + self.d_gap * u;
+        (self.n0 + self.n_sin * s) / d
+    }
+
+    fn unit(&self) -> f64 {
+        1.0
+    }
+}

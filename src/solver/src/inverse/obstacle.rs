@@ -1,0 +1,62 @@
+//! Why a position has no inverse solution.
+
+use std::f64::consts::{PI, TAU};
+
+use super::legs::{self, Closed};
+use super::track::{LegOne, Track};
+use crate::closure::roots;
+use crate::limit::{Constraint, Element, Margin};
+use crate::machine::Machine;
+use crate::posture::Side;
+
+/// Angles at which leg I is tried.
+const TRIALS: u32 = 32;
+/// Golden-section steps around the best trial: the margin to about a micrometre.
+const STEPS: usize = 20;
+
+/// No posture in any mode: leg I does not close, or where it does another leg is too short.
+#[cold]
+pub(super) fn of_all(machine: &Machine, track: &Track) -> Margin {
+    roots(&LegOne::new(machine, track), PI, None)
+        .iter()
+        .filter_map(|root| {
+            let p = track.at(root.c, root.s);
+            let closed =
+                Closed { p, c: root.c, s: root.s, w1: root.w, side: Side::of(root.w), merged: false };
+            legs::reach_of_others(machine, &closed)
+        })
+        .max_by(|a, b| a.value.total_cmp(&b.value))
+        .unwrap_or_else(|| of_leg_one(machine, track))
+}
+
+/// Leg I closes at no angle at which its rods do not cross: by how much its rods cross where it
+/// closes, or by how much it misses at the best angle.
+#[cold]
+pub(super) fn of_leg_one(machine: &Machine, track: &Track) -> Margin {
+    let leg = LegOne::new(machine, track);
+    let g = machine.geometry();
+    let crossed = roots(&leg, PI, Some(1.0)).iter().map(|root| g.R1 * root.c - g.r1).max_by(f64::total_cmp);
+    if let Some(value) = crossed.filter(|value| *value < 0.0) {
+        return Margin { constraint: Constraint::RodCrossing, element: Element::Leg(1), value };
+    }
+    Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value: best_slack(&leg).min(0.0) }
+}
+
+/// The greatest slack of leg I over the platform's angles.
+fn best_slack(leg: &LegOne) -> f64 {
+    let slack = |a: f64| {
+        let (s, c) = a.sin_cos();
+        leg.slack(c, s)
+    };
+    let step = TAU / f64::from(TRIALS);
+    let best = (0..TRIALS)
+        .map(|i| f64::from(i) * step - PI)
+        .max_by(|a, b| slack(*a).total_cmp(&slack(*b)))
+        .unwrap_or(0.0);
+    let (mut low, mut high) = (best - step, best + step);
+    for _ in 0..STEPS {
+        let third = (high - low) / 3.0;
+        if slack(low + third) < slack(high - third) { low += third } else { high -= third }
+    }
+    slack(0.5 * (low + high))
+}

@@ -1,0 +1,168 @@
+//! P as a function of the platform angle, and leg I's loop closure along it.
+
+use std::f64::consts::PI;
+
+use super::legs::{self, Closed};
+use super::obstacle;
+use super::platform::{platform, platform_working};
+use crate::circle::{TrigPolynomial, linear};
+use crate::closure::{Closure, Equations, Root, roots};
+use crate::limit::{Margin, Refusal};
+use crate::machine::Machine;
+use crate::pose::Point;
+use crate::posture::{Posture, Postures, Side};
+
+/// P = (x, y0 + yc cos a + ys sin a, z0 + zc cos a + zs sin a): where the platform has to be at
+/// each of its angles, for a tool given in the base or the table frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Track {
+    pub(super) x: f64,
+    pub(super) y: [f64; 3],
+    pub(super) z: [f64; 3],
+}
+
+impl Track {
+    /// A platform that stays where it is.
+    pub(super) fn still([x, y, z]: Point) -> Self {
+        Self { x, y: [y, 0.0, 0.0], z: [z, 0.0, 0.0] }
+    }
+
+    #[inline]
+    pub(super) fn at(&self, c: f64, s: f64) -> Point {
+        let ([y0, yc, ys], [z0, zc, zs]) = (self.y, self.z);
+        [self.x, y0 + yc * c + ys * s, z0 + zc * c + zs * s]
+    }
+
+    /// The point, if P does not depend on the angle.
+    fn fixed(&self) -> Option<Point> {
+        (self.y[1..] == [0.0, 0.0] && self.z[1..] == [0.0, 0.0]).then_some([self.x, self.y[0], self.z[0]])
+    }
+
+    /// All postures along the track.
+    pub(super) fn postures(&self, machine: &Machine) -> Result<Postures, Refusal> {
+        if let Some(p) = self.fixed() {
+            return platform(machine, p);
+        }
+        let mut postures = Postures::new();
+        for root in roots(&LegOne::new(machine, self), PI, None) {
+            legs::postures(machine, &self.closed(&root), &mut postures);
+        }
+        if postures.is_empty() {
+            Err(Refusal::Blocked(obstacle::of_all(machine, self)))
+        } else {
+            Ok(postures)
+        }
+    }
+
+    /// The posture in the working mode along the track.
+    pub(super) fn working(&self, machine: &Machine) -> Result<Posture, Refusal> {
+        if let Some(p) = self.fixed() {
+            return platform_working(machine, p);
+        }
+        let mut refused: Option<Margin> = None;
+        for root in roots(&LegOne::new(machine, self), machine.derived.uncrossed, Some(1.0)) {
+            match legs::working(machine, &self.closed(&root)) {
+                Ok(posture) => return Ok(posture),
+                Err(margin) => refused = refused.or(Some(margin)),
+            }
+        }
+        Err(Refusal::Blocked(refused.unwrap_or_else(|| obstacle::of_leg_one(machine, self))))
+    }
+
+    #[inline]
+    fn closed(&self, root: &Root) -> Closed {
+        let p = self.at(root.c, root.s);
+        Closed { p, c: root.c, s: root.s, w1: root.w, side: Side::of(root.w), merged: root.merged }
+    }
+}
+
+/// Leg I along a track: y u + w1 v = 0 and X1² + y² + C - k cos a + w1² = L1², equations (A), in
+/// (a, w1). Eliminating w1 gives (15), of the third degree on the circle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LegOne {
+    y: [f64; 3],
+    r1_platform: f64,
+    r1_slider: f64,
+    c: f64,
+    k: f64,
+    /// L1² - X1² - C.
+    e: f64,
+    scale: f64,
+}
+
+impl LegOne {
+    #[inline]
+    pub(super) fn new(machine: &Machine, track: &Track) -> Self {
+        let g = machine.geometry();
+        let derived = &machine.derived;
+        let x1 = track.x + derived.e1;
+        Self {
+            y: track.y,
+            r1_platform: g.R1,
+            r1_slider: g.r1,
+            c: derived.c,
+            k: derived.k,
+            e: (g.L1 - x1) * (g.L1 + x1) - derived.c,
+            scale: derived.scale,
+        }
+    }
+
+    /// How far leg I is from closing at an angle, mm: |v| w1 - |y u| over the length of (u, v),
+    /// which is positive between the two roots; and the missing drop where w1 is imaginary.
+    pub(super) fn slack(&self, c: f64, s: f64) -> f64 {
+        let (u, v) = (self.r1_platform * c - self.r1_slider, self.r1_platform * s);
+        let y = self.y[0] + self.y[1] * c + self.y[2] * s;
+        let square = self.e + self.k * c - y * y;
+        let arm = u.hypot(v);
+        let offset = (y * u).abs() / arm;
+        if square < 0.0 { legs::signed_root(square) - offset } else { v.abs() * square.sqrt() / arm - offset }
+    }
+}
+
+impl Closure<4> for LegOne {
+    #[inline]
+    fn polynomial(&self) -> (TrigPolynomial<4>, f64) {
+        let y = linear(self.y[0], self.y[1], self.y[2]);
+        let spread = linear(self.c, -self.k, 0.0);
+        let half = 0.5 * self.r1_platform * self.r1_platform;
+        let v_square = TrigPolynomial { cos: [half, 0.0, -half], sin: [0.0; 3] };
+        let left = linear(-self.e, -self.k, 0.0);
+        let y_square = y.times::<2, 3>(&y);
+        let poly = y_square.times::<2, 4>(&spread).plus(1.0, &v_square.times::<2, 4>(&left));
+        let size = y.bound(0);
+        let magnitude = size * size * (self.c + self.k) + 2.0 * half * (self.e.abs() + self.k);
+        (poly, magnitude)
+    }
+
+    #[inline]
+    fn equations(&self, c: f64, s: f64, w: f64) -> Equations {
+        let (u, v) = (self.r1_platform * c - self.r1_slider, self.r1_platform * s);
+        let y = self.y[0] + self.y[1] * c + self.y[2] * s;
+        let dy = self.y[2] * c - self.y[1] * s;
+        Equations {
+            f: [y * u + w * v, y * y + w * w - self.k * c - self.e],
+            da: [dy * u - y * v + w * self.r1_platform * c, 2.0 * y * dy + self.k * s],
+            dw: [v, 2.0 * w],
+        }
+    }
+
+    fn sheets(&self, c: f64, s: f64) -> Option<[f64; 2]> {
+        let y = self.y[0] + self.y[1] * c + self.y[2] * s;
+        let square = self.e + self.k * c - y * y;
+        (square >= 0.0).then(|| [square.sqrt(), -square.sqrt()])
+    }
+
+    #[inline]
+    fn w_at_root(&self, c: f64, s: f64) -> f64 {
+        let (u, v) = (self.r1_platform * c - self.r1_slider, self.r1_platform * s);
+        let y = self.y[0] + self.y[1] * c + self.y[2] * s;
+        let square = self.e + self.k * c - y * y;
+        let moment = -y * u * v;
+        // The better of two formulas, as in the first leg's: near v = 0 the quotient is 0/0.
+        if square > 0.01 * (self.e.abs() + self.k) { square.sqrt().copysign(moment) } else { -y * u / v }
+    }
+
+    fn unit(&self) -> f64 {
+        self.scale
+    }
+}
