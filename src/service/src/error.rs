@@ -42,6 +42,10 @@ pub enum Error {
     NoSuchMachine(String),
     /// Nothing lives at this path.
     NoSuchPath,
+    /// The answer took longer than the time allowed.
+    TimedOut,
+    /// The path is right, the method is not.
+    MethodNotAllowed,
     /// A defect of the service itself.
     Internal,
 }
@@ -65,6 +69,8 @@ impl fmt::Display for Error {
                 write!(f, "No machine is published as {name:?}; GET /machines lists them.")
             }
             Self::NoSuchPath => write!(f, "Nothing lives at this path; GET /openapi.json lists what does."),
+            Self::TimedOut => write!(f, "The answer took longer than the time allowed."),
+            Self::MethodNotAllowed => write!(f, "This path takes other methods; the header Allow names them."),
             Self::Internal => write!(f, "A defect of the service; its log holds this x-request-id."),
         }
     }

@@ -18,16 +18,17 @@ use crate::problem::give_every_failure_a_document;
 
 /// Wraps the routes; the first layer here is the outermost.
 pub fn wrap(routes: Router, time_limit: Duration) -> Router {
-    routes.layer(
+    let guarded = ServiceBuilder::new()
+        .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, time_limit))
+        .layer(CatchPanicLayer::new());
+    let answered = routes.layer(guarded).layer(map_response(give_every_failure_a_document));
+    answered.layer(
         ServiceBuilder::new()
             .layer(SetRequestIdLayer::x_request_id(MakeRequestUuid))
             .layer(TraceLayer::new_for_http().make_span_with(span))
             .layer(PropagateRequestIdLayer::x_request_id())
             .layer(open_to_browsers())
-            .layer(CompressionLayer::new())
-            .layer(map_response(give_every_failure_a_document))
-            .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, time_limit))
-            .layer(CatchPanicLayer::new()),
+            .layer(CompressionLayer::new()),
     )
 }
 

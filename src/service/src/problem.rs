@@ -56,37 +56,40 @@ fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
         Error::TooManyRows { .. } => (StatusCode::PAYLOAD_TOO_LARGE, "too_many_rows"),
         Error::NoSuchMachine(_) => (StatusCode::NOT_FOUND, "machine_not_found"),
         Error::NoSuchPath => (StatusCode::NOT_FOUND, "not_found"),
+        Error::MethodNotAllowed => (StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed"),
+        Error::TimedOut => (StatusCode::SERVICE_UNAVAILABLE, "timed_out"),
         Error::Internal => (StatusCode::INTERNAL_SERVER_ERROR, "internal"),
     }
 }
 
 impl Problem {
-    fn new(status: StatusCode, code: &'static str, detail: String) -> Self {
-        let title = status.canonical_reason().unwrap_or("Error").to_owned();
-        Self { kind: "about:blank", title, status: status.as_u16(), code, detail, errors: Vec::new() }
+    /// The HTTP status.
+    pub fn status(&self) -> u16 {
+        self.status
     }
+}
 
-    /// The document for a bare status that the framework answered by itself.
-    fn of_status(status: StatusCode) -> Self {
-        let (code, detail) = match status {
-            StatusCode::METHOD_NOT_ALLOWED => ("method_not_allowed", "The header Allow names the methods."),
-            StatusCode::NOT_FOUND => ("not_found", "Nothing lives at this path."),
-            StatusCode::SERVICE_UNAVAILABLE => ("timed_out", "The answer took longer than the time allowed."),
-            StatusCode::INTERNAL_SERVER_ERROR => ("internal", "A defect of the service."),
-            _ => ("bad_request", "The request cannot be answered."),
-        };
-        Self::new(status, code, detail.to_owned())
+/// The error behind a bare status that the framework answered by itself.
+fn error_behind(status: StatusCode) -> Error {
+    match status {
+        StatusCode::METHOD_NOT_ALLOWED => Error::MethodNotAllowed,
+        StatusCode::NOT_FOUND => Error::NoSuchPath,
+        StatusCode::SERVICE_UNAVAILABLE => Error::TimedOut,
+        StatusCode::INTERNAL_SERVER_ERROR => Error::Internal,
+        _ => Error::BodyLost(status.to_string()),
     }
 }
 
 impl From<Error> for Problem {
     fn from(error: Error) -> Self {
         let (status, code) = status_and_code(&error);
-        let mut problem = Self::new(status, code, error.to_string());
-        if let Error::Fields(faults) = error {
-            problem.errors = faults.into_iter().map(FieldProblem::from).collect();
-        }
-        problem
+        let title = status.canonical_reason().unwrap_or("Error").to_owned();
+        let detail = error.to_string();
+        let errors = match error {
+            Error::Fields(faults) => faults.into_iter().map(FieldProblem::from).collect(),
+            _ => Vec::new(),
+        };
+        Self { kind: "about:blank", title, status: status.as_u16(), code, detail, errors }
     }
 }
 
@@ -112,10 +115,10 @@ pub async fn give_every_failure_a_document(response: Response) -> Response {
         return response;
     }
     let (mut parts, _) = response.into_parts();
-    let document = Problem::of_status(status).into_response();
-    let (headers, body) = (document.headers().clone(), document.into_body());
+    let (document, body) = error_behind(status).into_response().into_parts();
     parts.headers.remove(header::CONTENT_LENGTH);
-    parts.headers.extend(headers);
+    parts.headers.extend(document.headers);
+    parts.status = document.status;
     Response::from_parts(parts, body)
 }
 

@@ -9,7 +9,7 @@ use verne_solver::{PartPose, PlatformPose, Point, Posture, Side, axis};
 use super::degrees::to_degrees;
 use super::limit::Limit;
 use super::margins::{ConditioningObject, MarginsObject};
-use super::numbers::Exactly;
+use super::numbers::{Exactly, Triple};
 use super::request::Joints;
 
 /// The machine that an answer is for.
@@ -134,7 +134,7 @@ pub struct PartObject {
     phi2: f64,
     /// Unit vector from tip to holder.
     #[schema(inline)]
-    axis: Exactly<f64, 3>,
+    axis: Triple,
 }
 
 /// Label of a solution.

@@ -6,7 +6,7 @@ use verne_solver::MachineData;
 use verne_solver::machine::{Geometry, Limits, Table};
 
 use super::degrees::{from_degrees, to_short_degrees};
-use super::numbers::Exactly;
+use super::numbers::{Axes, Exactly, Pair, PairPerSlider};
 
 /// A machine of the VERNE architecture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -88,16 +88,13 @@ pub struct TableObject {
     pub dt: f64,
 }
 
-/// Four directions: rod 11, rod 12, the rods of leg II, the rods of leg III.
-type Axes = Exactly<Exactly<f64, 3>, 4>;
-
 /// Limits of joints and of singularities.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitsObject {
     /// `[min, max]` of each slider, mm.
     #[schema(inline)]
-    pub stroke: Exactly<Exactly<f64, 2>, 3>,
+    pub stroke: PairPerSlider,
     /// Half-angle of the cone that each rod may use at its slider, degrees.
     #[schema(exclusive_minimum = 0, maximum = 180)]
     pub slider_cone: f64,
@@ -112,10 +109,10 @@ pub struct LimitsObject {
     pub parallel_margin: f64,
     /// `[min, max]` of theta1, degrees.
     #[schema(inline)]
-    pub tilt: Exactly<f64, 2>,
+    pub tilt: Pair,
     /// `[min, max]` of theta2, degrees.
     #[schema(inline)]
-    pub rotary: Exactly<f64, 2>,
+    pub rotary: Pair,
     /// Axes of the slider cones in the base frame, for rod 11, rod 12, leg II and leg III, from slider to
     /// platform, of any length. Left out: the rods' directions at home (x = y = alpha = 0).
     #[serde(default, skip_serializing_if = "Option::is_none")]

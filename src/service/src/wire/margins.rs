@@ -6,10 +6,7 @@ use verne_solver::{Machine, Margins, jacobian};
 
 use super::degrees::to_degrees;
 use super::limit::Limit;
-use super::numbers::Exactly;
-
-/// One value for each rod: 11, 12, 21, 22, 31, 32.
-type PerRod = Exactly<f64, 6>;
+use super::numbers::{Exactly, Pair, PairPerSlider, PerRod, Triple};
 
 /// Margins of every constraint: positive inside, zero on the limit, negative outside. Arrays of six are the rods
 /// 11, 12, 21, 22, 31, 32.
@@ -18,10 +15,10 @@ type PerRod = Exactly<f64, 6>;
 pub struct MarginsObject {
     /// `[rho - min, max - rho]` of each slider, mm.
     #[schema(inline)]
-    stroke: Exactly<Exactly<f64, 2>, 3>,
+    stroke: PairPerSlider,
     /// What each leg's length leaves for its drop along z, mm; a signed root.
     #[schema(inline)]
-    leg_length: Exactly<f64, 3>,
+    leg_length: Triple,
     /// Cosine between rod and guideway, less `serial_margin`.
     #[schema(inline)]
     serial_singularity: PerRod,
@@ -40,11 +37,11 @@ pub struct MarginsObject {
     /// `[theta1 - min, max - theta1]`, degrees; where the table's angles are known.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(inline, nullable = false)]
-    tilt: Option<Exactly<f64, 2>>,
+    tilt: Option<Pair>,
     /// `[theta2 - min, max - theta2]`, degrees; where the table's angles are known.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(inline, nullable = false)]
-    rotary: Option<Exactly<f64, 2>>,
+    rotary: Option<Pair>,
     /// The worst: the least margin as a fraction of its constraint's own range.
     worst: Limit,
 }

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use super::machine_ref::{MachineRef, REFERENCE};
-use super::numbers::Listed;
+use super::numbers::{ListedJoints, ListedPose, ListedTriple};
 use super::request::{FkRequest, Frame, IkRequest, Joints, Near, NearPose, TargetPose, Wanted};
 use crate::error::{Error, Fault};
 
@@ -26,7 +26,7 @@ pub struct FkQuery {
     /// The three sliders, mm.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false)]
-    pub rho: Listed<3, 3>,
+    pub rho: ListedTriple,
     /// Tilting angle of the table, degrees; together with theta2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -36000, maximum = 36000, nullable = false)]
@@ -47,11 +47,11 @@ pub struct FkQuery {
     /// Sorts by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
-    pub near_joints: Option<Listed<3, 5>>,
+    pub near_joints: Option<ListedJoints>,
     /// Sorts by distance from this platform pose: x,y,z or x,y,z,alpha.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
-    pub near_pose: Option<Listed<3, 4>>,
+    pub near_pose: Option<ListedPose>,
 }
 
 /// Parameters of GET /ik.
@@ -92,7 +92,7 @@ pub struct IkQuery {
     /// Tool axis i,j,k in the table frame, from tip to holder; only in `part`, instead of phi1 and phi2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
-    pub axis: Option<Listed<3, 3>>,
+    pub axis: Option<ListedTriple>,
     /// Distance from P to the tool's tip, mm.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
@@ -105,11 +105,11 @@ pub struct IkQuery {
     /// Sorts by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
-    pub near_joints: Option<Listed<3, 5>>,
+    pub near_joints: Option<ListedJoints>,
     /// Sorts by distance from this platform pose: x,y,z or x,y,z,alpha.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
-    pub near_pose: Option<Listed<3, 4>>,
+    pub near_pose: Option<ListedPose>,
 }
 
 impl FkQuery {
@@ -140,7 +140,7 @@ impl IkQuery {
     }
 }
 
-fn near(joints: Option<Listed<3, 5>>, pose: Option<Listed<3, 4>>) -> Result<Option<Near>, Error> {
+fn near(joints: Option<ListedJoints>, pose: Option<ListedPose>) -> Result<Option<Near>, Error> {
     match (joints, pose) {
         (None, None) => Ok(None),
         (Some(joints), None) => {

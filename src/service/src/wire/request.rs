@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::machine_ref::MachineRef;
-use super::numbers::Exactly;
+use super::numbers::Triple;
 
 /// Where are platform, tool and part for these joints?
 #[derive(Clone, Debug, Deserialize, ToSchema)]
@@ -56,7 +56,7 @@ pub struct IkRequest {
 pub struct Joints {
     /// The three sliders.
     #[schema(inline, example = json!([674, 685, 250]))]
-    pub rho: Exactly<f64, 3>,
+    pub rho: Triple,
     /// Tilting angle of the table; together with theta2.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = -36000, maximum = 36000, nullable = false)]
@@ -89,7 +89,7 @@ pub struct TargetPose {
     pub phi2: Option<f64>,
     /// Tool axis in the table frame, from tip to holder, of any length; only in `part`, instead of phi1 and phi2.
     #[schema(inline, nullable = false)]
-    pub axis: Option<Exactly<f64, 3>>,
+    pub axis: Option<Triple>,
 }
 
 /// What a pose describes.
@@ -149,7 +149,7 @@ pub struct NearPose {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct NearFields {
-    rho: Option<Exactly<f64, 3>>,
+    rho: Option<Triple>,
     theta1: Option<f64>,
     theta2: Option<f64>,
     x: Option<f64>,
