@@ -9,7 +9,7 @@ mod near;
 mod orientation;
 mod solutions;
 
-pub use forward::answer_fk;
-pub use forward_batch::answer_fk_batch;
-pub use inverse::answer_ik;
-pub use inverse_batch::answer_ik_batch;
+pub(crate) use forward::answer_fk;
+pub(crate) use forward_batch::answer_fk_batch;
+pub(crate) use inverse::answer_ik;
+pub(crate) use inverse_batch::answer_ik_batch;

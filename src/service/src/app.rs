@@ -37,7 +37,7 @@ impl std::error::Error for StartError {}
 
 /// The OpenAPI document.
 pub fn document() -> Value {
-    openapi::complete(router::routes().into_openapi())
+    openapi::complete(router::routes().get_openapi())
 }
 
 /// The whole service, ready for requests.
@@ -47,7 +47,7 @@ pub fn service(config: &ServeConfig) -> Result<Router, StartError> {
         machines.publish_directory(directory).map_err(StartError::Machine)?;
     }
     let (routes, api) = router::routes().split_for_parts();
-    let document = openapi::complete(api).to_string();
+    let document = openapi::complete(&api).to_string();
     let state = State { machines, limits: config.limits(), openapi: Bytes::from(document) };
     let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
     let routes = routes.with_state(Arc::new(state)).merge(docs);

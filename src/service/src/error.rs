@@ -4,7 +4,7 @@ use std::fmt;
 
 /// One bad field: where it is and what would be accepted.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub(crate) struct Fault {
     /// JSON Pointer into the body; `/query/<name>` for a query parameter.
     pub pointer: String,
     /// What is wrong, and what would be accepted.
@@ -13,14 +13,14 @@ pub struct Fault {
 
 impl Fault {
     /// A fault of one field.
-    pub fn new(pointer: impl Into<String>, detail: impl Into<String>) -> Self {
+    pub(crate) fn new(pointer: impl Into<String>, detail: impl Into<String>) -> Self {
         Self { pointer: pointer.into(), detail: detail.into() }
     }
 }
 
 /// Why a request gets no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Error {
+pub(crate) enum Error {
     /// The body is not JSON; the parser's words.
     Syntax(String),
     /// Well-formed, but these fields cannot be used.
@@ -70,7 +70,9 @@ impl fmt::Display for Error {
             }
             Self::NoSuchPath => write!(f, "Nothing lives at this path; GET /openapi.json lists what does."),
             Self::TimedOut => write!(f, "The answer took longer than the time allowed."),
-            Self::MethodNotAllowed => write!(f, "This path takes other methods; the header Allow names them."),
+            Self::MethodNotAllowed => {
+                write!(f, "This path takes other methods; the header Allow names them.")
+            }
             Self::Internal => write!(f, "A defect of the service; its log holds this x-request-id."),
         }
     }

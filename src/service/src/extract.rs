@@ -12,10 +12,10 @@ use crate::state::Shared;
 use crate::wire::parse::{parse_body, parse_query};
 
 /// Most bytes in the body of a single question: parsing it stays far below half a millisecond.
-pub const SINGLE_BODY_BYTES: usize = 64 * 1024;
+pub(crate) const SINGLE_BODY_BYTES: usize = 64 * 1024;
 
 /// A query string as a typed request.
-pub struct Params<T>(pub T);
+pub(crate) struct Params<T>(pub T);
 
 impl<T: DeserializeOwned> FromRequestParts<Shared> for Params<T> {
     type Rejection = Error;
@@ -26,7 +26,7 @@ impl<T: DeserializeOwned> FromRequestParts<Shared> for Params<T> {
 }
 
 /// The JSON body of a single question.
-pub struct Single<T>(pub T);
+pub(crate) struct Single<T>(pub T);
 
 impl<T: DeserializeOwned> FromRequest<Shared> for Single<T> {
     type Rejection = Error;
@@ -37,7 +37,7 @@ impl<T: DeserializeOwned> FromRequest<Shared> for Single<T> {
 }
 
 /// The JSON body of a batch, still to be parsed: that is work for the worker threads.
-pub struct Batch(pub Bytes);
+pub(crate) struct Batch(pub Bytes);
 
 impl FromRequest<Shared> for Batch {
     type Rejection = Error;

@@ -1,6 +1,6 @@
 //! One function for each operation: HTTP in, a typed answer out.
 
-pub mod batch;
-pub mod kinematics;
-pub mod machines;
-pub mod service;
+pub(crate) mod batch;
+pub(crate) mod kinematics;
+pub(crate) mod machines;
+pub(crate) mod service;

@@ -17,7 +17,7 @@ use tracing::{Span, info_span};
 use crate::problem::give_every_failure_a_document;
 
 /// Wraps the routes; the first layer here is the outermost.
-pub fn wrap(routes: Router, time_limit: Duration) -> Router {
+pub(crate) fn wrap(routes: Router, time_limit: Duration) -> Router {
     let guarded = ServiceBuilder::new()
         .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, time_limit))
         .layer(CatchPanicLayer::new());

@@ -7,7 +7,7 @@ const LAYOUT: &[u8] = b"verne machine 1";
 
 /// BLAKE3, in hex, of geometry, table and limits as little-endian doubles in a fixed order. Name and
 /// description stay out: they change no answer. Lengths in mm and angles in radians, -0 as 0.
-pub fn machine_hash(data: &MachineData) -> String {
+pub(crate) fn machine_hash(data: &MachineData) -> String {
     let mut hasher = blake3::Hasher::new();
     hasher.update(LAYOUT);
     let mut put = |number: f64| {
@@ -15,7 +15,18 @@ pub fn machine_hash(data: &MachineData) -> String {
     };
     let g = &data.geometry;
     let dimensions = [
-        g.D1, g.d1, g.D2, g.d2, g.R1, g.r1, g.R2, g.r4, g.L1, g.L2, g.L3, g.parallelogram_half_width,
+        g.D1,
+        g.d1,
+        g.D2,
+        g.d2,
+        g.R1,
+        g.r1,
+        g.R2,
+        g.r4,
+        g.L1,
+        g.L2,
+        g.L3,
+        g.parallelogram_half_width,
         g.rod_radius,
     ];
     dimensions.into_iter().for_each(&mut put);

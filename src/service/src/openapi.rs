@@ -1,8 +1,9 @@
 //! The OpenAPI document: what the handlers say, completed with examples that the solver answers.
 
 mod examples;
-pub mod machine_schema;
-pub mod problems;
+mod inlined;
+pub(crate) mod machine_schema;
+pub(crate) mod problems;
 
 use serde_json::{Value, json};
 use utoipa::OpenApi;
@@ -38,13 +39,14 @@ use crate::problem::Problem;
     ),
     components(schemas(Problem))
 )]
-pub struct Document;
+pub(crate) struct Document;
 
 /// The document as JSON, with an example of each request and the answer it gets.
-pub fn complete(api: utoipa::openapi::OpenApi) -> Value {
+pub(crate) fn complete(api: &utoipa::openapi::OpenApi) -> Value {
     let mut document = json!(api);
     for example in examples::examples() {
         example.write_into(&mut document);
     }
+    inlined::join_descriptions(&mut document);
     document
 }

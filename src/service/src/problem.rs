@@ -8,11 +8,11 @@ use utoipa::ToSchema;
 use crate::error::{Error, Fault};
 
 /// Media type of every failure.
-pub const PROBLEM_JSON: &str = "application/problem+json";
+pub(crate) const PROBLEM_JSON: &str = "application/problem+json";
 
 /// A failure, as RFC 9457 writes it.
 #[derive(Debug, Serialize, ToSchema)]
-pub struct Problem {
+pub(crate) struct Problem {
     /// Always `about:blank`: `code` tells failures apart.
     #[serde(rename = "type")]
     #[schema(example = "about:blank")]
@@ -64,7 +64,7 @@ fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
 
 impl Problem {
     /// The HTTP status.
-    pub fn status(&self) -> u16 {
+    pub(crate) fn status(&self) -> u16 {
         self.status
     }
 }
@@ -109,7 +109,7 @@ impl IntoResponse for Error {
 
 /// Gives a problem document to every failure that the framework answered without one (a method
 /// that is not allowed, a time-out, a panic); headers such as Allow stay.
-pub async fn give_every_failure_a_document(response: Response) -> Response {
+pub(crate) async fn give_every_failure_a_document(response: Response) -> Response {
     let status = response.status();
     if !(status.is_client_error() || status.is_server_error()) || is_problem(&response) {
         return response;

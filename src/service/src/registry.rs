@@ -16,7 +16,7 @@ use crate::wire::parse::parse_body;
 
 /// A checked machine with what answers say about it.
 #[derive(Debug)]
-pub struct Published {
+pub(crate) struct Published {
     /// The machine.
     pub machine: Machine,
     /// Its name and hash.
@@ -25,7 +25,7 @@ pub struct Published {
 
 impl Published {
     /// Prepares a machine for answering.
-    pub fn new(machine: Machine) -> Self {
+    pub(crate) fn new(machine: Machine) -> Self {
         let id = MachineId { name: machine.name().into(), hash: machine_hash(machine.data()).into() };
         Self { machine, id }
     }
@@ -35,7 +35,7 @@ impl Published {
     }
 
     /// Reads a machine from a JSON file.
-    pub fn from_file(path: &Path) -> Result<Self, BadFile> {
+    pub(crate) fn from_file(path: &Path) -> Result<Self, BadFile> {
         let bad = |faults| BadFile { path: path.to_owned(), faults };
         let text = std::fs::read(path).map_err(|error| bad(vec![Fault::new("", error.to_string())]))?;
         let object = parse_body::<MachineObject>(&text).map_err(|error| bad(faults_of(error)))?;
@@ -64,7 +64,7 @@ impl std::error::Error for BadFile {}
 
 /// The published machines by name.
 #[derive(Debug)]
-pub struct Registry(BTreeMap<String, Arc<Published>>);
+pub(crate) struct Registry(BTreeMap<String, Arc<Published>>);
 
 impl Default for Registry {
     fn default() -> Self {
@@ -75,7 +75,7 @@ impl Default for Registry {
 
 impl Registry {
     /// Publishes every `*.json` of a directory beside the machines already here.
-    pub fn publish_directory(&mut self, directory: &Path) -> Result<(), BadFile> {
+    pub(crate) fn publish_directory(&mut self, directory: &Path) -> Result<(), BadFile> {
         let bad = |error: std::io::Error| BadFile {
             path: directory.to_owned(),
             faults: vec![Fault::new("", error.to_string())],
@@ -107,17 +107,17 @@ impl Registry {
     }
 
     /// The machine published under a name.
-    pub fn get(&self, name: &str) -> Option<&Arc<Published>> {
+    pub(crate) fn get(&self, name: &str) -> Option<&Arc<Published>> {
         self.0.get(name)
     }
 
     /// All of them, by name.
-    pub fn iter(&self) -> impl Iterator<Item = &Published> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Published> {
         self.0.values().map(AsRef::as_ref)
     }
 
     /// The machine that a request names or carries.
-    pub fn resolve(&self, wanted: &MachineRef) -> Result<Arc<Published>, Error> {
+    pub(crate) fn resolve(&self, wanted: &MachineRef) -> Result<Arc<Published>, Error> {
         let faults = match wanted {
             MachineRef::Name(name) => match self.get(name) {
                 Some(published) => return Ok(Arc::clone(published)),

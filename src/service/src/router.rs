@@ -9,7 +9,7 @@ use crate::openapi::Document;
 use crate::state::Shared;
 
 /// Every route with its documentation.
-pub fn routes() -> OpenApiRouter<Shared> {
+pub(crate) fn routes() -> OpenApiRouter<Shared> {
     OpenApiRouter::with_openapi(Document::openapi())
         .routes(routes!(kinematics::get_fk, kinematics::post_fk))
         .routes(routes!(kinematics::get_ik, kinematics::post_ik))

@@ -8,7 +8,7 @@ use crate::registry::Registry;
 
 /// The largest requests that are answered.
 #[derive(Clone, Copy, Debug)]
-pub struct RequestLimits {
+pub(crate) struct RequestLimits {
     /// Bytes in a batch's body.
     pub body_bytes: usize,
     /// Rows in a batch.
@@ -17,7 +17,7 @@ pub struct RequestLimits {
 
 /// Shared, immutable state.
 #[derive(Debug)]
-pub struct State {
+pub(crate) struct State {
     /// The published machines.
     pub machines: Registry,
     /// The largest requests that are answered.
@@ -27,4 +27,4 @@ pub struct State {
 }
 
 /// A handle on the state.
-pub type Shared = Arc<State>;
+pub(crate) type Shared = Arc<State>;

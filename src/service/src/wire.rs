@@ -1,14 +1,15 @@
 //! The contract's JSON: requests, answers, and the units between them and the solver.
 
-pub mod answer;
-pub mod batch;
-pub mod catalogue;
-pub mod degrees;
-pub mod limit;
-pub mod machine;
-pub mod machine_ref;
-pub mod margins;
-pub mod numbers;
-pub mod parse;
-pub mod query;
-pub mod request;
+pub(crate) mod answer;
+pub(crate) mod batch;
+pub(crate) mod catalogue;
+pub(crate) mod degrees;
+pub(crate) mod limit;
+pub(crate) mod machine;
+pub(crate) mod machine_ref;
+pub(crate) mod margins;
+pub(crate) mod numbers;
+pub(crate) mod object;
+pub(crate) mod parse;
+pub(crate) mod query;
+pub(crate) mod request;

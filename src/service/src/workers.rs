@@ -7,7 +7,7 @@ use tokio::sync::oneshot;
 use crate::error::Error;
 
 /// Runs `work` on the worker threads. A panic in it is an internal error, not the end of the process.
-pub async fn on_workers<T: Send + 'static>(
+pub(crate) async fn on_workers<T: Send + 'static>(
     work: impl FnOnce() -> Result<T, Error> + Send + 'static,
 ) -> Result<T, Error> {
     let (sender, receiver) = oneshot::channel();

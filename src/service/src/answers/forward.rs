@@ -12,7 +12,7 @@ use crate::wire::degrees::from_degrees;
 use crate::wire::request::{FkRequest, Wanted};
 
 /// Answers a forward question.
-pub fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answer, Error> {
+pub(crate) fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answer, Error> {
     let table = checked_table(request)?;
     let published = machines.resolve(&request.machine)?;
     let rho = request.joints.rho.0;

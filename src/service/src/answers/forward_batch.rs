@@ -25,7 +25,7 @@ impl Answered {
 }
 
 /// Answers a batch, from its body to the answer's; to be called on the worker threads.
-pub fn answer_fk_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Error> {
+pub(crate) fn answer_fk_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Error> {
     let request: FkBatchRequest<'_> = parse_body(body)?;
     check_batch(request.tool_length, request.joints.len(), state.limits.rows)?;
     let published = state.machines.resolve(&request.machine)?;
@@ -52,8 +52,8 @@ fn answer_row(machine: &Machine, tool_length: f64, text: &RawValue) -> Answered 
         Ok(row) => row,
         Err(detail) => return Answered::nothing(Verdict::Invalid(detail)),
     };
-    let table = (row.len() == 5)
-        .then(|| TableAngles { theta1: from_degrees(row[3]), theta2: from_degrees(row[4]) });
+    let table =
+        (row.len() == 5).then(|| TableAngles { theta1: from_degrees(row[3]), theta2: from_degrees(row[4]) });
     let posture = match forward_working(machine, [row[0], row[1], row[2]]) {
         Ok(posture) => posture,
         Err(refusal) => return Answered::nothing(refuse(machine, refusal)),

@@ -15,7 +15,7 @@ use crate::wire::answer::Answer;
 use crate::wire::request::{Frame, IkRequest, Wanted};
 
 /// Answers an inverse question.
-pub fn answer_ik(request: &IkRequest, machines: &Registry) -> Result<Answer, Error> {
+pub(crate) fn answer_ik(request: &IkRequest, machines: &Registry) -> Result<Answer, Error> {
     let orientations = checked_orientations(request)?;
     let published = machines.resolve(&request.machine)?;
     let machine = &published.machine;

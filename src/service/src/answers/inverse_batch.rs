@@ -2,7 +2,9 @@
 
 use rayon::prelude::*;
 use serde_json::value::RawValue;
-use verne_solver::{Machine, PartPose, Posture, TableAngles, part_working, platform_working, table_angles, tool_working};
+use verne_solver::{
+    Machine, PartPose, Posture, TableAngles, part_working, platform_working, table_angles, tool_working,
+};
 
 use super::batch_rows::{CHUNK, Verdict, check_batch, judge, read_row, refuse, report, write};
 use crate::error::Error;
@@ -13,7 +15,7 @@ use crate::wire::parse::parse_body;
 use crate::wire::request::Frame;
 
 /// Answers a batch, from its body to the answer's; to be called on the worker threads.
-pub fn answer_ik_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Error> {
+pub(crate) fn answer_ik_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Error> {
     let request: IkBatchRequest<'_> = parse_body(body)?;
     check_batch(request.tool_length, request.poses.len(), state.limits.rows)?;
     let published = state.machines.resolve(&request.machine)?;
@@ -25,11 +27,7 @@ pub fn answer_ik_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Error> {
         .map(|text| answer_row(machine, request.frame, request.tool_length, text))
         .collect();
     let (joints, verdicts): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
-    write(&IkBatchAnswer {
-        machine: published.id.clone(),
-        joints,
-        report: report(verdicts.into_iter()),
-    })
+    write(&IkBatchAnswer { machine: published.id.clone(), joints, report: report(verdicts.into_iter()) })
 }
 
 fn answer_row(machine: &Machine, frame: Frame, tool_length: f64, text: &RawValue) -> (Option<Row>, Verdict) {

@@ -45,9 +45,7 @@ fn joint_distance(joints: &Joints, radius: f64, found: &Found) -> f64 {
 
 fn pose_distance(near: &NearPose, radius: f64, found: &Found) -> f64 {
     let pose = &found.posture.pose;
-    let turned = near.alpha.map_or(0.0, |alpha| {
-        (pose.alpha - from_degrees(alpha) + PI).rem_euclid(TAU) - PI
-    });
+    let turned = near.alpha.map_or(0.0, |alpha| (pose.alpha - from_degrees(alpha) + PI).rem_euclid(TAU) - PI);
     (pose.x - near.x).powi(2)
         + (pose.y - near.y).powi(2)
         + (pose.z - near.z).powi(2)

@@ -37,11 +37,10 @@ pub(super) fn orientations(pose: &TargetPose, near: Option<&Near>, faults: &mut 
     faults.angle("/pose/phi2", pose.phi2);
     match (pose.phi1, pose.phi2, pose.axis) {
         (Some(phi1), Some(phi2), None) => Orientations::one(from_degrees(phi1), from_degrees(phi2)),
-        (Some(phi1), None, None) if phi1 % 180.0 == 0.0 => {
-            Orientations::family(from_degrees(phi1), near)
-        }
+        (Some(phi1), None, None) if phi1 % 180.0 == 0.0 => Orientations::family(from_degrees(phi1), near),
         (Some(_), None, None) => {
-            faults.add("/pose/phi2", "is required: phi2 is free only where phi1 is a multiple of 180 degrees");
+            faults
+                .add("/pose/phi2", "is required: phi2 is free only where phi1 is a multiple of 180 degrees");
             Orientations::default()
         }
         (None, phi2, Some(axis)) => along_axis(axis.0, phi2, near, faults),
@@ -65,7 +64,8 @@ fn along_axis(axis: [f64; 3], phi2: Option<f64>, near: Option<&Near>, faults: &m
         }
         (Some(Preimages::Two(both)), None) => Orientations { each: both.into(), free: false },
         (Some(Preimages::Two(_)), Some(_)) => {
-            faults.add("/pose/phi2", "is settled by this axis: phi2 goes with axis only along the table's own");
+            faults
+                .add("/pose/phi2", "is settled by this axis: phi2 goes with axis only along the table's own");
             Orientations::default()
         }
         (Some(Preimages::Free { phi1 }), Some(phi2)) => Orientations::one(phi1, from_degrees(phi2)),

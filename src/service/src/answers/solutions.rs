@@ -88,10 +88,8 @@ impl Presentation<'_> {
             let distance = |found| near::distance(near, radius, found);
             kept.sort_by(|(a, _), (b, _)| distance(a).total_cmp(&distance(b)));
         }
-        let (reason, constraint) = match kept.is_empty() {
-            true => self.why_nothing(violated, findings.refusal)?,
-            false => (None, None),
-        };
+        let (reason, constraint) =
+            if kept.is_empty() { self.why_nothing(violated, findings.refusal)? } else { (None, None) };
         let solutions = kept.into_iter().map(|(_, solution)| solution).collect();
         let free = if self.free { vec![Free::Phi2] } else { Vec::new() };
         Ok(Answer { machine: self.published.id.clone(), solutions, free, reason, constraint })

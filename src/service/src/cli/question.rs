@@ -4,19 +4,20 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::answers::{answer_fk, answer_ik};
-use crate::error::Error;
+use crate::error::{Error, Fault};
 use crate::registry::Registry;
 use crate::wire::answer::Answer;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::parse::parse_body;
 use crate::wire::query::{FkQuery, IkQuery, point_into_query};
+use crate::wire::request::{FkRequest, IkRequest};
 
 /// Answers `verne fk`.
 pub(super) fn fk(query: FkQuery) -> Result<Answer, String> {
     let machine = machine(&query.machine)?;
     let answer = query
         .into_request()
-        .map(|request| crate::wire::request::FkRequest { machine, ..request })
+        .map(|request| FkRequest { machine, ..request })
         .and_then(|request| answer_fk(&request, &Registry::default()));
     answer.map_err(in_flags)
 }
@@ -26,7 +27,7 @@ pub(super) fn ik(query: IkQuery) -> Result<Answer, String> {
     let machine = machine(&query.machine)?;
     let answer = query
         .into_request()
-        .map(|request| crate::wire::request::IkRequest { machine, ..request })
+        .map(|request| IkRequest { machine, ..request })
         .and_then(|request| answer_ik(&request, &Registry::default()));
     answer.map_err(in_flags)
 }
@@ -45,17 +46,14 @@ fn machine(name: &str) -> Result<MachineRef, String> {
 
 /// An error in the words of the command line.
 fn in_flags(error: Error) -> String {
-    match point_into_query(error) {
-        Error::Fields(mut faults) => {
-            for fault in &mut faults {
-                let path = fault.pointer.trim_start_matches("/query").trim_start_matches('/');
-                let (flag, inside) = path.split_once('/').unwrap_or((path, ""));
-                fault.pointer = format!("--{} {inside}", flag.replace('_', "-")).trim_end().to_owned();
-            }
-            format!("this cannot be asked{}", listed(Error::Fields(faults)))
-        }
-        other => other.to_string(),
-    }
+    let Error::Fields(faults) = point_into_query(error) else { return "a defect of this program".to_owned() };
+    let flags = faults.into_iter().map(|Fault { pointer, detail }| {
+        let path = pointer.trim_start_matches("/query/");
+        let (flag, inside) = path.split_once('/').unwrap_or((path, ""));
+        let separator = if inside.is_empty() { "" } else { " " };
+        Fault::new(format!("--{}{separator}{inside}", flag.replace('_', "-")), detail)
+    });
+    format!("this cannot be asked{}", listed(Error::Fields(flags.collect())))
 }
 
 fn listed(error: Error) -> String {

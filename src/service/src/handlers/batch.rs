@@ -26,7 +26,7 @@ fn json(body: Vec<u8>) -> JsonBytes {
     request_body(content = FkBatchRequest, description = "The rows of joints."),
     responses((status = 200, description = "One entry for each row.", body = FkBatchAnswer), BatchProblems)
 )]
-pub async fn fk_batch(State(state): State<Shared>, Batch(body): Batch) -> Result<JsonBytes, Error> {
+pub(crate) async fn fk_batch(State(state): State<Shared>, Batch(body): Batch) -> Result<JsonBytes, Error> {
     on_workers(move || answer_fk_batch(&body, &state)).await.map(json)
 }
 
@@ -39,6 +39,6 @@ pub async fn fk_batch(State(state): State<Shared>, Batch(body): Batch) -> Result
     request_body(content = IkBatchRequest, description = "The rows of poses."),
     responses((status = 200, description = "One entry for each row.", body = IkBatchAnswer), BatchProblems)
 )]
-pub async fn ik_batch(State(state): State<Shared>, Batch(body): Batch) -> Result<JsonBytes, Error> {
+pub(crate) async fn ik_batch(State(state): State<Shared>, Batch(body): Batch) -> Result<JsonBytes, Error> {
     on_workers(move || answer_ik_batch(&body, &state)).await.map(json)
 }

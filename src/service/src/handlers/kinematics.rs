@@ -26,7 +26,10 @@ type Cacheable = ([(HeaderName, &'static str); 1], Json<Answer>);
     get, path = "/fk", operation_id = "fk", tag = "kinematics", params(FkQuery),
     responses((status = 200, description = "The solutions, or why there are none.", body = Answer), QueryProblems)
 )]
-pub async fn get_fk(State(state): State<Shared>, Params(query): Params<FkQuery>) -> Result<Cacheable, Error> {
+pub(crate) async fn get_fk(
+    State(state): State<Shared>,
+    Params(query): Params<FkQuery>,
+) -> Result<Cacheable, Error> {
     let answer = query.into_request().and_then(|request| answer_fk(&request, &state.machines));
     answer.map(|answer| (CACHEABLE, Json(answer))).map_err(point_into_query)
 }
@@ -39,7 +42,7 @@ pub async fn get_fk(State(state): State<Shared>, Params(query): Params<FkQuery>)
     request_body(content = FkRequest, description = "The joints, and what is wanted."),
     responses((status = 200, description = "The solutions, or why there are none.", body = Answer), BodyProblems)
 )]
-pub async fn post_fk(
+pub(crate) async fn post_fk(
     State(state): State<Shared>,
     Single(request): Single<FkRequest>,
 ) -> Result<Json<Answer>, Error> {
@@ -54,7 +57,10 @@ pub async fn post_fk(
     get, path = "/ik", operation_id = "ik", tag = "kinematics", params(IkQuery),
     responses((status = 200, description = "The solutions, or why there are none.", body = Answer), QueryProblems)
 )]
-pub async fn get_ik(State(state): State<Shared>, Params(query): Params<IkQuery>) -> Result<Cacheable, Error> {
+pub(crate) async fn get_ik(
+    State(state): State<Shared>,
+    Params(query): Params<IkQuery>,
+) -> Result<Cacheable, Error> {
     let answer = query.into_request().and_then(|request| answer_ik(&request, &state.machines));
     answer.map(|answer| (CACHEABLE, Json(answer))).map_err(point_into_query)
 }
@@ -67,7 +73,7 @@ pub async fn get_ik(State(state): State<Shared>, Params(query): Params<IkQuery>)
     request_body(content = IkRequest, description = "The pose, and what is wanted."),
     responses((status = 200, description = "The solutions, or why there are none.", body = Answer), BodyProblems)
 )]
-pub async fn post_ik(
+pub(crate) async fn post_ik(
     State(state): State<Shared>,
     Single(request): Single<IkRequest>,
 ) -> Result<Json<Answer>, Error> {

@@ -14,7 +14,7 @@ use crate::wire::catalogue::{MachineAnswer, MachineEntry, MachineList};
 use crate::wire::machine::MachineObject;
 
 /// The published machines, with what is said of each.
-pub fn list(machines: &Registry) -> MachineList {
+pub(crate) fn list(machines: &Registry) -> MachineList {
     let entry = |published: &Published| MachineEntry {
         id: published.id.clone(),
         description: published.machine.data().description.clone(),
@@ -23,7 +23,7 @@ pub fn list(machines: &Registry) -> MachineList {
 }
 
 /// One published machine with its numbers.
-pub fn show(machines: &Registry, name: &str) -> Result<MachineAnswer, Error> {
+pub(crate) fn show(machines: &Registry, name: &str) -> Result<MachineAnswer, Error> {
     let published = machines.get(name).ok_or_else(|| Error::NoSuchMachine(name.to_owned()))?;
     let definition = MachineObject::from(published.machine.data());
     Ok(MachineAnswer { machine: published.id.clone(), definition })
@@ -36,7 +36,7 @@ pub fn show(machines: &Registry, name: &str) -> Result<MachineAnswer, Error> {
     get, path = "/machines", operation_id = "machines", tag = "machines",
     responses((status = 200, description = "The machines, by name.", body = MachineList), ServiceProblems)
 )]
-pub async fn get_machines(State(state): State<Shared>) -> Json<MachineList> {
+pub(crate) async fn get_machines(State(state): State<Shared>) -> Json<MachineList> {
     Json(list(&state.machines))
 }
 
@@ -48,7 +48,7 @@ pub async fn get_machines(State(state): State<Shared>) -> Json<MachineList> {
     params(("name" = String, Path, description = "Its name.")),
     responses((status = 200, description = "The machine.", body = MachineAnswer), MachineProblems)
 )]
-pub async fn get_machine(
+pub(crate) async fn get_machine(
     State(state): State<Shared>,
     name: Result<Path<String>, PathRejection>,
 ) -> Result<Json<MachineAnswer>, Error> {
@@ -64,6 +64,6 @@ pub async fn get_machine(
     get, path = "/machines/schema", operation_id = "machine_schema", tag = "machines",
     responses((status = 200, description = "The schema.", body = Object), ServiceProblems)
 )]
-pub async fn get_machine_schema() -> Json<Value> {
+pub(crate) async fn get_machine_schema() -> Json<Value> {
     Json(machine_schema())
 }

@@ -1,9 +1,9 @@
 //! The OpenAPI document and the probes.
 
 use axum::Json;
+use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::header::{CONTENT_TYPE, HeaderName};
-use axum::body::Bytes;
 
 use crate::error::Error;
 use crate::openapi::problems::ServiceProblems;
@@ -17,7 +17,7 @@ use crate::wire::catalogue::Health;
     get, path = "/openapi.json", operation_id = "openapi", tag = "service",
     responses((status = 200, description = "The document.", body = Object), ServiceProblems)
 )]
-pub async fn get_openapi(State(state): State<Shared>) -> ([(HeaderName, &'static str); 1], Bytes) {
+pub(crate) async fn get_openapi(State(state): State<Shared>) -> ([(HeaderName, &'static str); 1], Bytes) {
     ([(CONTENT_TYPE, "application/json")], state.openapi.clone())
 }
 
@@ -28,7 +28,7 @@ pub async fn get_openapi(State(state): State<Shared>) -> ([(HeaderName, &'static
     get, path = "/livez", operation_id = "livez", tag = "service",
     responses((status = 200, description = "It lives.", body = Health), ServiceProblems)
 )]
-pub async fn get_livez() -> Json<Health> {
+pub(crate) async fn get_livez() -> Json<Health> {
     Json(Health { status: "ok" })
 }
 
@@ -39,11 +39,11 @@ pub async fn get_livez() -> Json<Health> {
     get, path = "/readyz", operation_id = "readyz", tag = "service",
     responses((status = 200, description = "It is ready.", body = Health), ServiceProblems)
 )]
-pub async fn get_readyz() -> Json<Health> {
+pub(crate) async fn get_readyz() -> Json<Health> {
     Json(Health { status: "ok" })
 }
 
 /// What is asked for where nothing lives.
-pub async fn nothing_here() -> Error {
+pub(crate) async fn nothing_here() -> Error {
     Error::NoSuchPath
 }

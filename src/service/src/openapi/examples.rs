@@ -98,14 +98,18 @@ fn of_bodies(state: &State) -> Vec<Example> {
             "/fk",
             json!({"machine": "verne", "joints": {"rho": [674, 685, 250], "theta1": 0, "theta2": 0},
                    "tool_length": 50, "solutions": "working"}),
-            |body| parse_body(body).and_then(|request| answer_fk(&request, registry)).map(|answer| json!(answer)),
+            |body| {
+                parse_body(body).and_then(|request| answer_fk(&request, registry)).map(|answer| json!(answer))
+            },
         ),
         post(
             "/ik",
             json!({"machine": "verne", "frame": "part",
                    "pose": {"x": 100, "y": 50, "z": 150, "axis": [0.0, -0.5, 0.866_025_403_784_438_6]},
                    "tool_length": 50, "solutions": "feasible"}),
-            |body| parse_body(body).and_then(|request| answer_ik(&request, registry)).map(|answer| json!(answer)),
+            |body| {
+                parse_body(body).and_then(|request| answer_ik(&request, registry)).map(|answer| json!(answer))
+            },
         ),
         post(
             "/fk/batch",

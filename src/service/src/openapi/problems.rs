@@ -12,19 +12,19 @@ use crate::problem::{PROBLEM_JSON, Problem};
 type Responses = BTreeMap<String, RefOr<Response>>;
 
 /// Failures of every operation.
-pub struct ServiceProblems;
+pub(crate) struct ServiceProblems;
 
 /// Failures of a question in the query string.
-pub struct QueryProblems;
+pub(crate) struct QueryProblems;
 
 /// Failures of a question in the body.
-pub struct BodyProblems;
+pub(crate) struct BodyProblems;
 
 /// Failures of a batch.
-pub struct BatchProblems;
+pub(crate) struct BatchProblems;
 
 /// Failures of asking for a machine by name.
-pub struct MachineProblems;
+pub(crate) struct MachineProblems;
 
 impl IntoResponses for ServiceProblems {
     fn responses() -> Responses {
@@ -48,7 +48,10 @@ impl IntoResponses for QueryProblems {
 
 impl IntoResponses for BodyProblems {
     fn responses() -> Responses {
-        with(of_bodies(), [documented("The body is too large (`body_too_large`).", Error::BodyTooLarge(65_536))])
+        with(
+            of_bodies(),
+            [documented("The body is too large (`body_too_large`).", Error::BodyTooLarge(65_536))],
+        )
     }
 }
 
@@ -71,7 +74,8 @@ impl IntoResponses for MachineProblems {
 }
 
 fn of_bodies() -> Responses {
-    let fault = Fault::new("/machine/limits/stroke/0", "must be [min, max] with min < max, both within ±1000000 mm");
+    let fault =
+        Fault::new("/machine/limits/stroke/0", "must be [min, max] with min < max, both within ±1000000 mm");
     with(
         ServiceProblems::responses(),
         [

@@ -14,7 +14,7 @@ use super::request::Joints;
 
 /// The machine that an answer is for.
 #[derive(Clone, Debug, Serialize, ToSchema)]
-pub struct MachineId {
+pub(crate) struct MachineId {
     /// Its name.
     #[schema(value_type = String, example = "verne")]
     pub name: Arc<str>,
@@ -25,7 +25,7 @@ pub struct MachineId {
 
 /// All that was asked for, sorted; or why there is nothing.
 #[derive(Clone, Debug, Serialize, ToSchema)]
-pub struct Answer {
+pub(crate) struct Answer {
     /// The machine.
     pub machine: MachineId,
     /// Working first, then by alpha, then by rho; or by distance from `near`.
@@ -47,15 +47,17 @@ pub struct Answer {
 /// A coordinate that a pose leaves open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Free {
+pub(crate) enum Free {
     /// Azimuth of the tool.
     Phi2,
 }
 
-/// Why a question has no solution.
+/// Why a question has no solution: `unreachable`, the equations have none of the kind asked for; `infeasible`, the
+/// working one breaks a limit and only feasible ones were asked for; `self_motion`, the sliders do not hold the
+/// platform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Reason {
+pub(crate) enum Reason {
     /// The equations have no solution of the kind asked for.
     Unreachable,
     /// The working solution breaks a limit, and only feasible ones were asked for.
@@ -66,7 +68,7 @@ pub enum Reason {
 
 /// One solution, put back into the equations.
 #[derive(Clone, Debug, Serialize, ToSchema)]
-pub struct Solution {
+pub(crate) struct Solution {
     /// The joints; in answers of /ik. theta1 and theta2 only in frame `part`.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
@@ -98,7 +100,7 @@ pub struct Solution {
 /// Pose of the platform in the base frame.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = PlatformPose)]
-pub struct PlatformObject {
+pub(crate) struct PlatformObject {
     /// mm.
     x: f64,
     /// mm.
@@ -112,7 +114,7 @@ pub struct PlatformObject {
 /// A point, mm.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = Point)]
-pub struct PointObject {
+pub(crate) struct PointObject {
     x: f64,
     y: f64,
     z: f64,
@@ -121,7 +123,7 @@ pub struct PointObject {
 /// Pose of the tool in the table frame.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = PartPose)]
-pub struct PartObject {
+pub(crate) struct PartObject {
     /// mm.
     x: f64,
     /// mm.
@@ -140,7 +142,7 @@ pub struct PartObject {
 /// Label of a solution.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = Mode)]
-pub struct ModeObject {
+pub(crate) struct ModeObject {
     /// Whether the slider of leg I is above or below the platform.
     leg1: SideName,
     /// Whether the slider of leg II is above or below the platform.
@@ -156,7 +158,7 @@ pub struct ModeObject {
 /// Which end of a leg is higher.
 #[derive(Clone, Copy, Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum SideName {
+pub(crate) enum SideName {
     /// The slider.
     Above,
     /// The platform.
@@ -177,7 +179,7 @@ impl From<Point> for PointObject {
 
 impl From<PartPose> for PartObject {
     fn from(pose: PartPose) -> Self {
-        let axis = Exactly(axis::tool_axis(pose.phi1, pose.phi2));
+        let axis = Exactly(axis::tool_axis(pose.phi1, pose.phi2).map(|cosine| cosine + 0.0));
         let (phi1, phi2) = (to_degrees(pose.phi1), to_degrees(pose.phi2));
         Self { x: pose.x, y: pose.y, z: pose.z, phi1, phi2, axis }
     }
@@ -185,7 +187,7 @@ impl From<PartPose> for PartObject {
 
 impl ModeObject {
     /// The label of a posture, with the index that the order gives it.
-    pub fn new(posture: &Posture, index: usize) -> Self {
+    pub(crate) fn new(posture: &Posture, index: usize) -> Self {
         let [leg1, leg2, leg3] = posture.mode.legs.map(|side| match side {
             Side::Above => SideName::Above,
             Side::Below => SideName::Below,

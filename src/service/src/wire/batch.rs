@@ -15,7 +15,7 @@ use super::request::Frame;
 /// Rows stay text here and are read one by one: a bad one then spoils no other.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub struct IkBatchRequest<'a> {
+pub(crate) struct IkBatchRequest<'a> {
     /// The machine: a published name, or the whole object.
     #[serde(default)]
     pub machine: MachineRef,
@@ -36,7 +36,7 @@ pub struct IkBatchRequest<'a> {
 /// The working solution for many joint positions.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub struct FkBatchRequest<'a> {
+pub(crate) struct FkBatchRequest<'a> {
     /// The machine: a published name, or the whole object.
     #[serde(default)]
     pub machine: MachineRef,
@@ -52,11 +52,11 @@ pub struct FkBatchRequest<'a> {
 }
 
 /// Numbers of one answered row.
-pub type Row = ArrayVec<f64, 5>;
+pub(crate) type Row = ArrayVec<f64, 5>;
 
 /// Joints for every pose, in order.
 #[derive(Debug, Serialize, ToSchema)]
-pub struct IkBatchAnswer {
+pub(crate) struct IkBatchAnswer {
     /// The machine.
     pub machine: MachineId,
     /// `[rho1, rho2, rho3]`, in frame `part` `[rho1, rho2, rho3, theta1, theta2]`; null where there are none. Joints
@@ -70,7 +70,7 @@ pub struct IkBatchAnswer {
 
 /// Poses for all joints, in order.
 #[derive(Debug, Serialize, ToSchema)]
-pub struct FkBatchAnswer {
+pub(crate) struct FkBatchAnswer {
     /// The machine.
     pub machine: MachineId,
     /// `[x, y, z, alpha]` of the platform in the base frame; null where there is none.
@@ -86,7 +86,7 @@ pub struct FkBatchAnswer {
 
 /// How each row fares: columns as long as the batch, and their sums.
 #[derive(Debug, Default, Serialize, ToSchema)]
-pub struct RowReport {
+pub(crate) struct RowReport {
     /// Status of each row.
     pub status: Vec<Status>,
     /// The worst violated constraint of each row that is not `ok`; null for `ok` and `invalid`.
@@ -102,10 +102,11 @@ pub struct RowReport {
     pub errors: Vec<RowError>,
 }
 
-/// Status of a row.
+/// Status of a row: `ok`; `unreachable`, no solution in the working mode; `infeasible`, solved, but breaks a limit;
+/// `invalid`, cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Status {
+pub(crate) enum Status {
     /// Solved, within every limit.
     Ok,
     /// No solution in the working mode.
@@ -118,7 +119,7 @@ pub enum Status {
 
 /// How many rows have each status.
 #[derive(Clone, Copy, Debug, Default, Serialize, ToSchema)]
-pub struct Counts {
+pub(crate) struct Counts {
     /// Solved, within every limit.
     pub ok: usize,
     /// No solution in the working mode.
@@ -131,7 +132,7 @@ pub struct Counts {
 
 /// What is wrong with a row.
 #[derive(Clone, Debug, Serialize, ToSchema)]
-pub struct RowError {
+pub(crate) struct RowError {
     /// The row, from 0.
     pub row: usize,
     /// What is wrong, and what would be accepted.

@@ -8,14 +8,14 @@ use super::machine::MachineObject;
 
 /// The published machines.
 #[derive(Debug, Serialize, ToSchema)]
-pub struct MachineList {
+pub(crate) struct MachineList {
     /// By name.
     pub machines: Vec<MachineEntry>,
 }
 
 /// One published machine.
 #[derive(Debug, Serialize, ToSchema)]
-pub struct MachineEntry {
+pub(crate) struct MachineEntry {
     /// Name and hash.
     #[serde(flatten)]
     pub id: MachineId,
@@ -25,7 +25,7 @@ pub struct MachineEntry {
 
 /// A published machine with its numbers.
 #[derive(Debug, Serialize, ToSchema)]
-pub struct MachineAnswer {
+pub(crate) struct MachineAnswer {
     /// Name and hash.
     pub machine: MachineId,
     /// The whole machine, as a request may carry it.
@@ -34,7 +34,7 @@ pub struct MachineAnswer {
 
 /// The state of the service.
 #[derive(Debug, Serialize, ToSchema)]
-pub struct Health {
+pub(crate) struct Health {
     /// Always `ok`: a service that is not answers nothing.
     #[schema(value_type = String, example = "ok")]
     pub status: &'static str,

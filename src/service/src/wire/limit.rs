@@ -10,7 +10,7 @@ use super::degrees::to_degrees;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Constraint)]
-pub enum ConstraintName {
+pub(crate) enum ConstraintName {
     /// A slider within its stroke, mm.
     Stroke,
     /// A leg long enough to reach, mm.
@@ -35,7 +35,7 @@ pub enum ConstraintName {
 
 /// Unit of a margin; the last is for pure numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
-pub enum Unit {
+pub(crate) enum Unit {
     /// Millimetres.
     #[serde(rename = "mm")]
     Millimetre,
@@ -49,7 +49,7 @@ pub enum Unit {
 
 /// A constraint's margin: positive inside, zero on the limit, negative outside.
 #[derive(Clone, Debug, Serialize, ToSchema)]
-pub struct Limit {
+pub(crate) struct Limit {
     /// Which constraint.
     pub constraint: ConstraintName,
     /// How far from the limit.

@@ -7,6 +7,7 @@ use verne_solver::machine::{Geometry, Limits, Table};
 
 use super::degrees::{from_degrees, to_short_degrees};
 use super::numbers::{Axes, Exactly, Pair, PairPerSlider};
+use super::object::object;
 
 /// A machine of the VERNE architecture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -20,12 +21,15 @@ pub struct MachineObject {
     #[serde(default)]
     pub description: String,
     /// The parallel module.
+    #[serde(deserialize_with = "object")]
     #[schema(inline)]
     pub geometry: GeometryObject,
     /// The tilting table.
+    #[serde(deserialize_with = "object")]
     #[schema(inline)]
     pub table: TableObject,
     /// Limits of joints and of singularities.
+    #[serde(deserialize_with = "object")]
     #[schema(inline)]
     pub limits: LimitsObject,
 }

@@ -10,12 +10,12 @@ use utoipa::ToSchema;
 use super::machine::MachineObject;
 
 /// Name of the built-in reference machine, which a request means when it names none.
-pub const REFERENCE: &str = "verne";
+pub(crate) const REFERENCE: &str = "verne";
 
 /// The machine that a question is about.
 #[derive(Clone, Debug, ToSchema)]
 #[serde(untagged)]
-pub enum MachineRef {
+pub(crate) enum MachineRef {
     /// The name of a published machine; GET /machines lists them.
     Name(String),
     /// A machine of one's own.

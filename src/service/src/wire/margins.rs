@@ -12,7 +12,7 @@ use super::numbers::{Exactly, Pair, PairPerSlider, PerRod, Triple};
 /// 11, 12, 21, 22, 31, 32.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = Margins)]
-pub struct MarginsObject {
+pub(crate) struct MarginsObject {
     /// `[rho - min, max - rho]` of each slider, mm.
     #[schema(inline)]
     stroke: PairPerSlider,
@@ -48,7 +48,7 @@ pub struct MarginsObject {
 
 impl MarginsObject {
     /// The margins in the wire's units.
-    pub fn new(machine: &Machine, margins: &Margins) -> Self {
+    pub(crate) fn new(machine: &Machine, margins: &Margins) -> Self {
         let range = |margins: [f64; 2]| Exactly(margins.map(to_degrees));
         Self {
             stroke: Exactly(margins.stroke.map(Exactly)),
@@ -69,7 +69,7 @@ impl MarginsObject {
 /// How a solution stands to singularities.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = Conditioning)]
-pub struct ConditioningObject {
+pub(crate) struct ConditioningObject {
     /// Determinant of the dimensionless parallel matrix; zero at a parallel singularity.
     det: f64,
     /// Its condition number in the 2-norm; null where it is singular.

@@ -17,15 +17,15 @@ use utoipa::{PartialSchema, ToSchema};
 pub struct Exactly<T, const N: usize>(pub [T; N]);
 
 /// `[min, max]`, or two margins.
-pub type Pair = Exactly<f64, 2>;
+pub(crate) type Pair = Exactly<f64, 2>;
 /// One number for each slider, or x, y, z.
-pub type Triple = Exactly<f64, 3>;
+pub(crate) type Triple = Exactly<f64, 3>;
 /// One number for each rod: 11, 12, 21, 22, 31, 32.
-pub type PerRod = Exactly<f64, 6>;
+pub(crate) type PerRod = Exactly<f64, 6>;
 /// A pair for each slider.
-pub type PairPerSlider = Exactly<Pair, 3>;
+pub(crate) type PairPerSlider = Exactly<Pair, 3>;
 /// Four directions: rod 11, rod 12, the rods of leg II, the rods of leg III.
-pub type Axes = Exactly<Triple, 4>;
+pub(crate) type Axes = Exactly<Triple, 4>;
 
 impl<T: Serialize, const N: usize> Serialize for Exactly<T, N> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -75,23 +75,23 @@ fn array_of(item: RefOr<Schema>, least: usize, most: usize) -> RefOr<Schema> {
 
 /// LEAST to MOST numbers separated by commas, as a query or a command line writes them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Listed<const LEAST: usize, const MOST: usize>(pub Vec<f64>);
+pub(crate) struct Listed<const LEAST: usize, const MOST: usize>(pub Vec<f64>);
 
 /// Three numbers: sliders or a direction.
-pub type ListedTriple = Listed<3, 3>;
+pub(crate) type ListedTriple = Listed<3, 3>;
 /// Sliders, perhaps with the table's angles.
-pub type ListedJoints = Listed<3, 5>;
+pub(crate) type ListedJoints = Listed<3, 5>;
 /// A position, perhaps with alpha.
-pub type ListedPose = Listed<3, 4>;
+pub(crate) type ListedPose = Listed<3, 4>;
 
 impl<const LEAST: usize, const MOST: usize> Listed<LEAST, MOST> {
     /// The first three numbers.
-    pub fn first_three(&self) -> Triple {
+    pub(crate) fn first_three(&self) -> Triple {
         Exactly(std::array::from_fn(|i| self.get(i).unwrap_or(f64::NAN)))
     }
 
     /// One of the numbers.
-    pub fn get(&self, i: usize) -> Option<f64> {
+    pub(crate) fn get(&self, i: usize) -> Option<f64> {
         self.0.get(i).copied()
     }
 }

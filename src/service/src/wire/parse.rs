@@ -4,16 +4,17 @@ use serde::Deserialize;
 use serde_json::error::Category;
 use serde_path_to_error::{Path, Segment};
 
+use super::object::Object;
 use crate::error::{Error, Fault};
 
-/// Parses a JSON body.
-pub fn parse_body<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Result<T, Error> {
+/// Parses a JSON body that holds an object.
+pub(crate) fn parse_body<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Result<T, Error> {
     // Tracking the path costs time on every field: only a body that failed is read again with it.
-    serde_json::from_slice(body).map_err(|_| explain_body::<T>(body))
+    serde_json::from_slice(body).map(|Object(request)| request).map_err(|_| explain_body::<T>(body))
 }
 
 /// Parses a query string.
-pub fn parse_query<'de, T: Deserialize<'de>>(query: &'de str) -> Result<T, Error> {
+pub(crate) fn parse_query<'de, T: Deserialize<'de>>(query: &'de str) -> Result<T, Error> {
     let pairs = serde_urlencoded::Deserializer::new(form_urlencoded::parse(query.as_bytes()));
     serde_path_to_error::deserialize(pairs).map_err(|error| {
         let message = error.inner().to_string();
@@ -24,12 +25,9 @@ pub fn parse_query<'de, T: Deserialize<'de>>(query: &'de str) -> Result<T, Error
 
 fn explain_body<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Error {
     let mut json = serde_json::Deserializer::from_slice(body);
-    let outcome = serde_path_to_error::deserialize::<_, T>(&mut json).map(drop);
-    let error = match outcome {
-        Err(error) => error,
-        Ok(()) => {
-            return Error::Syntax(json.end().map_or_else(|e| e.to_string(), |()| "trailing characters".into()));
-        }
+    let Err(error) = serde_path_to_error::deserialize::<_, Object<T>>(&mut json) else {
+        let rest = json.end().err();
+        return Error::Syntax(rest.map_or("trailing characters".to_owned(), |error| error.to_string()));
     };
     let message = error.inner().to_string();
     let detail = if message.starts_with("number out of range") {

@@ -17,7 +17,7 @@ fn reference() -> String {
 #[derive(Debug, Deserialize, IntoParams, Args)]
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
-pub struct FkQuery {
+pub(crate) struct FkQuery {
     /// The machine's name (on the command line also the path of a machine object).
     #[serde(default = "reference")]
     #[arg(long, default_value = REFERENCE)]
@@ -58,7 +58,7 @@ pub struct FkQuery {
 #[derive(Debug, Deserialize, IntoParams, Args)]
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
-pub struct IkQuery {
+pub(crate) struct IkQuery {
     /// The machine's name (on the command line also the path of a machine object).
     #[serde(default = "reference")]
     #[arg(long, default_value = REFERENCE)]
@@ -114,7 +114,7 @@ pub struct IkQuery {
 
 impl FkQuery {
     /// The question as POST would put it.
-    pub fn into_request(self) -> Result<FkRequest, Error> {
+    pub(crate) fn into_request(self) -> Result<FkRequest, Error> {
         Ok(FkRequest {
             near: near(self.near_joints, self.near_pose)?,
             machine: MachineRef::Name(self.machine),
@@ -127,7 +127,7 @@ impl FkQuery {
 
 impl IkQuery {
     /// The question as POST would put it.
-    pub fn into_request(self) -> Result<IkRequest, Error> {
+    pub(crate) fn into_request(self) -> Result<IkRequest, Error> {
         let axis = self.axis.map(|axis| axis.first_three());
         Ok(IkRequest {
             near: near(self.near_joints, self.near_pose)?,
@@ -159,7 +159,7 @@ fn near(joints: Option<ListedJoints>, pose: Option<ListedPose>) -> Result<Option
 }
 
 /// Turns the pointers of a question's body into those of its query.
-pub fn point_into_query(error: Error) -> Error {
+pub(crate) fn point_into_query(error: Error) -> Error {
     let Error::Fields(faults) = error else { return error };
     let moved = faults.into_iter().map(|fault| {
         let name = match fault.pointer.strip_prefix("/near") {

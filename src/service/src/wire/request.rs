@@ -6,15 +6,17 @@ use utoipa::ToSchema;
 
 use super::machine_ref::MachineRef;
 use super::numbers::Triple;
+use super::object::{object, optional_object};
 
 /// Where are platform, tool and part for these joints?
 #[derive(Clone, Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub struct FkRequest {
+pub(crate) struct FkRequest {
     /// The machine: a published name, or the whole object.
     #[serde(default)]
     pub machine: MachineRef,
     /// The sliders, and the table where a part pose is wanted.
+    #[serde(deserialize_with = "object")]
     pub joints: Joints,
     /// Distance from P to the tool's tip, mm.
     #[serde(default)]
@@ -24,13 +26,14 @@ pub struct FkRequest {
     #[serde(default)]
     pub solutions: Wanted,
     /// Sorts the solutions by distance from here.
+    #[serde(default, deserialize_with = "optional_object")]
     pub near: Option<Near>,
 }
 
 /// Which joints bring the machine to this pose?
 #[derive(Clone, Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub struct IkRequest {
+pub(crate) struct IkRequest {
     /// The machine: a published name, or the whole object.
     #[serde(default)]
     pub machine: MachineRef,
@@ -38,6 +41,7 @@ pub struct IkRequest {
     #[serde(default)]
     pub frame: Frame,
     /// The pose.
+    #[serde(deserialize_with = "object")]
     pub pose: TargetPose,
     /// Distance from P to the tool's tip, mm.
     #[serde(default)]
@@ -47,30 +51,31 @@ pub struct IkRequest {
     #[serde(default)]
     pub solutions: Wanted,
     /// Sorts the solutions by distance from here.
+    #[serde(default, deserialize_with = "optional_object")]
     pub near: Option<Near>,
 }
 
 /// Positions of the joints: sliders in mm, table in degrees.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Joints {
+pub(crate) struct Joints {
     /// The three sliders.
     #[schema(inline, example = json!([674, 685, 250]))]
     pub rho: Triple,
     /// Tilting angle of the table; together with theta2.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(minimum = -36000, maximum = 36000, nullable = false)]
+    #[schema(minimum = -36000, maximum = 36000)]
     pub theta1: Option<f64>,
     /// Rotary angle of the table; together with theta1.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(minimum = -36000, maximum = 36000, nullable = false)]
+    #[schema(minimum = -36000, maximum = 36000)]
     pub theta2: Option<f64>,
 }
 
 /// A pose in the frame of the question. In `part` it takes `phi1` and `phi2`, or `axis`.
 #[derive(Clone, Copy, Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub struct TargetPose {
+pub(crate) struct TargetPose {
     /// mm.
     #[schema(minimum = -1e7, maximum = 1e7)]
     pub x: f64,
@@ -81,21 +86,22 @@ pub struct TargetPose {
     #[schema(minimum = -1e7, maximum = 1e7)]
     pub z: f64,
     /// Inclination of the tool, degrees; only in `part`.
-    #[schema(minimum = -36000, maximum = 36000, nullable = false)]
+    #[schema(minimum = -36000, maximum = 36000)]
     pub phi1: Option<f64>,
     /// Azimuth of the tool, degrees; only in `part`. Where the tool stands along the table's own axis it may be
     /// left out, also beside `axis`: see `free` in the answer.
-    #[schema(minimum = -36000, maximum = 36000, nullable = false)]
+    #[schema(minimum = -36000, maximum = 36000)]
     pub phi2: Option<f64>,
     /// Tool axis in the table frame, from tip to holder, of any length; only in `part`, instead of phi1 and phi2.
-    #[schema(inline, nullable = false)]
+    #[schema(inline)]
     pub axis: Option<Triple>,
 }
 
-/// What a pose describes.
+/// What a pose describes: `platform`, the platform's point P in the base frame; `tool`, the tool's tip in the base
+/// frame (alpha follows); `part` (default), the tool's tip and orientation in the table frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
-pub enum Frame {
+pub(crate) enum Frame {
     /// The platform's point P in the base frame.
     Platform,
     /// The tool's tip in the base frame; alpha follows.
@@ -105,10 +111,11 @@ pub enum Frame {
     Part,
 }
 
-/// Which solutions to answer.
+/// Which solutions to answer: `working` (default), the machine's own mode, feasible or not; `feasible`, only what
+/// breaks no limit; `all`, every solution of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
-pub enum Wanted {
+pub(crate) enum Wanted {
     /// The machine's own mode, feasible or not.
     #[default]
     Working,
@@ -123,7 +130,7 @@ pub enum Wanted {
 #[serde(try_from = "NearFields")]
 #[schema(rename_all = "snake_case")]
 #[serde(untagged)]
-pub enum Near {
+pub(crate) enum Near {
     /// Distance of the joints; theta1 and theta2 count where both sides have them.
     Joints(Joints),
     /// Distance of the platform; alpha counts where it is given.
@@ -133,7 +140,7 @@ pub enum Near {
 /// A pose of the platform in the base frame.
 #[derive(Clone, Copy, Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub struct NearPose {
+pub(crate) struct NearPose {
     /// mm.
     pub x: f64,
     /// mm.
@@ -141,7 +148,6 @@ pub struct NearPose {
     /// mm.
     pub z: f64,
     /// Degrees.
-    #[schema(nullable = false)]
     pub alpha: Option<f64>,
 }
 
