@@ -1,9 +1,13 @@
-//! `verne fk` and `verne ik`: the questions of the query string, answered here.
+//! `verne fk`, `verne ik` and `verne openapi`: answered without a server.
 
 use std::fmt::Write;
 use std::path::Path;
 
+use clap::Subcommand;
+use serde::Serialize;
+
 use crate::answers::{answer_fk, answer_ik};
+use crate::app::document;
 use crate::error::{Error, Fault};
 use crate::registry::Registry;
 use crate::wire::answer::Answer;
@@ -12,8 +16,36 @@ use crate::wire::parse::parse_body;
 use crate::wire::query::{FkQuery, IkQuery, point_into_query};
 use crate::wire::request::{FkRequest, IkRequest};
 
-/// Answers `verne fk`.
-pub(super) fn fk(query: FkQuery) -> Result<Answer, String> {
+/// A question on the command line.
+#[derive(Debug, Subcommand)]
+pub(super) enum Question {
+    /// Forward kinematics: what GET /fk answers.
+    #[command(name = "fk")]
+    Forward(FkQuery),
+    /// Inverse kinematics: what GET /ik answers.
+    #[command(name = "ik")]
+    Inverse(IkQuery),
+    /// Print the OpenAPI document.
+    Openapi,
+}
+
+impl Question {
+    /// The JSON that HTTP would answer, with line breaks for people or without; or what is wrong.
+    pub(super) fn answer(self, pretty: bool) -> Result<String, String> {
+        match self {
+            Self::Forward(query) => written(&fk(query)?, pretty),
+            Self::Inverse(query) => written(&ik(query)?, pretty),
+            Self::Openapi => written(&document(), true),
+        }
+    }
+}
+
+fn written(answer: &impl Serialize, pretty: bool) -> Result<String, String> {
+    let text = if pretty { serde_json::to_string_pretty(answer) } else { serde_json::to_string(answer) };
+    text.map_err(|error| error.to_string())
+}
+
+fn fk(query: FkQuery) -> Result<Answer, String> {
     let machine = machine(&query.machine)?;
     let answer = query
         .into_request()
@@ -22,8 +54,7 @@ pub(super) fn fk(query: FkQuery) -> Result<Answer, String> {
     answer.map_err(in_flags)
 }
 
-/// Answers `verne ik`.
-pub(super) fn ik(query: IkQuery) -> Result<Answer, String> {
+fn ik(query: IkQuery) -> Result<Answer, String> {
     let machine = machine(&query.machine)?;
     let answer = query
         .into_request()
