@@ -69,7 +69,8 @@ fn compare(legs: &Legs, answer: &Answer, postures: &[Posture]) -> Result<(), Str
         let p = &posture.pose;
         let at_pair = |q: &nalgebra::Vector4<f64>| {
             let lever = legs.g.R1 * wrapped(p.alpha - q[3]);
-            let distance = [p.x - q[0], p.y - q[1], p.z - q[2], lever].map(f64::abs).into_iter().fold(0.0, f64::max);
+            let distance =
+                [p.x - q[0], p.y - q[1], p.z - q[2], lever].map(f64::abs).into_iter().fold(0.0, f64::max);
             distance < NEAR_A_PAIR * legs.scale()
         };
         if !pairs.iter().any(at_pair) {
@@ -108,8 +109,14 @@ pub(crate) fn listed(postures: &[Posture]) -> String {
     for posture in postures {
         let p = &posture.pose;
         let flags = (posture.working, posture.merged);
-        writeln!(text, "  {:?} rho {:?} {flags:?} {:e}", (p.x, p.y, p.z, p.alpha), posture.rho, posture.residual)
-            .unwrap();
+        writeln!(
+            text,
+            "  {:?} rho {:?} {flags:?} {:e}",
+            (p.x, p.y, p.z, p.alpha),
+            posture.rho,
+            posture.residual
+        )
+        .unwrap();
     }
     text
 }

@@ -7,13 +7,7 @@ use super::legs::Legs;
 
 /// Leg I at a chosen alpha (not 0 or π) and y: x and rho1 follow, x on the chosen side of leg I's
 /// guideway. `None` out of reach.
-pub(crate) fn leaning(
-    legs: &Legs,
-    alpha: f64,
-    y: f64,
-    z: f64,
-    side: f64,
-) -> Option<(Vector4<f64>, f64)> {
+pub(crate) fn leaning(legs: &Legs, alpha: f64, y: f64, z: f64, side: f64) -> Option<(Vector4<f64>, f64)> {
     let g = &legs.g;
     let (u, v) = (g.R1 * alpha.cos() - g.r1, g.R1 * alpha.sin());
     let w1 = -y * u / v;

@@ -151,7 +151,8 @@ pub(crate) fn curves(discriminant: impl Fn(f64) -> f64) -> (Vec<Curve>, Vec<f64>
     let ends = zeros(&discriminant);
     let grazes = ends.touches.into_iter().filter(|&a| discriminant(a) < 0.0).collect();
     if ends.crossings.is_empty() {
-        let sheets = if discriminant(0.1) > 0.0 { vec![Curve::Sheet(1.0), Curve::Sheet(-1.0)] } else { vec![] };
+        let sheets =
+            if discriminant(0.1) > 0.0 { vec![Curve::Sheet(1.0), Curve::Sheet(-1.0)] } else { vec![] };
         return (sheets, grazes);
     }
     let next = ends.crossings.iter().skip(1).copied().chain([ends.crossings[0] + TAU]);

@@ -29,7 +29,9 @@ impl Path {
 
     /// The tool centre point given in the base frame.
     pub(crate) fn tool(tip: [f64; 3], tool_length: f64) -> Self {
-        Self::sampled(|alpha| [tip[0], tip[1] + tool_length * alpha.sin(), tip[2] - tool_length * alpha.cos()])
+        Self::sampled(|alpha| {
+            [tip[0], tip[1] + tool_length * alpha.sin(), tip[2] - tool_length * alpha.cos()]
+        })
     }
 
     /// The tool given in the table frame: the table tilts by alpha - phi1 (Eqs (7), (9), (14)).

@@ -66,11 +66,7 @@ impl Legs {
         let (s, c) = q[3].sin_cos();
         let a = self.on_slider(rod);
         // The slider is subtracted from the platform first: both may be far from the origin.
-        Vector3::new(
-            q[0] + (b.x - a.x),
-            q[1] + (b.y * c - a.y),
-            (q[2] - rho[slider(rod)]) + b.y * s,
-        )
+        Vector3::new(q[0] + (b.x - a.x), q[1] + (b.y * c - a.y), (q[2] - rho[slider(rod)]) + b.y * s)
     }
 
     /// How much each of the four rods is too long.

@@ -81,7 +81,10 @@ fn no_direction_has_no_preimage() {
 #[test]
 fn axes_of_any_magnitude_are_directions() {
     for size in [1e-300, 1e-100, 1e100, 1e300] {
-        assert_same(tool_axis(both([0.3 * size, 0.4 * size, size])[0][0], 0.0), tool_axis(0.5_f64.atan(), 0.0));
+        assert_same(
+            tool_axis(both([0.3 * size, 0.4 * size, size])[0][0], 0.0),
+            tool_axis(0.5_f64.atan(), 0.0),
+        );
     }
 }
 

@@ -61,7 +61,11 @@ fn parallel_matrix_is_the_rate_of_the_rods() {
             let (e, g) = (expected[(row, column)], got[row][column]);
             // A short R1 makes a unit of R1 alpha a large turn.
             let coarse = 1e-7 * (scale(&machine) / legs.g.R1).powi(2);
-            assert!((e - g).abs() < coarse.min(1e-3), "({row}, {column}): {g}, expected {e}: {found:?} {:?}", legs.g);
+            assert!(
+                (e - g).abs() < coarse.min(1e-3),
+                "({row}, {column}): {g}, expected {e}: {found:?} {:?}",
+                legs.g
+            );
         }
     }
 }
@@ -105,7 +109,8 @@ fn singular() -> (Machine, Posture) {
     // Both legs as high at this x: L1² - X1² - u² = L2² - X2² - p².
     let g = &legs.g;
     let (e1, e2) = (g.D1 - g.d1, g.D2 - g.d2);
-    let x = (g.L1 * g.L1 - 200.0 * 200.0 - e1 * e1 - (g.L2 * g.L2 - 100.0 * 100.0 - e2 * e2)) / (2.0 * (e1 - e2));
+    let x =
+        (g.L1 * g.L1 - 200.0 * 200.0 - e1 * e1 - (g.L2 * g.L2 - 100.0 * 100.0 - e2 * e2)) / (2.0 * (e1 - e2));
     let found = hung(&legs, upright(&legs, 0.0, x, 1000.0, 1.0).unwrap(), [1.0, 1.0]).unwrap();
     (machine, found.posture(&legs))
 }

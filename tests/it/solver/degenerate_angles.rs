@@ -20,7 +20,8 @@ fn check(machine: &Machine, found: &Found, tally: &mut Tally) {
         assert_eq!(hits, 1, "{name} of {found:?}: {all:#?}");
     };
     let modes = forward(machine, found.rho).expect("the posture is an assembly mode");
-    agree(machine, &oracle::forward(machine, found.rho), &modes, tally).unwrap_or_else(|what| panic!("{what}"));
+    agree(machine, &oracle::forward(machine, found.rho), &modes, tally)
+        .unwrap_or_else(|what| panic!("{what}"));
     once("forward", &modes);
 
     let p = [found.q[0], found.q[1], found.q[2]];

@@ -71,7 +71,10 @@ fn check_posture(question: &str, machine: &Machine, posture: &Posture) {
     let legs = Legs::of(machine);
     let truly = legs.residual(&Vector4::new(p.x, p.y, p.z, p.alpha), &posture.rho);
     assert!(posture.residual <= allowed && truly <= allowed, "{question}: {truly:e} {posture:?}");
-    assert!(posture.residual >= 0.0 && (posture.residual - truly).abs() < allowed, "{question}: {truly:e} {posture:?}");
+    assert!(
+        posture.residual >= 0.0 && (posture.residual - truly).abs() < allowed,
+        "{question}: {truly:e} {posture:?}"
+    );
 }
 
 fn many(answer: Result<verne_solver::Postures, Refusal>) -> Result<Vec<Posture>, Refusal> {

@@ -70,12 +70,9 @@ fn of_crossing_parallel_and_symmetric_rods() {
     use std::f64::consts::PI;
     let machine = Machine::verne();
     let legs = Legs::of(&machine);
-    for (alpha, s1, sides) in [
-        (0.0, 1.0, [1.0, 1.0]),
-        (PI, 1.0, [1.0, 1.0]),
-        (PI, -1.0, [1.0, -1.0]),
-        (0.0, -1.0, [-1.0, 1.0]),
-    ] {
+    for (alpha, s1, sides) in
+        [(0.0, 1.0, [1.0, 1.0]), (PI, 1.0, [1.0, 1.0]), (PI, -1.0, [1.0, -1.0]), (0.0, -1.0, [-1.0, 1.0])]
+    {
         for x in [-300.0, -120.0, 0.0, 77.0, 300.0] {
             check(&machine, &hung(&legs, upright(&legs, alpha, x, 1200.0, s1).unwrap(), sides).unwrap());
         }

@@ -109,7 +109,10 @@ fn leg_two_at_full_stretch() {
 
             let (machine, p, rho1) = stretched(alpha, y, -drop_squared);
             let (found, counted) = at(&platform(&machine, p).unwrap_or_default(), alpha, rho1);
-            assert!(found == 0 || !exact && counted == 2 * found, "{slack:e} outside, alpha {alpha}: {found}");
+            assert!(
+                found == 0 || !exact && counted == 2 * found,
+                "{slack:e} outside, alpha {alpha}: {found}"
+            );
         }
         let (machine, p, rho1) = stretched(alpha, y, 0.0);
         let all = platform(&machine, p).expect("within reach");
@@ -141,7 +144,11 @@ fn beyond_a_leg_the_working_mode_names_it() {
         let Err(Refusal::Blocked(margin)) = platform_working(&short, [q[0], q[1], q[2]]) else {
             panic!("leg III is a millimetre short at {q:?}")
         };
-        assert_eq!((margin.constraint, margin.element), (Constraint::LegLength, Element::Leg(3)), "{margin:?}");
+        assert_eq!(
+            (margin.constraint, margin.element),
+            (Constraint::LegLength, Element::Leg(3)),
+            "{margin:?}"
+        );
         // A signed root: the millimetre lacking is a deficit of sqrt(2 L) under the root.
         let deficit = -(2.0 * (across.sqrt() - 0.5)).sqrt();
         assert!((margin.value - deficit).abs() < 1e-3, "{margin:?}, expected {deficit}");

@@ -85,14 +85,20 @@ fn cone_axes_that_point_nowhere() {
 #[test]
 fn equal_offsets_leave_x_undetermined() {
     let fields = fields(|d| (d.geometry.D2, d.geometry.d2) = (200.0, 700.0));
-    assert!(fields.iter().all(|field| ["geometry/D1", "geometry/D2"].contains(&field.as_str())), "{fields:?}");
+    assert!(
+        fields.iter().all(|field| ["geometry/D1", "geometry/D2"].contains(&field.as_str())),
+        "{fields:?}"
+    );
 }
 
 #[test]
 fn leg_one_s_rods_parallel_or_crossed_at_home() {
     for r1 in [275.0, 274.999_999_9, 300.0] {
         let fields = fields(|d| d.geometry.r1 = r1);
-        assert!(fields.contains(&"geometry/R1".to_owned()) || fields.contains(&"geometry/r1".to_owned()), "{fields:?}");
+        assert!(
+            fields.contains(&"geometry/R1".to_owned()) || fields.contains(&"geometry/r1".to_owned()),
+            "{fields:?}"
+        );
     }
 }
 

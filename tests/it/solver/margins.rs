@@ -57,7 +57,11 @@ fn leg_length_is_the_height_of_the_slider_over_the_platform() {
     for (machine, found) in postures(132, 1000) {
         let (legs, unit) = (Legs::of(&machine), scale(&machine));
         let got = Margins::of(&machine, &found.posture(&legs), None).leg_length;
-        let heights = [found.q[2] - found.rho[0], legs.rod(21, &found.q, &found.rho).z, legs.rod(31, &found.q, &found.rho).z];
+        let heights = [
+            found.q[2] - found.rho[0],
+            legs.rod(21, &found.q, &found.rho).z,
+            legs.rod(31, &found.q, &found.rho).z,
+        ];
         for i in 0..3 {
             let height = heights[i].abs();
             // A root: an error of the square grows as the height shrinks.

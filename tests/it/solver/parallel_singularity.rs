@@ -126,7 +126,12 @@ impl Fold {
                 _ => assert!(one || pair, "{what}"),
             }
         }
-        assert!(others.iter().all(|&far| far == others[0]), "{:?} {:?} other modes: {others:?}", self.q, self.rho);
+        assert!(
+            others.iter().all(|&far| far == others[0]),
+            "{:?} {:?} other modes: {others:?}",
+            self.q,
+            self.rho
+        );
     }
 }
 

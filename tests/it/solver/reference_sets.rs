@@ -48,7 +48,11 @@ fn check(tag: &str, postures: Result<Postures, Refusal>, solutions: &[Solution])
 fn check_working(tag: &str, posture: Result<Posture, Refusal>, solutions: &[Solution]) {
     if let Some(truth) = solutions.iter().find(|truth| truth.working) {
         let posture = posture.unwrap_or_else(|refusal| panic!("{tag}: {refusal:?}"));
-        assert!(is(&posture, truth), "{tag}: {posture:?} is not {:?}", (truth.platform, truth.alpha, truth.rho));
+        assert!(
+            is(&posture, truth),
+            "{tag}: {posture:?} is not {:?}",
+            (truth.platform, truth.alpha, truth.rho)
+        );
         assert!(posture.working && posture.residual < LENGTH, "{tag}: {posture:?}");
     } else {
         assert!(matches!(posture, Err(Refusal::Blocked(_))), "{tag}: {posture:?}");
@@ -88,7 +92,12 @@ fn forward_of_a_reference_posture_comes_back() {
     for case in reference::inverse() {
         for truth in &case.solutions {
             let modes = forward(&case.machine, truth.rho).expect("the reference posture is an assembly mode");
-            assert_eq!(modes.iter().filter(|posture| is(posture, truth)).count(), 1, "{}: {modes:#?}", case.tag);
+            assert_eq!(
+                modes.iter().filter(|posture| is(posture, truth)).count(),
+                1,
+                "{}: {modes:#?}",
+                case.tag
+            );
         }
     }
 }
@@ -98,10 +107,14 @@ fn the_table_turns_the_reference_platform_to_the_target() {
     for case in reference::inverse().iter().filter(|case| case.tool_length.is_some()) {
         let (target, tool_length) = (target(case), case.tool_length.unwrap());
         for posture in part(&case.machine, &target, tool_length).unwrap() {
-            let truth = case.solutions.iter().find(|truth| is(&posture, truth)).expect("a reference solution");
+            let truth =
+                case.solutions.iter().find(|truth| is(&posture, truth)).expect("a reference solution");
             let [theta1, theta2] = truth.table.unwrap();
             let table = table_angles(&case.machine, posture.pose.alpha, target.phi1, target.phi2);
-            assert!(turned(table.theta1, theta1) < ANGLE && turned(table.theta2, theta2) < ANGLE, "{table:?}");
+            assert!(
+                turned(table.theta1, theta1) < ANGLE && turned(table.theta2, theta2) < ANGLE,
+                "{table:?}"
+            );
             let back = part_pose(&case.machine, &posture.pose, table, tool_length);
             for (got, wanted) in [(back.x, target.x), (back.y, target.y), (back.z, target.z)] {
                 assert!((got - wanted).abs() < LENGTH, "{}: {back:?}", case.tag);

@@ -2,8 +2,8 @@
 //! out of the domain.
 
 use verne_solver::{
-    Constraint, DOMAIN, Element, Machine, PartPose, Posture, Postures, Refusal, forward, forward_working, part,
-    part_working, platform, platform_working, tool, tool_working,
+    Constraint, DOMAIN, Element, Machine, PartPose, Posture, Postures, Refusal, forward, forward_working,
+    part, part_working, platform, platform_working, tool, tool_working,
 };
 
 use crate::machines::Draw;

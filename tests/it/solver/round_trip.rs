@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector4;
 use verne_solver::{
-    Machine, PartPose, Posture, TableAngles, forward, part, part_pose, platform, table_angles, tool, tool_point,
+    Machine, PartPose, Posture, TableAngles, forward, part, part_pose, platform, table_angles, tool,
+    tool_point,
 };
 
 use crate::machines::{Draw, scale};
@@ -22,7 +23,8 @@ fn assert_among(question: &str, machine: &Machine, wanted: &Posture, answers: &[
         return; // merged with another, as far as the round trip can tell
     }
     let allowed = scale(machine) * 1e-12 * amplification.max(1.0);
-    let nearest = answers.iter().map(|answer| distance(machine, wanted, answer)).fold(f64::INFINITY, f64::min);
+    let nearest =
+        answers.iter().map(|answer| distance(machine, wanted, answer)).fold(f64::INFINITY, f64::min);
     assert!(
         nearest < allowed,
         "{question}: {nearest:e} mm off, {allowed:e} allowed: {wanted:?} in\n{}{:?}",
@@ -96,7 +98,10 @@ fn every_posture_of_a_tool_position_holds_the_tool_there() {
         for posture in tool(&machine, u, length).into_iter().flatten() {
             let tip = tool_point(&posture.pose, length);
             let off = (0..3).map(|i| (tip[i] - u[i]).abs()).fold(0.0, f64::max);
-            assert!(off < 1e-12 * scale(&machine), "u {u:?} tool {length:?}: {posture:?} holds it at {tip:?}");
+            assert!(
+                off < 1e-12 * scale(&machine),
+                "u {u:?} tool {length:?}: {posture:?} holds it at {tip:?}"
+            );
             postures += 1;
         }
     }
@@ -124,6 +129,7 @@ fn assert_same_tool(machine: &Machine, held: &PartPose, target: &PartPose) {
     let lengths = [held.x - target.x, held.y - target.y, held.z - target.z];
     let angles = [turned(held.phi1 - target.phi1), turned(held.phi2 - target.phi2)];
     // The table stands up to two machine lengths away, and its angles carry it around.
-    let near = lengths.iter().all(|d| d.abs() < 4e-12 * scale(machine)) && angles.iter().all(|d| d.abs() < 4e-12);
+    let near =
+        lengths.iter().all(|d| d.abs() < 4e-12 * scale(machine)) && angles.iter().all(|d| d.abs() < 4e-12);
     assert!(near, "{held:?} is not {target:?}");
 }

@@ -8,8 +8,7 @@ use crate::machines::{Draw, scale};
 use crate::oracle::{self, Tally, agree};
 
 /// Distances from exact symmetry, mm on a metre.
-const OFFSETS: [f64; 13] =
-    [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
+const OFFSETS: [f64; 13] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 
 fn with_legs_alike(machine: &Machine) -> Machine {
     let mut data: MachineData = machine.data().clone();
@@ -74,8 +73,11 @@ fn all_sliders_level() {
 #[test]
 fn rho1_half_way_between_rho2_and_rho3() {
     let (machine, mut draw, mut tally) = (Machine::verne(), Draw::seeded(52), Tally::default());
-    let random = (0..60).map(|_| [draw.between(-200.0, 900.0), draw.between(-900.0, 900.0)]).collect::<Vec<_>>();
-    for [middle, apart] in [[500.0, 100.0], [500.0, -100.0], [500.0, 400.0], [0.0, 700.0]].into_iter().chain(random) {
+    let random =
+        (0..60).map(|_| [draw.between(-200.0, 900.0), draw.between(-900.0, 900.0)]).collect::<Vec<_>>();
+    for [middle, apart] in
+        [[500.0, 100.0], [500.0, -100.0], [500.0, 400.0], [0.0, 700.0]].into_iter().chain(random)
+    {
         for offset in OFFSETS.into_iter().flat_map(|offset| [offset, -offset]) {
             check(&machine, [middle + offset / 2.0, middle - apart, middle + apart], &mut tally);
         }

@@ -10,8 +10,8 @@ use crate::oracle::{self, Path, Tally, agree};
 
 /// y from exactly zero to a micrometre on a metre, on both sides.
 const OFFSETS: [f64; 22] = [
-    0.0, -0.0, 1e-12, -1e-12, 1e-11, -1e-11, 1e-10, -1e-10, 1e-9, -1e-9, 1e-8, -1e-8, 1e-7, -1e-7, 1e-6, -1e-6,
-    1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3,
+    0.0, -0.0, 1e-12, -1e-12, 1e-11, -1e-11, 1e-10, -1e-10, 1e-9, -1e-9, 1e-8, -1e-8, 1e-7, -1e-7, 1e-6,
+    -1e-6, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3,
 ];
 
 /// Positions in the plane where the reference machine has all sixteen postures.
@@ -33,7 +33,8 @@ fn platform_has_all_sixteen_postures() {
     for [x, z] in positions() {
         for y in OFFSETS {
             let question = format!("p {:?}", [x, y, z]);
-            let all = platform(&machine, [x, y, z]).unwrap_or_else(|refusal| panic!("{question}: {refusal:?}"));
+            let all =
+                platform(&machine, [x, y, z]).unwrap_or_else(|refusal| panic!("{question}: {refusal:?}"));
             assert_eq!(all.len(), 16, "{question}: {all:#?}");
             let answer = oracle::inverse(&machine, &Path::platform([x, y, z]));
             agree(&machine, &answer, &all, &mut tally).unwrap_or_else(|what| panic!("{question}: {what}"));
@@ -92,7 +93,8 @@ fn part_frame_agrees_with_the_oracle() {
             // With phi1 = phi2 = 0 and the table level, the table's y is the base's, turned over.
             let target = PartPose { x, y: -y, z: 1700.0 - z - length, phi1: 0.0, phi2: 0.0 };
             let question = format!("{target:?} tool {length}");
-            let all = part(&machine, &target, length).unwrap_or_else(|refusal| panic!("{question}: {refusal:?}"));
+            let all =
+                part(&machine, &target, length).unwrap_or_else(|refusal| panic!("{question}: {refusal:?}"));
             let answer = oracle::inverse(&machine, &Path::part(&machine, &target, length));
             agree(&machine, &answer, &all, &mut tally).unwrap_or_else(|what| panic!("{question}: {what}"));
             let posture = part_working(&machine, &target, length).expect(&question);

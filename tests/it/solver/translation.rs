@@ -30,7 +30,8 @@ fn assert_same(question: &str, level: f64, low: &[Posture], high: &[Posture]) {
             let slid = [0, 1, 2].map(|i| posture.rho[i] - other.rho[i]);
             moved.iter().chain(&slid).all(|d| d.abs() < tolerance)
         };
-        let twin = high.iter().find(same).unwrap_or_else(|| panic!("{question} and {level}: {posture:?} {high:#?}"));
+        let twin =
+            high.iter().find(same).unwrap_or_else(|| panic!("{question} and {level}: {posture:?} {high:#?}"));
         assert_eq!((twin.mode, twin.working), (posture.mode, posture.working), "{question} and {level}");
     }
 }
@@ -52,7 +53,8 @@ fn of_the_assembly_modes() {
 fn of_the_postures_at_a_position() {
     let (machine, mut draw) = (Machine::verne(), Draw::seeded(172));
     for _ in 0..200 {
-        let [x, y, z] = [draw.between(-300.0, 300.0), draw.between(-300.0, 300.0), short(draw.between(800.0, 1500.0))];
+        let [x, y, z] =
+            [draw.between(-300.0, 300.0), draw.between(-300.0, 300.0), short(draw.between(800.0, 1500.0))];
         let low = platform(&machine, [x, y, z]).unwrap();
         let low_tool = tool(&machine, [x, y, z], 150.0).unwrap();
         for level in LEVELS {

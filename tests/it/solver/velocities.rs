@@ -30,7 +30,10 @@ fn check(machine: &Machine, posture: &Posture, step: f64, tolerance: f64) -> usi
         let Some(expected) = differences(machine, posture.rho, slider, step) else { return 0 };
         for (i, lever) in [1.0, 1.0, 1.0, unit].into_iter().enumerate() {
             let off = (rates[i][slider] - expected[i]).abs() * lever;
-            assert!(off < tolerance, "rate {i} with slider {slider} of {posture:?}: {rates:?}, expected {expected:?}");
+            assert!(
+                off < tolerance,
+                "rate {i} with slider {slider} of {posture:?}: {rates:?}, expected {expected:?}"
+            );
         }
     }
     1
@@ -69,7 +72,10 @@ fn all_sliders_together_carry_the_platform_along() {
         let tolerance = 1e-12 * found.amplification.max(1.0) * scale(&machine) / machine.data().geometry.R1;
         for (rate, expected) in together.into_iter().zip([0.0, 0.0, 1.0, 0.0]) {
             // alpha's rate in turns a machine length.
-            assert!((rate - expected).abs() < tolerance * 1e3_f64.max(1.0 / scale(&machine)), "{together:?} {found:?}");
+            assert!(
+                (rate - expected).abs() < tolerance * 1e3_f64.max(1.0 / scale(&machine)),
+                "{together:?} {found:?}"
+            );
         }
     }
 }

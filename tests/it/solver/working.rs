@@ -28,7 +28,8 @@ fn check(
     match one {
         Ok(posture) => {
             assert!(posture.working, "{question}: {posture:?}");
-            let nearest = working.iter().map(|w| distance(machine, w, &posture)).fold(f64::INFINITY, f64::min);
+            let nearest =
+                working.iter().map(|w| distance(machine, w, &posture)).fold(f64::INFINITY, f64::min);
             // Both are exact to rounding unless a singularity is near; a different mode is far away.
             assert!(nearest < 1e-8 * scale(machine), "{question}: {posture:?} not among {working:?}");
         }
@@ -75,7 +76,8 @@ fn of_tool_positions() {
         let machine = draw.any_machine();
         let (u, length) = (draw.point(&machine), draw.tool_length(&machine));
         let question = format!("u {u:?} tool {length:?} {:?}", machine.data());
-        let working = check(&question, &machine, tool(&machine, u, length), tool_working(&machine, u, length));
+        let working =
+            check(&question, &machine, tool(&machine, u, length), tool_working(&machine, u, length));
         if working == 0 { none += 1 } else { found += 1 }
     }
     assert!(found > 2000 && none > 2000, "{found} with and {none} without a working mode");
