@@ -57,7 +57,7 @@ fn is_not_a_number(body: &[u8], error: &serde_json::Error) -> bool {
     words.contains(&word)
 }
 
-/// The JSON Pointer of a path. A missing field is not on the path; the message names it.
+/// The JSON Pointer of a path. A missing or repeated field is not on the path; the message names it.
 fn pointer(path: &Path, message: &str) -> String {
     let mut pointer = String::new();
     for segment in path {
@@ -67,8 +67,9 @@ fn pointer(path: &Path, message: &str) -> String {
             Segment::Enum { .. } | Segment::Unknown => {}
         }
     }
-    if let Some(missing) = message.strip_prefix("missing field `").and_then(|rest| rest.split('`').next()) {
-        push(&mut pointer, missing);
+    let named = ["missing field `", "duplicate field `"].iter().find_map(|words| message.strip_prefix(words));
+    if let Some(name) = named.and_then(|rest| rest.split('`').next()) {
+        push(&mut pointer, name);
     }
     pointer
 }
