@@ -37,7 +37,8 @@ impl Example {
         match self.asked {
             Asked::Body(body) => operation["requestBody"]["content"]["application/json"]["example"] = body,
             Asked::Parameters(values) => {
-                for parameter in operation["parameters"].as_array_mut().into_iter().flatten() {
+                let parameters = operation.get_mut("parameters").and_then(Value::as_array_mut);
+                for parameter in parameters.into_iter().flatten() {
                     if let Some(value) = parameter["name"].as_str().and_then(|name| values.get(name)) {
                         parameter["example"] = value.clone();
                     }
