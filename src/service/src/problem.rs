@@ -1,6 +1,8 @@
 //! The one map from errors to HTTP: status, stable `code`, and the problem document (RFC 9457).
 
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::BoxError;
+use axum::body::{Body, Bytes, HttpBody};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -109,10 +111,14 @@ impl IntoResponse for Error {
 
 /// Gives a problem document to every failure that the framework answered without one (a method
 /// that is not allowed, a time-out, a panic); headers such as Allow stay.
-pub(crate) async fn give_every_failure_a_document(response: Response) -> Response {
+pub(crate) fn give_every_failure_a_document<B>(response: axum::http::Response<B>) -> Response
+where
+    B: HttpBody<Data = Bytes> + Send + 'static,
+    B::Error: Into<BoxError>,
+{
     let status = response.status();
-    if !(status.is_client_error() || status.is_server_error()) || is_problem(&response) {
-        return response;
+    if !(status.is_client_error() || status.is_server_error()) || is_problem(response.headers()) {
+        return response.map(Body::new);
     }
     let (mut parts, _) = response.into_parts();
     let (document, body) = error_behind(status).into_response().into_parts();
@@ -122,6 +128,6 @@ pub(crate) async fn give_every_failure_a_document(response: Response) -> Respons
     Response::from_parts(parts, body)
 }
 
-fn is_problem(response: &Response) -> bool {
-    response.headers().get(header::CONTENT_TYPE).is_some_and(|found| found == PROBLEM_JSON)
+fn is_problem(headers: &HeaderMap) -> bool {
+    headers.get(header::CONTENT_TYPE).is_some_and(|found| found == PROBLEM_JSON)
 }

@@ -4,6 +4,7 @@ pub(crate) mod answer;
 pub(crate) mod batch;
 pub(crate) mod catalogue;
 pub(crate) mod degrees;
+pub(crate) mod json;
 pub(crate) mod limit;
 pub(crate) mod machine;
 pub(crate) mod machine_ref;

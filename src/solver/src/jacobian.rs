@@ -68,10 +68,11 @@ pub fn velocities(machine: &Machine, posture: &Posture) -> Option<[[f64; 3]; 4]>
 pub(crate) fn matrix(g: &Geometry, rods: &Rods) -> ParallelMatrix {
     let ratio = g.R2 / g.R1;
     let arms = [1.0, -1.0, -ratio, ratio];
-    std::array::from_fn(|i| {
+    let row = |i: usize| {
         let [x, y, z] = rods.directions[i];
         [x, y, z, arms[i] * (rods.c * z - rods.s * y)]
-    })
+    };
+    [row(0), row(1), row(2), row(3)]
 }
 
 /// Determinant by complementary 2×2 minors.
@@ -88,14 +89,23 @@ pub(crate) fn determinant(m: &ParallelMatrix) -> f64 {
 
 /// `det_P` in a pose at home: x = y = alpha = 0.
 pub(crate) fn det_at_home(g: &Geometry) -> f64 {
-    determinant(&matrix(g, &at_home(g)))
+    determinant(&matrix(g, &at_home(g).rods))
 }
 
-/// The rods at home, all sliders above.
-pub(crate) fn at_home(g: &Geometry) -> Rods {
+/// The home pose x = y = alpha = 0 with all sliders above.
+pub(crate) struct Home {
+    /// The rods.
+    pub(crate) rods: Rods,
+    /// z - rho of the three sliders, mm.
+    pub(crate) drops: [f64; 3],
+}
+
+/// Home; it exists in every valid machine.
+pub(crate) fn at_home(g: &Geometry) -> Home {
     let x = [g.D1 - g.d1, g.D2 - g.d2];
     let (u, p) = (g.R1 - g.r1, g.R2 - g.r4);
     let drop = |length: f64, x: f64, y: f64| (length * length - x * x - y * y).max(0.0).sqrt();
-    let w = [drop(g.L1, x[0], u), drop(g.L2, x[1], p), drop(g.L3, x[1], p)];
-    Rods::new(g, x, 0.0, w, [1.0, 0.0])
+    let drops = [drop(g.L1, x[0], u), drop(g.L2, x[1], p), drop(g.L3, x[1], p)];
+    let inverse = [1.0 / g.L1, 1.0 / g.L1, 1.0 / g.L2, 1.0 / g.L3];
+    Home { rods: Rods::new(g, &inverse, x, 0.0, drops, [1.0, 0.0]), drops }
 }

@@ -3,7 +3,7 @@
 use verne_solver::{TableAngles, forward, forward_working};
 
 use super::near;
-use super::solutions::{Findings, Found, Presentation, alone};
+use super::solutions::{Findings, Found, Presentation};
 use crate::error::Error;
 use crate::faults::Faults;
 use crate::registry::Registry;
@@ -16,12 +16,14 @@ pub(crate) fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answ
     let table = checked_table(request)?;
     let published = machines.resolve(&request.machine)?;
     let rho = request.joints.rho.0;
-    let outcome = match request.solutions {
-        Wanted::All => forward(&published.machine, rho),
-        Wanted::Working | Wanted::Feasible => forward_working(&published.machine, rho).map(alone),
-    };
+    let complete = |posture| Found { posture, table, asked: None };
     let mut findings = Findings::default();
-    findings.add(outcome, |posture| Found { posture, table, asked: None });
+    match request.solutions {
+        Wanted::All => findings.add(forward(&published.machine, rho), complete),
+        Wanted::Working | Wanted::Feasible => {
+            findings.add_one(forward_working(&published.machine, rho), complete);
+        }
+    }
     let presentation = Presentation {
         published: &published,
         tool_length: request.tool_length,

@@ -4,11 +4,12 @@ use rayon::prelude::*;
 use serde_json::value::RawValue;
 use verne_solver::{Machine, TableAngles, forward_working, part_pose};
 
-use super::batch_rows::{CHUNK, Verdict, check_batch, judge, read_row, refuse, report, write};
+use super::batch_rows::{CHUNK, ROW_BYTES, Verdict, check_batch, judge, read_row, refuse, report};
 use crate::error::Error;
 use crate::state::State;
 use crate::wire::batch::{FkBatchAnswer, FkBatchRequest, Row};
 use crate::wire::degrees::{from_degrees, to_degrees};
+use crate::wire::json::write_json;
 use crate::wire::parse::parse_body;
 
 /// One answered row.
@@ -44,7 +45,8 @@ pub(crate) fn answer_fk_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Err
         verdicts.push(verdict);
     }
     let machine = published.id.clone();
-    write(&FkBatchAnswer { machine, poses, parts, report: report(verdicts.into_iter()) })
+    let answer = FkBatchAnswer { machine, poses, parts, report: report(verdicts.into_iter()) };
+    write_json(&answer, ROW_BYTES * answer.poses.len())
 }
 
 fn answer_row(machine: &Machine, tool_length: f64, text: &RawValue) -> Answered {

@@ -1,13 +1,13 @@
 //! `/ik`: which joints bring the machine to a pose.
 
 use verne_solver::{
-    Machine, PartPose, Point, part, part_working, platform, platform_working, table_angles, tool,
+    Machine, PartPose, Point, Posture, part, part_working, platform, platform_working, table_angles, tool,
     tool_working,
 };
 
 use super::near;
 use super::orientation::{Orientations, no_orientation, orientations};
-use super::solutions::{Findings, Found, Presentation, alone};
+use super::solutions::{Findings, Found, Presentation};
 use crate::error::Error;
 use crate::faults::Faults;
 use crate::registry::Registry;
@@ -59,29 +59,29 @@ fn in_part(machine: &Machine, request: &IkRequest, [x, y, z]: Point, asked: &Ori
     let mut findings = Findings::default();
     for &[phi1, phi2] in &asked.each {
         let target = PartPose { x, y, z, phi1, phi2 };
-        let outcome = match request.solutions {
-            Wanted::All => part(machine, &target, request.tool_length),
-            Wanted::Working | Wanted::Feasible => {
-                part_working(machine, &target, request.tool_length).map(alone)
-            }
-        };
-        findings.add(outcome, |posture| {
+        let complete = |posture: Posture| {
             let table = table_angles(machine, posture.pose.alpha, phi1, phi2);
             Found { posture, table: Some(table), asked: Some([phi1, phi2]) }
-        });
+        };
+        match request.solutions {
+            Wanted::All => findings.add(part(machine, &target, request.tool_length), complete),
+            Wanted::Working | Wanted::Feasible => {
+                findings.add_one(part_working(machine, &target, request.tool_length), complete);
+            }
+        }
     }
     findings
 }
 
 fn in_base(machine: &Machine, request: &IkRequest, point: Point) -> Findings {
-    let all = request.solutions == Wanted::All;
-    let outcome = match (request.frame == Frame::Tool, all) {
-        (true, true) => tool(machine, point, request.tool_length),
-        (true, false) => tool_working(machine, point, request.tool_length).map(alone),
-        (false, true) => platform(machine, point),
-        (false, false) => platform_working(machine, point).map(alone),
-    };
+    let (all, length) = (request.solutions == Wanted::All, request.tool_length);
+    let complete = |posture| Found { posture, table: None, asked: None };
     let mut findings = Findings::default();
-    findings.add(outcome, |posture| Found { posture, table: None, asked: None });
+    match (request.frame == Frame::Tool, all) {
+        (true, true) => findings.add(tool(machine, point, length), complete),
+        (true, false) => findings.add_one(tool_working(machine, point, length), complete),
+        (false, true) => findings.add(platform(machine, point), complete),
+        (false, false) => findings.add_one(platform_working(machine, point), complete),
+    }
     findings
 }

@@ -6,11 +6,12 @@ use verne_solver::{
     Machine, PartPose, Posture, TableAngles, part_working, platform_working, table_angles, tool_working,
 };
 
-use super::batch_rows::{CHUNK, Verdict, check_batch, judge, read_row, refuse, report, write};
+use super::batch_rows::{CHUNK, ROW_BYTES, Verdict, check_batch, judge, read_row, refuse, report};
 use crate::error::Error;
 use crate::state::State;
 use crate::wire::batch::{IkBatchAnswer, IkBatchRequest, Row};
 use crate::wire::degrees::{from_degrees, to_degrees};
+use crate::wire::json::write_json;
 use crate::wire::parse::parse_body;
 use crate::wire::request::Frame;
 
@@ -27,7 +28,9 @@ pub(crate) fn answer_ik_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Err
         .map(|text| answer_row(machine, request.frame, request.tool_length, text))
         .collect();
     let (joints, verdicts): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
-    write(&IkBatchAnswer { machine: published.id.clone(), joints, report: report(verdicts.into_iter()) })
+    let answer =
+        IkBatchAnswer { machine: published.id.clone(), joints, report: report(verdicts.into_iter()) };
+    write_json(&answer, ROW_BYTES * answer.joints.len())
 }
 
 fn answer_row(machine: &Machine, frame: Frame, tool_length: f64, text: &RawValue) -> (Option<Row>, Verdict) {

@@ -36,24 +36,25 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Adds the outcome of one question to the solver.
-    pub(super) fn add(
-        &mut self,
-        outcome: Result<impl IntoIterator<Item = Posture>, Refusal>,
-        complete: impl Fn(Posture) -> Found,
-    ) {
+    /// Adds all that one question to the solver found.
+    pub(super) fn add(&mut self, outcome: Result<Postures, Refusal>, complete: impl Fn(Posture) -> Found) {
         match outcome {
             Ok(postures) => self.found.extend(postures.into_iter().map(complete)),
-            Err(refusal) => {
-                self.refusal.get_or_insert(refusal);
-            }
+            Err(refusal) => self.refuse(refusal),
         }
     }
-}
 
-/// The solver's one working posture, as a list.
-pub(super) fn alone(posture: Posture) -> Postures {
-    [posture].into_iter().collect()
+    /// Adds the one posture that was wanted.
+    pub(super) fn add_one(&mut self, outcome: Result<Posture, Refusal>, complete: impl Fn(Posture) -> Found) {
+        match outcome {
+            Ok(posture) => self.found.push(complete(posture)),
+            Err(refusal) => self.refuse(refusal),
+        }
+    }
+
+    fn refuse(&mut self, refusal: Refusal) {
+        self.refusal.get_or_insert(refusal);
+    }
 }
 
 /// What is needed to put findings into an answer.

@@ -1,8 +1,7 @@
 //! `/fk` and `/ik`.
 
-use axum::Json;
 use axum::extract::State;
-use axum::http::header::{CACHE_CONTROL, HeaderName};
+use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, HeaderName};
 
 use crate::answers::{answer_fk, answer_ik};
 use crate::error::Error;
@@ -10,13 +9,23 @@ use crate::extract::{Params, Single};
 use crate::openapi::problems::{BodyProblems, QueryProblems};
 use crate::state::Shared;
 use crate::wire::answer::Answer;
+use crate::wire::json::write_json;
 use crate::wire::query::{FkQuery, IkQuery, point_into_query};
 use crate::wire::request::{FkRequest, IkRequest};
 
 /// An answer depends on its URL and on the published machines, which change only with a restart.
-const CACHEABLE: [(HeaderName, &str); 1] = [(CACHE_CONTROL, "public, max-age=300")];
+const CACHEABLE: (HeaderName, &str) = (CACHE_CONTROL, "public, max-age=300");
 
-type Cacheable = ([(HeaderName, &'static str); 1], Json<Answer>);
+const JSON: (HeaderName, &str) = (CONTENT_TYPE, "application/json");
+
+/// About the bytes of a solution.
+const SOLUTION_BYTES: usize = 2048;
+
+type Written<const HEADERS: usize> = ([(HeaderName, &'static str); HEADERS], Vec<u8>);
+
+fn write(answer: &Answer) -> Result<Vec<u8>, Error> {
+    write_json(answer, SOLUTION_BYTES * answer.solutions.len().max(1))
+}
 
 /// Forward kinematics
 ///
@@ -29,9 +38,10 @@ type Cacheable = ([(HeaderName, &'static str); 1], Json<Answer>);
 pub(crate) async fn get_fk(
     State(state): State<Shared>,
     Params(query): Params<FkQuery>,
-) -> Result<Cacheable, Error> {
+) -> Result<Written<2>, Error> {
     let answer = query.into_request().and_then(|request| answer_fk(&request, &state.machines));
-    answer.map(|answer| (CACHEABLE, Json(answer))).map_err(point_into_query)
+    let text = answer.and_then(|answer| write(&answer)).map_err(point_into_query)?;
+    Ok(([JSON, CACHEABLE], text))
 }
 
 /// Forward kinematics, with a machine of one's own
@@ -45,8 +55,9 @@ pub(crate) async fn get_fk(
 pub(crate) async fn post_fk(
     State(state): State<Shared>,
     Single(request): Single<FkRequest>,
-) -> Result<Json<Answer>, Error> {
-    answer_fk(&request, &state.machines).map(Json)
+) -> Result<Written<1>, Error> {
+    let answer = answer_fk(&request, &state.machines)?;
+    Ok(([JSON], write(&answer)?))
 }
 
 /// Inverse kinematics
@@ -60,9 +71,10 @@ pub(crate) async fn post_fk(
 pub(crate) async fn get_ik(
     State(state): State<Shared>,
     Params(query): Params<IkQuery>,
-) -> Result<Cacheable, Error> {
+) -> Result<Written<2>, Error> {
     let answer = query.into_request().and_then(|request| answer_ik(&request, &state.machines));
-    answer.map(|answer| (CACHEABLE, Json(answer))).map_err(point_into_query)
+    let text = answer.and_then(|answer| write(&answer)).map_err(point_into_query)?;
+    Ok(([JSON, CACHEABLE], text))
 }
 
 /// Inverse kinematics, with a machine of one's own
@@ -76,6 +88,7 @@ pub(crate) async fn get_ik(
 pub(crate) async fn post_ik(
     State(state): State<Shared>,
     Single(request): Single<IkRequest>,
-) -> Result<Json<Answer>, Error> {
-    answer_ik(&request, &state.machines).map(Json)
+) -> Result<Written<1>, Error> {
+    let answer = answer_ik(&request, &state.machines)?;
+    Ok(([JSON], write(&answer)?))
 }

@@ -6,7 +6,7 @@ use serde_json::value::RawValue;
 use utoipa::ToSchema;
 
 use super::answer::MachineId;
-use super::limit::ConstraintName;
+use super::limit::{ConstraintName, ElementName};
 use super::machine_ref::MachineRef;
 use super::request::Frame;
 
@@ -94,7 +94,8 @@ pub(crate) struct RowReport {
     /// Its margin: negative, in the constraint's unit (mm, degrees or a pure number).
     pub margin: Vec<Option<f64>>,
     /// The part of the machine it belongs to, such as `slider2.max`.
-    pub element: Vec<Option<String>>,
+    #[schema(value_type = Vec<Option<String>>)]
+    pub element: Vec<Option<ElementName>>,
     /// How many rows have each status.
     pub counts: Counts,
     /// What is wrong with the invalid rows: the first hundred.

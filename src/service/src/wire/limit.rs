@@ -1,6 +1,8 @@
 //! Names of constraints, their units, and the parts of the machine they belong to.
 
-use serde::Serialize;
+use std::fmt;
+
+use serde::{Serialize, Serializer};
 use utoipa::ToSchema;
 use verne_solver::{Constraint, Element, Margin};
 
@@ -58,8 +60,8 @@ pub(crate) struct Limit {
     pub unit: Unit,
     /// Where: `slider1.min`, `slider1.max`, `leg1`, `rod11`, `rods11-31`, `theta1.min`, `theta2.max` or
     /// `platform`.
-    #[schema(example = "slider2.max")]
-    pub element: String,
+    #[schema(value_type = String, example = "slider2.max")]
+    pub element: ElementName,
 }
 
 impl From<Constraint> for ConstraintName {
@@ -94,21 +96,33 @@ impl From<Margin> for Limit {
         let constraint = ConstraintName::from(margin.constraint);
         let unit = constraint.unit();
         let value = if unit == Unit::Degree { to_degrees(margin.value) } else { margin.value + 0.0 };
-        Self { constraint, value, unit, element: element(margin) }
+        Self { constraint, value, unit, element: ElementName(margin) }
     }
 }
 
-fn element(margin: Margin) -> String {
-    let end = |high| if high { "max" } else { "min" };
-    match margin.element {
-        Element::Stroke { slider, high } => format!("slider{slider}.{}", end(high)),
-        Element::Leg(leg) => format!("leg{leg}"),
-        Element::Rod(rod) => format!("rod{rod}"),
-        Element::Rods(one, other) => format!("rods{one}-{other}"),
-        Element::Range { high } => {
-            let angle = if margin.constraint == Constraint::Rotary { "theta2" } else { "theta1" };
-            format!("{angle}.{}", end(high))
+/// The part of the machine that a margin belongs to; written as its name.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ElementName(Margin);
+
+impl Serialize for ElementName {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl fmt::Display for ElementName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let end = |high| if high { "max" } else { "min" };
+        match self.0.element {
+            Element::Stroke { slider, high } => write!(f, "slider{slider}.{}", end(high)),
+            Element::Leg(leg) => write!(f, "leg{leg}"),
+            Element::Rod(rod) => write!(f, "rod{rod}"),
+            Element::Rods(one, other) => write!(f, "rods{one}-{other}"),
+            Element::Range { high } => {
+                let angle = if self.0.constraint == Constraint::Rotary { "theta2" } else { "theta1" };
+                write!(f, "{angle}.{}", end(high))
+            }
+            Element::Platform => f.write_str("platform"),
         }
-        Element::Platform => "platform".to_owned(),
     }
 }

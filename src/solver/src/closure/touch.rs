@@ -113,18 +113,17 @@ fn at_fold<const M: usize, C: Closure<M>>(
     let starts = [at, window[0], window[1], 0.5 * (at + window[0]), 0.5 * (at + window[1])];
     starts.into_iter().filter_map(|a| root_at(closure, sheet, a, false)).find_map(|start| {
         let root = polish(closure, start)?;
-        let (s, c) = at.sin_cos();
-        ((root.c - c).hypot(root.s - s) <= 2.0 * WINDOW).then_some(root)
+        ((root.a - at).abs() <= 2.0 * WINDOW).then_some(root)
     })
 }
 
 fn root_at<const M: usize, C: Closure<M>>(closure: &C, sheet: usize, a: f64, merged: bool) -> Option<Root> {
     let (s, c) = a.sin_cos();
     let w = closure.sheets(c, s)?[sheet];
-    Some(Root { c, s, w, merged })
+    Some(Root { a, c, s, w, merged })
 }
 
 /// Polishing moves a root by far less than the window, or it went astray.
 fn close(polished: &Root, start: &Root) -> bool {
-    (polished.c - start.c).hypot(polished.s - start.s) <= 0.1 * WINDOW
+    (polished.a - start.a).abs() <= 0.1 * WINDOW
 }

@@ -2,12 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::legs::{self, Closed};
+use super::legs;
 use super::track::{LegOne, Track};
-use crate::closure::roots;
+use crate::closure::{Roots, find_roots};
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
-use crate::posture::Side;
 
 /// Angles at which leg I is tried.
 const TRIALS: u32 = 32;
@@ -17,14 +16,11 @@ const STEPS: usize = 20;
 /// No posture in any mode: leg I does not close, or where it does another leg is too short.
 #[cold]
 pub(super) fn of_all(machine: &Machine, track: &Track) -> Margin {
-    roots(&LegOne::new(machine, track), PI, None)
+    let mut roots = Roots::new();
+    find_roots(&LegOne::new(machine, track), PI, &mut roots);
+    roots
         .iter()
-        .filter_map(|root| {
-            let p = track.at(root.c, root.s);
-            let closed =
-                Closed { p, c: root.c, s: root.s, w1: root.w, side: Side::of(root.w), merged: false };
-            legs::reach_of_others(machine, &closed)
-        })
+        .filter_map(|root| legs::reach_of_others(machine, &track.closed(root)))
         .max_by(|a, b| a.value.total_cmp(&b.value))
         .unwrap_or_else(|| of_leg_one(machine, track))
 }
@@ -35,7 +31,10 @@ pub(super) fn of_all(machine: &Machine, track: &Track) -> Margin {
 pub(super) fn of_leg_one(machine: &Machine, track: &Track) -> Margin {
     let leg = LegOne::new(machine, track);
     let g = machine.geometry();
-    let crossed = roots(&leg, PI, Some(1.0)).iter().map(|root| g.R1 * root.c - g.r1).max_by(f64::total_cmp);
+    let mut roots = Roots::new();
+    find_roots(&leg, PI, &mut roots);
+    let above = roots.iter().filter(|root| root.w >= 0.0);
+    let crossed = above.map(|root| g.R1 * root.c - g.r1).max_by(f64::total_cmp);
     if let Some(value) = crossed.filter(|value| *value < 0.0) {
         return Margin { constraint: Constraint::RodCrossing, element: Element::Leg(1), value };
     }
