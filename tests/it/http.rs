@@ -66,6 +66,7 @@ pub(crate) async fn post(uri: &str, body: impl ToString) -> Reply {
 }
 
 /// A request with a JSON body.
+#[allow(clippy::needless_pass_by_value, reason = "callers build the body in place")]
 pub(crate) fn json_request(method: Method, uri: &str, body: impl ToString) -> Request<Body> {
     Request::builder()
         .method(method)

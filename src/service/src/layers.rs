@@ -31,7 +31,7 @@ pub(crate) fn wrap(routes: Router, time_limit: Duration) -> Router {
     )
 }
 
-/// The service keeps no secrets and no sessions: any page may ask.
+/// The service keeps no secrets and no state of its callers: any page may ask.
 fn open_to_browsers() -> CorsLayer {
     CorsLayer::new().allow_origin(Any).allow_methods(Any).allow_headers(Any).expose_headers(Any)
 }
