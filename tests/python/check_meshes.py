@@ -31,9 +31,10 @@ def read(path):
         scene = trimesh.load_scene(path)
         if not scene.geometry:
             return None
+        for part in scene.geometry.values():
+            if part.vertex_attributes["_TAG"].max() >= len(part.metadata["palette"]):
+                raise ValueError("a vertex has a tag that is not in the palette")
         mesh = scene.to_mesh()
-        if "color" not in (mesh.visual.kind or "vertex color"):
-            raise ValueError(f"the vertices have no colours but {mesh.visual.kind}")
         # Split along the creases for the sake of normals: weld what lies in one place.
         mesh.merge_vertices(merge_norm=True, merge_tex=True)
     else:

@@ -6,8 +6,9 @@ mod solids;
 
 use std::error::Error;
 use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde_json::json;
 use solids::Parts;
@@ -41,18 +42,20 @@ fn write(path: &Path, mesh: &Mesh) -> Result<(), Box<dyn Error>> {
         extras: extras.clone(),
     };
     let file = |extension: &str| File::create(path.with_extension(extension));
-    let begun = Instant::now();
-    glb::write(mesh, &options, file("glb")?)?;
-    let glb = begun.elapsed();
-    stl::write(mesh, "solid", file("stl")?)?;
-    let stl = begun.elapsed() - glb;
-    ply::write(mesh, &extras.to_string(), file("ply")?)?;
-    let ply = begun.elapsed() - glb - stl;
-    verne_mesh::json::write(mesh, &extras, file("json")?)?;
-    let json = begun.elapsed() - glb - stl - ply;
-    let audit = begun.elapsed();
-    println!("{} {:?}", path.display(), mesh.audit());
-    let audit = begun.elapsed() - audit;
+    let glb = timed(|| glb::write(mesh, &options, file("glb")?))?;
+    let stl = timed(|| stl::write(mesh, "solid", file("stl")?))?;
+    let ply = timed(|| ply::write(mesh, &extras.to_string(), file("ply")?))?;
+    let json = timed(|| verne_mesh::json::write(mesh, &extras, file("json")?))?;
+    let audit = timed(|| {
+        println!("{} {:?}", path.display(), mesh.audit());
+        Ok(())
+    })?;
     println!("  glb {glb:.1?} stl {stl:.1?} ply {ply:.1?} json {json:.1?} audit {audit:.1?}");
     Ok(())
+}
+
+fn timed(work: impl FnOnce() -> io::Result<()>) -> io::Result<Duration> {
+    let begun = Instant::now();
+    work()?;
+    Ok(begun.elapsed())
 }

@@ -24,7 +24,8 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// True if the surface has an inside everywhere: no rim, two triangles at each edge and these facing one way.
+    /// True if the surface has an inside everywhere: no rim, two triangles at each edge and these facing one
+    /// way.
     pub fn is_watertight(&self) -> bool {
         self.boundary_edges == 0 && self.non_manifold_edges == 0 && self.inconsistent_edges == 0
     }

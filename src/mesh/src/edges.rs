@@ -2,11 +2,12 @@
 
 use crate::Mesh;
 
-/// One triangle's side. The corners of triangle t are numbered 3t, 3t + 1, 3t + 2; the side runs from `corner` to the
-/// triangle's next one.
+/// One triangle's side. The corners of triangle t are numbered 3t, 3t + 1, 3t + 2; the side runs from
+/// `corner` to the triangle's next one.
 #[derive(Clone, Copy)]
 pub(crate) struct Side {
-    /// The two vertices, the lesser in the upper half, so that both triangles at an edge give the same number.
+    /// The two vertices, the lesser in the upper half, so that both triangles at an edge give the same
+    /// number.
     edge: u64,
     /// The corner it starts from.
     pub(crate) corner: u32,

@@ -1,6 +1,7 @@
 //! Which of many numbered things hang together.
 
-/// Disjoint sets of the numbers below a bound; the least member stands for its set, whatever the order of joining.
+/// Disjoint sets of the numbers below a bound; the least member stands for its set, whatever the order of
+/// joining.
 pub(crate) struct Forest {
     parent: Vec<u32>,
 }

@@ -1,7 +1,8 @@
 //! GLB, the binary glTF 2.0: for viewers. In metres and with Y up, as glTF demands.
 //!
-//! The vertices are split along the creases and interleaved, 32 bytes each: position, normal, colour, and the tag as
-//! the application's own attribute `_TAG`, an index into the `palette` that stands in the mesh's `extras`.
+//! The vertices are split along the creases and interleaved, 32 bytes each: position, normal, colour, and the
+//! tag as the application's own attribute `_TAG`, an index into the `palette` that stands in the mesh's
+//! `extras`.
 
 mod document;
 mod layout;

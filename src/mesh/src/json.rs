@@ -7,9 +7,9 @@ use serde_json::Value;
 
 use crate::{Mesh, Swatch};
 
-/// Writes the mesh as one JSON object: `unit`, flat `positions` (three numbers a vertex) and `indices` (three a
-/// triangle), `tags` (one a vertex), `triangle_tags`, the `palette` that the tags index, and the caller's `extras`
-/// unless null. Positions are written so that they read back exactly.
+/// Writes the mesh as one JSON object: `unit`, flat `positions` (three numbers a vertex) and `indices` (three
+/// a triangle), `tags` (one a vertex), `triangle_tags`, the `palette` that the tags index, and the caller's
+/// `extras` unless null. Positions are written so that they read back exactly.
 pub fn write(mesh: &Mesh, extras: &Value, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     let object = Object {

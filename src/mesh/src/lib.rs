@@ -1,8 +1,9 @@
-//! Indexed triangle meshes, in millimetres and in some right-handed frame: measures, audits, plane sections and
-//! encoders. What is meshed, and for whom, is the caller's business.
+//! Indexed triangle meshes, in millimetres and in some right-handed frame: measures, audits, plane sections
+//! and encoders. What is meshed, and for whom, is the caller's business.
 //!
-//! Geometry is kept welded (a vertex is stored once and shared), so that a closed surface is closed by its indices
-//! and not by a comparison of coordinates. Only GLB, which has one normal a vertex, is given split vertices.
+//! Geometry is kept welded (a vertex is stored once and shared), so that a closed surface is closed by its
+//! indices and not by a comparison of coordinates. Only GLB, which has one normal a vertex, is given split
+//! vertices.
 
 mod audit;
 mod edges;

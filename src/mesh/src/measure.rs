@@ -29,8 +29,8 @@ impl Mesh {
         }))
     }
 
-    /// The volume that the triangles enclose, mm³: negative where they face inwards, and without meaning where the
-    /// mesh is not watertight.
+    /// The volume that the triangles enclose, mm³: negative where they face inwards, and without meaning
+    /// where the mesh is not watertight.
     pub fn volume(&self) -> f64 {
         // Tetrahedra from the centre, not from the frame's origin: a mesh far from it would lose digits.
         let apex = self.bounds().map_or([0.0; 3], |bounds| bounds.centre());

@@ -4,8 +4,8 @@ use crate::{MeshFault, Swatch};
 
 /// Triangles over shared vertices, each triangle with a tag; lengths in millimetres.
 ///
-/// A triangle's corners run counter-clockwise seen from outside. Two triangles share an edge when they name the same
-/// two vertices; equal coordinates under different indices are different vertices.
+/// A triangle's corners run counter-clockwise seen from outside. Two triangles share an edge when they name
+/// the same two vertices; equal coordinates under different indices are different vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     positions: Vec<[f64; 3]>,

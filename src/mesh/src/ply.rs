@@ -5,8 +5,8 @@ use std::io::{self, BufWriter, Write};
 
 use crate::Mesh;
 
-/// Writes the mesh as a little-endian PLY: vertices with colour and tag, faces with their tag. Each line of the
-/// comments becomes a comment, and so does each swatch.
+/// Writes the mesh as a little-endian PLY: vertices with colour and tag, faces with their tag. Each line of
+/// the comments becomes a comment, and so does each swatch.
 pub fn write(mesh: &Mesh, comments: &str, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     out.write_all(header(mesh, comments).as_bytes())?;

@@ -8,8 +8,8 @@ use crate::{Mesh, sum};
 /// A closed polygon in the plane of the cut, the last point joined to the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// The corners (x, y), mm. The mesh's inside lies to the left, so that an outer contour runs counter-clockwise in
-    /// x and y and a hole's clockwise.
+    /// The corners (x, y), mm. The mesh's inside lies to the left, so that an outer contour runs
+    /// counter-clockwise in x and y and a hole's clockwise.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -27,8 +27,8 @@ impl Contour {
 impl Mesh {
     /// The contours at the height `z` of a watertight mesh; of another, what closes by a straight line.
     ///
-    /// A vertex at the very height counts as above, as though the plane lay a hair lower in z: so every cut is of
-    /// whole edges, and a flat face in the plane shows if the inside lies on the lower side of it.
+    /// A vertex at the very height counts as above, as though the plane lay a hair lower in z: so every cut
+    /// is of whole edges, and a flat face in the plane shows if the inside lies on the lower side of it.
     pub fn section(&self, z: f64) -> Vec<Contour> {
         let mut following = self.following(z);
         let mut contours = Vec::new();
@@ -53,11 +53,11 @@ impl Mesh {
         contours
     }
 
-    /// From each side that passes down through the plane to the next such side along its contour, both named by the
-    /// corner they start from.
+    /// From each side that passes down through the plane to the next such side along its contour, both named
+    /// by the corner they start from.
     ///
-    /// A triangle that is cut has one side down and one up, and the contour crosses it from the first to the second.
-    /// There it enters the neighbour, for which the same edge is the side down.
+    /// A triangle that is cut has one side down and one up, and the contour crosses it from the first to the
+    /// second. There it enters the neighbour, for which the same edge is the side down.
     fn following(&self, z: f64) -> BTreeMap<u32, u32> {
         let mut following = BTreeMap::new();
         for sides in Edges::among(self, |from, to| self.above(from, z) != self.above(to, z)).iter() {

@@ -29,8 +29,8 @@ const NONE: u32 = u32::MAX;
 impl Shading {
     /// Splits the vertices along edges that bend by more than `crease` (radians) or that part two tags.
     ///
-    /// A patch's normal at a vertex is the mean of its triangles' normals weighted by their angles there, which does
-    /// not depend on how a flat polygon is cut into triangles.
+    /// A patch's normal at a vertex is the mean of its triangles' normals weighted by their angles there,
+    /// which does not depend on how a flat polygon is cut into triangles.
     pub(crate) fn of(mesh: &Mesh, crease: f64) -> Self {
         let normals: Vec<_> =
             mesh.triangles().iter().map(|triangle| facet::normal(mesh.corners(triangle))).collect();
@@ -91,7 +91,8 @@ fn split(mesh: &Mesh, fans: &mut Forest) -> Shading {
     shading
 }
 
-/// The direction of a vector; where there is none (all triangles flat, or facing each other) any direction does.
+/// The direction of a vector; where there is none (all triangles flat, or facing each other) any direction
+/// does.
 fn unit(sum: [f64; 3]) -> [f64; 3] {
     let length = norm(sum);
     if length > 1e-9 { scale(sum, length.recip()) } else { [0.0, 0.0, 1.0] }

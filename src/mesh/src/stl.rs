@@ -2,6 +2,7 @@
 
 use std::io::{self, BufWriter, Write};
 
+use crate::vector::single;
 use crate::{Mesh, facet};
 
 const HEADER: usize = 80;
@@ -36,16 +37,10 @@ fn header(title: &str) -> [u8; HEADER] {
 /// Twelve numbers and two bytes that nobody agrees on, left zero.
 fn record(vectors: [[f64; 3]; 4]) -> [u8; 50] {
     let mut bytes = [0; 50];
-    for (slot, &number) in bytes.chunks_exact_mut(4).zip(vectors.as_flattened()) {
-        slot.copy_from_slice(&single(number).to_le_bytes());
+    for (slot, &number) in bytes.chunks_exact_mut(4).zip(vectors.map(single).as_flattened()) {
+        slot.copy_from_slice(&number.to_le_bytes());
     }
     bytes
-}
-
-/// The nearest single; zero without a sign.
-#[expect(clippy::cast_possible_truncation, reason = "STL's numbers are singles")]
-fn single(number: f64) -> f32 {
-    number as f32 + 0.0
 }
 
 #[cfg(test)]

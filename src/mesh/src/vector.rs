@@ -23,3 +23,9 @@ pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 pub(crate) fn norm(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
+
+/// The nearest single-precision vector; a zero loses its sign, so that equal places have equal bytes.
+#[expect(clippy::cast_possible_truncation, reason = "the rounding is what is asked for")]
+pub(crate) fn single(a: [f64; 3]) -> [f32; 3] {
+    a.map(|component| component as f32 + 0.0)
+}

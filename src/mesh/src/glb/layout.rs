@@ -1,7 +1,7 @@
 //! What lies where in the binary chunk: the vertices, then the indices.
 
-/// Bytes of one vertex: three floats of position, three of the normal, four of colour, the tag, and three that bring
-/// the next vertex to a multiple of four.
+/// Bytes of one vertex: three floats of position, three of the normal, four of colour, the tag, and three
+/// that bring the next vertex to a multiple of four.
 pub(super) const STRIDE: usize = 32;
 
 /// The binary chunk's measures.

@@ -1,6 +1,7 @@
 //! From the mesh's frame to glTF's.
 
 use crate::Bounds;
+use crate::vector::single;
 
 /// Which way is up in the mesh's frame. Both turns into glTF's frame are about x, and proper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,11 +23,11 @@ impl Up {
 
 /// The frame of a GLB's vertices: metres, Y up, about the mesh's middle.
 ///
-/// Single precision is finest near zero. So the node is moved to the middle, and the vertices are relative to it.
+/// Single precision is finest near zero. So the node is moved to the middle, and the vertices are relative to
+/// it.
 pub(super) struct Placement {
     up: Up,
-    /// The node's translation, m. Multiples of 2⁻¹⁰: exact in single precision and in a short decimal, so that
-    /// every reader adds back what was subtracted here.
+    /// The node's translation, m. On a grid, so that every reader adds back what was subtracted here.
     pub(super) translation: [f32; 3],
     /// The vertices' least and greatest coordinates.
     pub(super) bounds: [[f32; 3]; 2],
@@ -35,10 +36,10 @@ pub(super) struct Placement {
 impl Placement {
     pub(super) fn new(up: Up, Bounds { min, max }: Bounds) -> Self {
         let middle = up.turn(Bounds { min, max }.centre());
-        let translation = middle.map(|mm| single((mm * METRES * 1024.0).round() / 1024.0));
+        let translation = single(middle.map(|mm| (mm * METRES * GRID).round() / GRID));
         let mut placement = Self { up, translation, bounds: [[0.0; 3]; 2] };
-        // The turn exchanges and negates axes only, and rounding keeps order: the box of the images is the image of
-        // the box, but for the order of its corners.
+        // The turn exchanges and negates axes only, and rounding keeps order: the box of the images is the
+        // image of the box, but for the order of its corners.
         let (a, b) = (placement.position(min), placement.position(max));
         placement.bounds = [
             [a[0].min(b[0]), a[1].min(b[1]), a[2].min(b[2])],
@@ -51,24 +52,23 @@ impl Placement {
     pub(super) fn position(&self, point: [f64; 3]) -> [f32; 3] {
         let turned = self.up.turn(point);
         let [x, y, z] = self.translation.map(f64::from);
-        [turned[0] * METRES - x, turned[1] * METRES - y, turned[2] * METRES - z].map(single)
+        single([turned[0] * METRES - x, turned[1] * METRES - y, turned[2] * METRES - z])
     }
 
     /// A unit vector.
     pub(super) fn direction(&self, unit: [f64; 3]) -> [f32; 3] {
-        self.up.turn(unit).map(single)
+        single(self.up.turn(unit))
     }
 }
 
 const METRES: f64 = 1e-3;
 
-/// The nearest single; zero without a sign, so that equal places have equal bytes.
-#[expect(clippy::cast_possible_truncation, reason = "glTF's numbers are singles")]
-fn single(number: f64) -> f32 {
-    number as f32 + 0.0
-}
+/// Steps a metre in the node's translation. Sixty-fourths are exact as singles and in the few decimals that a
+/// single is written with; a thousandth is neither.
+const GRID: f64 = 64.0;
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
     use super::{Placement, Up};
     use crate::Bounds;
@@ -89,9 +89,11 @@ mod tests {
             Bounds { min: [-407.0, -540.5, 870.6], max: [392.0, 540.5, 1627.0] },
         );
         let vertex = placement.position([100.1, -200.2, 1500.3]);
-        let sum: Vec<f64> =
-            vertex.iter().zip(placement.translation).map(|(v, t)| f64::from(*v) + f64::from(t)).collect();
-        for (found, wanted) in sum.iter().zip([0.1001, -1.5003, -0.2002]) {
+        let written = serde_json::to_string(&placement.translation).unwrap();
+        let read: [f64; 3] = serde_json::from_str(&written).unwrap();
+        assert_eq!(read, placement.translation.map(f64::from), "{written}");
+        for (axis, wanted) in [0.1001, -1.5003, -0.2002].into_iter().enumerate() {
+            let found = f64::from(vertex[axis]) + read[axis];
             assert!((found - wanted).abs() < 2e-8, "{found} is not {wanted}");
         }
     }

@@ -40,7 +40,8 @@ impl Parts {
         self
     }
 
-    /// A ball: an octahedron, each face cut into n² triangles and blown up; 8n² triangles, the tag by the sign of z.
+    /// A ball: an octahedron, each face cut into n² triangles and blown up; 8n² triangles, the tag by the
+    /// sign of z.
     pub(crate) fn ball(mut self, centre: [f64; 3], radius: f64, n: i32) -> Self {
         let mut number = BTreeMap::new();
         for octant in 0..8 {
