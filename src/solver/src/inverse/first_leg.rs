@@ -26,11 +26,11 @@ const LARGE: f64 = 0.01;
 /// One angle of leg I with its slider above (s1 = +1); the mirror image (c, -s, -w1) is the
 /// solution with the slider below.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LegAngle {
-    pub(super) c: f64,
-    pub(super) s: f64,
-    pub(super) w1: f64,
-    pub(super) merged: bool,
+pub(crate) struct LegAngle {
+    pub(crate) c: f64,
+    pub(crate) s: f64,
+    pub(crate) w1: f64,
+    pub(crate) merged: bool,
 }
 
 /// g/R1² as a cubic in t, t = 1 - c (`k` positive) or t = 1 + c (`k` negative).
@@ -39,7 +39,7 @@ struct Cubic([f64; 4]);
 
 /// Leg I at given x and y.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FirstLeg<'a> {
+pub(crate) struct FirstLeg<'a> {
     machine: &'a Machine,
     y: f64,
     e: f64,
@@ -47,7 +47,7 @@ pub(super) struct FirstLeg<'a> {
 
 impl<'a> FirstLeg<'a> {
     #[inline]
-    pub(super) fn new(machine: &'a Machine, x: f64, y: f64) -> Self {
+    pub(crate) fn new(machine: &'a Machine, x: f64, y: f64) -> Self {
         let x1 = x + machine.derived.e1;
         let l1 = machine.geometry().L1;
         Self { machine, y, e: (l1 - x1) * (l1 + x1) - machine.derived.c }
@@ -55,14 +55,14 @@ impl<'a> FirstLeg<'a> {
 
     /// The angle nearest to zero, where the working mode usually is.
     #[inline]
-    pub(super) fn nearest(&self) -> Option<LegAngle> {
+    pub(crate) fn nearest(&self) -> Option<LegAngle> {
         let t = self.cubic(1.0).newton(0.0)?;
         Some(self.angle(1.0 - t, t, false))
     }
 
     /// Both angles; one if they have merged; none if the leg does not reach.
     #[inline]
-    pub(super) fn both(&self) -> ArrayVec<LegAngle, 2> {
+    pub(crate) fn both(&self) -> ArrayVec<LegAngle, 2> {
         let (k, right_side) = (self.machine.derived.k, self.cubic(1.0));
         let inflection = 1.0 - self.e / (3.0 * k);
         let right = right_side.newton(0.0);
@@ -87,6 +87,16 @@ impl<'a> FirstLeg<'a> {
         let slack = 2.0 * RESIDUAL_TOLERANCE * l1 * l1;
         let inside = t > 0.0 && t < 2.0 && cubic.value(t) >= -slack * t * (2.0 - t);
         inside.then(|| self.angle(1.0 - t, t, true))
+    }
+
+    /// Where the leg does not reach: the angle that misses least, and by how much (15) misses
+    /// there, over R1² L1²: negative, and zero where the leg begins to reach.
+    #[cold]
+    pub(crate) fn closest(&self) -> (LegAngle, f64) {
+        let cubic = self.cubic(1.0);
+        let l1 = self.machine.geometry().L1;
+        let t = cubic.maximum().unwrap_or(2.0).clamp(0.0, 2.0);
+        (self.angle(1.0 - t, t, true), cubic.value(t).min(0.0) / (l1 * l1))
     }
 
     #[inline]
