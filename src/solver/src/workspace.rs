@@ -10,11 +10,14 @@ mod image;
 mod measure;
 mod observer;
 mod path;
+mod plane;
 mod quadrature;
 mod request;
 mod root;
+mod surface;
 
 pub use domain::Binding;
 pub use measure::{Measure, Volume, measure};
 pub use observer::{Observer, Unobserved};
 pub use request::{Kind, Request, WorkspaceError};
+pub use surface::{Surface, surface};

@@ -16,7 +16,8 @@ use crate::table::table_angles;
 pub(super) const LIMITS: usize = 24;
 /// First of the limits that stem from the strokes, and their number.
 pub(super) const STROKES: usize = 16;
-const TILT: usize = 22;
+/// First of the two limits that stem from the table.
+pub(super) const TILT: usize = 22;
 /// Pairs of sliders (i, j): z_hi of slider i over z_lo of slider j.
 const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
 const RODS: [u8; 4] = [11, 12, 21, 31];
@@ -155,6 +156,36 @@ impl<'a> Domain<'a> {
         std::array::from_fn(|i| stroke[i][1] + column.f[i])
     }
 
+    /// One sheet's height at each slider's end of stroke.
+    #[inline]
+    pub(super) fn sheet(&self, column: &Column, upper: bool) -> [f64; 3] {
+        if upper { self.highs(column) } else { self.lows(column) }
+    }
+
+    /// The slider whose end of stroke is the sheet; the first of equal ones.
+    #[inline]
+    pub(super) fn binding_slider(&self, [a, b, c]: [f64; 3], upper: bool) -> usize {
+        let before = |a: f64, b: f64| if upper { a < b } else { a > b };
+        let (first, height) = if before(b, a) { (1, b) } else { (0, a) };
+        if before(c, height) { 2 } else { first }
+    }
+
+    /// z_lo and z_hi, or twice the height at which a slice meets the column.
+    #[inline]
+    pub(super) fn ends(&self, column: &Column) -> [f64; 2] {
+        if let Some(height) = self.height {
+            return [self.image.z_at(column, height); 2];
+        }
+        let ([a, b, c], [d, e, f]) = (self.lows(column), self.highs(column));
+        [a.max(b).max(c), d.min(e).min(f)]
+    }
+
+    /// Whether columns are cut by one plane and have no extent.
+    #[inline]
+    pub(super) fn flat(&self) -> bool {
+        self.height.is_some()
+    }
+
     /// A rectangle, `[least, greatest]`, that holds the domain: no leg reaches beyond it.
     pub(super) fn rectangle(&self) -> [[f64; 2]; 2] {
         let (g, d) = (self.machine.geometry(), &self.machine.derived);
@@ -178,7 +209,8 @@ fn chord(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// The binding constraint of a limit; strokes as in a slice.
-pub(super) fn binding(limit: usize) -> Binding {
+pub(super) fn binding(limit: u8) -> Binding {
+    let limit = usize::from(limit);
     let number = limit.saturating_sub(STROKES);
     let slider = u8::try_from(number / 2 + 1).unwrap_or(1);
     let (constraint, element) = match limit {
@@ -193,4 +225,9 @@ pub(super) fn binding(limit: usize) -> Binding {
         _ => (Constraint::Tilt, Element::Range { high: limit > TILT }),
     };
     Binding { constraint, element }
+}
+
+/// A sheet's binding constraint: the end of a slider's stroke, sliders counted from 0.
+pub(super) fn stroke_binding(slider: u8, high: bool) -> Binding {
+    Binding { constraint: Constraint::Stroke, element: Element::Stroke { slider: slider + 1, high } }
 }

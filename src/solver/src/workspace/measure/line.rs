@@ -62,8 +62,7 @@ impl<'a> Line<'a> {
 
     /// The sliders that bind z_lo and z_hi.
     fn sliders(&self, column: &Column) -> [usize; 2] {
-        let (lows, highs) = (self.domain.lows(column), self.domain.highs(column));
-        [first(lows, |a, b| a > b), first(highs, |a, b| a < b)]
+        [false, true].map(|upper| self.domain.binding_slider(self.domain.sheet(column, upper), upper))
     }
 
     /// Calls `at` with each y between two columns at which another slider begins to bind, and the
@@ -83,8 +82,8 @@ impl<'a> Line<'a> {
         let sheet = usize::from(before[0] == after[0]);
         let (i, j) = (before[sheet], after[sheet]);
         let lead = |column: &Column| {
-            let ends = if sheet == 0 { self.domain.lows(column) } else { self.domain.highs(column) };
-            ends[i] - ends[j]
+            let heights = self.domain.sheet(column, sheet == 1);
+            heights[i] - heights[j]
         };
         let part = root::zero(lead(a), lead(b), 1e-12, |part| {
             lead(&self.domain.column([self.x, a.y + part * (b.y - a.y)]))
@@ -148,23 +147,10 @@ impl<'a> Line<'a> {
 
     /// ∫ of the Jacobian determinant along a column.
     fn integrand(&self, column: &Column, extremes: &mut Extremes) -> f64 {
-        let [low, high] = ends(self.domain, column);
+        let [low, high] = self.domain.ends(column);
         let [_, ay] = column.angle_rates(self.domain.machine);
         let [j0, j1] = self.domain.image.determinant(column, ay);
         extremes.meet(column, [j0 + j1 * low, j0 + j1 * high]);
         (high - low) * (j0 + j1 * 0.5 * (low + high))
     }
-}
-
-/// z_lo and z_hi.
-fn ends(domain: &Domain<'_>, column: &Column) -> [f64; 2] {
-    let [a, b, c] = domain.lows(column);
-    let [d, e, f] = domain.highs(column);
-    [a.max(b).max(c), d.min(e).min(f)]
-}
-
-/// The number that comes first in an order; the earliest of equal ones.
-fn first([a, b, c]: [f64; 3], before: impl Fn(f64, f64) -> bool) -> usize {
-    let two = if before(b, a) { (1, b) } else { (0, a) };
-    if before(c, two.1) { 2 } else { two.0 }
 }
