@@ -121,11 +121,17 @@ pub(super) enum Shape {
 /// polygon of the parabola through them decides.
 #[inline]
 pub(super) fn shape(start: f64, middle: f64, end: f64) -> Shape {
-    let control = middle + CAUTION * (middle - 0.5 * (start + end));
+    let control = control([start, middle, end]);
     match (start >= 0.0, end >= 0.0) {
         (true, true) if control >= 0.0 && middle >= 0.0 => Shape::Simple,
         (false, false) if control < 0.0 && middle < 0.0 => Shape::Outside,
         (true, false) | (false, true) => Shape::Simple,
         _ => Shape::Doubtful,
     }
+}
+
+/// The middle control value of the parabola through three values, moved to be on the safe side.
+#[inline]
+pub(super) fn control([start, middle, end]: [f64; 3]) -> f64 {
+    middle + CAUTION * (middle - 0.5 * (start + end))
 }

@@ -5,7 +5,7 @@
 
 use super::super::domain::{Domain, LIMITS};
 use super::super::observer::{Observer, go_on};
-use super::super::path::{Shape, shape};
+use super::super::path::{Shape, control, shape};
 use super::super::request::WorkspaceError;
 use super::leaf::Leaf;
 use super::patch::Patch;
@@ -14,10 +14,15 @@ use crate::pose::Point;
 
 /// Part of the tolerance that an edge's midpoint may be off; inside a triangle whose edges are all
 /// off by as much, a paraboloid is off by 4/3 of it.
-const FLAT: f64 = 0.6;
+const FLAT: f64 = 0.7;
 /// Shortest edge halved because a limit may vanish twice on it, and because a sheet is curved, in
 /// units of the tolerance.
 const SHORTEST: [f64; 2] = [1.0, 0.02];
+
+/// Part of the tolerance by which a curve may cross an edge and come back.
+const SHALLOW: f64 = 0.25;
+/// Step beside an edge that shows a limit's gradient, in units of the edge.
+const STEP: f64 = 1e-4;
 
 /// What becomes of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,18 +85,31 @@ impl Refinement<'_> {
     }
 
     fn edge(&self, a: &Site, middle: &Site, b: &Site) -> Edge {
-        let mut doubtful = false;
+        let mut doubtful = 0_u32;
         for limit in 0..LIMITS {
             match shape(a.values[limit], middle.values[limit], b.values[limit]) {
                 Shape::Outside => return Edge::Kept,
                 Shape::Simple => {}
-                Shape::Doubtful => doubtful = true,
+                Shape::Doubtful => doubtful |= 1 << limit,
             }
         }
         let length = length(a, b) / self.tolerance;
-        let halved = length > SHORTEST[0] && doubtful
+        let crossed = |limit: usize| doubtful & (1 << limit) != 0 && self.crossed(limit, [a, middle, b]);
+        let halved = length > SHORTEST[0] && (0..LIMITS).any(crossed)
             || length > SHORTEST[1] && !self.domain.flat() && self.curved([a, middle, b]);
         if halved { Edge::Halved } else { Edge::Kept }
+    }
+
+    /// Whether a limit's curve may cross an edge twice, or close on itself beside it, by more than
+    /// can be neglected. Its depth beyond the edge is the parabola's over the limit's gradient.
+    fn crossed(&self, limit: usize, [a, middle, b]: [&Site; 3]) -> bool {
+        let values = [a, middle, b].map(|site| site.values[limit]);
+        let depth = 0.5 * control(values).abs();
+        let (length, [ax, ay], [bx, by], [x, y]) = (length(a, b), a.at(), b.at(), middle.at());
+        let beside = [x - STEP * (by - ay), y + STEP * (bx - ax)];
+        let across = (self.domain.value(limit, &self.domain.column(beside)) - values[1]) / STEP;
+        let gradient = across.hypot(values[2] - values[0]) / length;
+        depth > SHALLOW * self.tolerance * gradient
     }
 
     /// Whether a sheet leaves the edge by more than is allowed. A sheet is judged by every slider
