@@ -29,11 +29,29 @@ pub(super) struct Leaf<'a> {
 
 impl<'a> Leaf<'a> {
     pub(super) fn new(domain: &'a Domain<'a>, tolerance: f64, corners: [&Site; 3]) -> Self {
+        Self::with_points(domain, tolerance, corners, [const { Vec::new() }; 3])
+    }
+
+    /// A triangle with further points on its edges, in order.
+    pub(super) fn with_points(
+        domain: &'a Domain<'a>,
+        tolerance: f64,
+        corners: [&Site; 3],
+        points: [Vec<Site>; 3],
+    ) -> Self {
         let mut sites: Vec<Site> = corners.into_iter().cloned().collect();
         for (site, border) in sites.iter_mut().zip([0b101, 0b011, 0b110]) {
             site.border = border;
         }
-        Self { domain, tolerance, sites, pieces: vec![vec![0, 1, 2]], divided: Vec::new() }
+        let mut piece = Piece::new();
+        for (edge, points) in points.into_iter().enumerate() {
+            piece.push(edge);
+            for point in points {
+                piece.push(sites.len());
+                sites.push(Site { border: 1 << edge, ..point });
+            }
+        }
+        Self { domain, tolerance, sites, pieces: vec![piece], divided: Vec::new() }
     }
 
     /// Cuts, and leaves the result in the patch.

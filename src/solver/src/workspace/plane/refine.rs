@@ -24,6 +24,9 @@ const SHALLOW: f64 = 0.25;
 /// Step beside an edge that shows a limit's gradient, in units of the edge.
 const STEP: f64 = 1e-4;
 
+/// Width of a triangle that is not refined any more, in units of the tolerance.
+const THIN: f64 = 0.01;
+
 /// What becomes of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Edge {
@@ -41,6 +44,9 @@ impl Refinement<'_> {
     /// Cuts the triangle, counter-clockwise, into pieces that go into the patch.
     pub(super) fn triangle(&self, corners: [&Site; 3], patch: &mut Patch) -> Result<(), WorkspaceError> {
         let [a, b, c] = corners;
+        if self.thin(corners) {
+            return self.finish(corners, patch);
+        }
         let middles = [patch.middle(self.domain, a, b), patch.middle(self.domain, b, c), patch.middle(self.domain, c, a)];
         let [ab, bc, ca] = [0, 1, 2].map(|i| self.edge(corners[i], &middles[i], corners[(i + 1) % 3]));
         let [m, n, o] = &middles;
@@ -63,6 +69,39 @@ impl Refinement<'_> {
                 }
                 Ok(())
             }
+        }
+    }
+
+    /// Whether a triangle has no width left to halve: beside a point where a limit jumps, outside
+    /// the domain, one of its edges may be kept however often the other two are halved.
+    fn thin(&self, [a, b, c]: [&Site; 3]) -> bool {
+        let ([ax, ay], [bx, by], [cx, cy]) = (a.at(), b.at(), c.at());
+        let area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+        let longest = length(a, b).max(length(b, c)).max(length(c, a));
+        // Not a number counts as thin.
+        !(area > THIN * self.tolerance * longest)
+    }
+
+    /// Cuts a triangle as it is, with the points that its neighbours will have on its edges.
+    fn finish(&self, corners: [&Site; 3], patch: &mut Patch) -> Result<(), WorkspaceError> {
+        go_on(self.observer)?;
+        let points = [0, 1, 2].map(|i| {
+            let mut points = Vec::new();
+            self.divisions(corners[i], corners[(i + 1) % 3], &mut points);
+            points
+        });
+        Leaf::with_points(self.domain, self.tolerance, corners, points).cut_into(patch);
+        Ok(())
+    }
+
+    /// All points at which an edge is halved, in order.
+    fn divisions(&self, a: &Site, b: &Site, points: &mut Vec<Site>) {
+        let ([ax, ay], [bx, by]) = (a.at(), b.at());
+        let middle = Site::new(self.domain, [0.5 * (ax + bx), 0.5 * (ay + by)]);
+        if self.edge(a, &middle, b) == Edge::Halved {
+            self.divisions(a, &middle, points);
+            points.push(middle.clone());
+            self.divisions(&middle, b, points);
         }
     }
 
