@@ -8,6 +8,7 @@ mod column;
 mod domain;
 mod image;
 mod measure;
+mod narrow;
 mod observer;
 mod path;
 mod plane;

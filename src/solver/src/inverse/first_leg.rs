@@ -89,14 +89,23 @@ impl<'a> FirstLeg<'a> {
         inside.then(|| self.angle(1.0 - t, t, true))
     }
 
-    /// Where the leg does not reach: the angle that misses least, and by how much (15) misses
-    /// there, over R1² L1²: negative, and zero where the leg begins to reach.
+    /// The angle at which the leg misses least, where it does not reach.
     #[cold]
-    pub(crate) fn closest(&self) -> (LegAngle, f64) {
-        let cubic = self.cubic(1.0);
+    pub(crate) fn closest(&self) -> LegAngle {
+        let t = self.best();
+        self.angle(1.0 - t, t, true)
+    }
+
+    /// How well the leg reaches: (15) at its greatest over R1² L1², negative out of reach.
+    #[inline]
+    pub(crate) fn slack(&self) -> f64 {
         let l1 = self.machine.geometry().L1;
-        let t = cubic.maximum().unwrap_or(2.0).clamp(0.0, 2.0);
-        (self.angle(1.0 - t, t, true), cubic.value(t).min(0.0) / (l1 * l1))
+        self.cubic(1.0).value(self.best()) / (l1 * l1)
+    }
+
+    #[inline]
+    fn best(&self) -> f64 {
+        self.cubic(1.0).maximum().unwrap_or(2.0).clamp(0.0, 2.0)
     }
 
     #[inline]

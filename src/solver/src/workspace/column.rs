@@ -15,8 +15,6 @@ pub(super) struct Column {
     /// cos alpha and sin alpha.
     pub(super) c: f64,
     pub(super) s: f64,
-    /// Zero where leg I reaches (x, y), negative by how much it misses elsewhere.
-    pub(super) reach: f64,
     /// Squares of the legs' drops along z, mm²; negative where a leg is too short.
     pub(super) square: [f64; 3],
     /// The drops, with the sign of their squares, mm.
@@ -30,7 +28,7 @@ impl Column {
     pub(super) fn at(machine: &Machine, [x, y]: [f64; 2]) -> Self {
         let leg = FirstLeg::new(machine, x, y);
         match leg.nearest() {
-            Some(angle) if lead(machine, &angle) > 0.0 => Self::with(machine, [x, y], &angle, 0.0),
+            Some(angle) if lead(machine, &angle) > 0.0 => Self::with(machine, [x, y], &angle),
             _ => Self::elsewhere(machine, [x, y], &leg),
         }
     }
@@ -42,17 +40,17 @@ impl Column {
         let angles = leg.both();
         let nearest = angles.iter().max_by(|a, b| lead(machine, a).total_cmp(&lead(machine, b)));
         if let Some(angle) = nearest {
-            return Self::with(machine, [x, y], angle, 0.0);
+            return Self::with(machine, [x, y], angle);
         }
-        let (mut angle, reach) = leg.closest();
+        let mut angle = leg.closest();
         let (g, d) = (machine.geometry(), &machine.derived);
         let x1 = x + d.e1;
         angle.w1 = signed_root((g.L1 - x1) * (g.L1 + x1) - d.c + d.k * angle.c - y * y);
-        Self::with(machine, [x, y], &angle, reach)
+        Self::with(machine, [x, y], &angle)
     }
 
     #[inline]
-    fn with(machine: &Machine, [x, y]: [f64; 2], angle: &LegAngle, reach: f64) -> Self {
+    fn with(machine: &Machine, [x, y]: [f64; 2], angle: &LegAngle) -> Self {
         let g = machine.geometry();
         let (c, s) = (angle.c, angle.s);
         let (p, q) = (g.R2 * c - g.r4, g.R2 * s);
@@ -65,7 +63,6 @@ impl Column {
             y,
             c,
             s,
-            reach,
             square: [w[0] * w[0].abs(), second, third],
             w,
             f: [w[0], q + w[1], w[2] - q],

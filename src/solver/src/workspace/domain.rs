@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::column::Column;
 use super::image::Image;
 use super::request::{Kind, Request};
+use crate::inverse::first_leg::FirstLeg;
 use crate::jacobian::{determinant, matrix};
 use crate::limit::{Constraint, Element};
 use crate::machine::Machine;
@@ -94,7 +95,7 @@ impl<'a> Domain<'a> {
     fn with_rods(&self, limit: usize, column: &Column, rods: &Rods) -> f64 {
         let (g, d, limits) = (self.machine.geometry(), &self.machine.derived, self.machine.limits());
         match limit {
-            0 => column.reach,
+            0 => FirstLeg::new(self.machine, column.x, column.y).slack(),
             1 => g.R1 * column.c - g.r1,
             2 | 3 => rods.vectors[limit - 2][2] - limits.serial_margin * g.L1,
             4 => column.square[1] - (limits.serial_margin * g.L2).powi(2),

@@ -1,6 +1,7 @@
 //! The outer integral: panels between the lines at which the structure changes.
 
 use super::super::domain::Domain;
+use super::super::narrow::narrowed;
 use super::super::observer::{Observer, go_on};
 use super::super::quadrature::{Integral, rule};
 use super::super::request::WorkspaceError;
@@ -22,9 +23,10 @@ pub(super) fn integrate(
     domain: &Domain<'_>,
     observer: &dyn Observer,
 ) -> Result<(Integral<2>, Extremes), WorkspaceError> {
-    let [[x0, y0], [x1, y1]] = domain.rectangle();
-    let range = [y0, y1];
-    let mut outer = Outer { domain, range, observer, extremes: Extremes::default() };
+    let Some([[x0, y0], [x1, y1]]) = narrowed(domain) else {
+        return Ok((Integral::ZERO, Extremes::default()));
+    };
+    let mut outer = Outer { domain, range: [y0, y1], observer, extremes: Extremes::default() };
     let (ends, rough) = outer.changes([x0, x1])?;
     let mut total = Integral::ZERO;
     let allowed = rough.map(|r| r * ACCURACY);
@@ -58,9 +60,9 @@ impl Outer<'_> {
         let step = (x1 - x0) / f64::from(LINES);
         let (mut found, mut rough) = (vec![], [0.0; 2]);
         let mut last: Option<(f64, Structure)> = None;
-        for number in 0..LINES {
+        for number in 0..=LINES {
             self.observer.progress(0.5 * f64::from(number) / f64::from(LINES));
-            let x = x0 + step * (f64::from(number) + 0.5);
+            let x = x0 + step * f64::from(number);
             let line = self.line(x)?;
             let structure = line.structure();
             let mut extremes = Extremes::default();
