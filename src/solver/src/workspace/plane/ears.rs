@@ -2,18 +2,25 @@
 
 use super::site::Site;
 
-/// Worth of an ear whose cut joins two points at which the sheets meet: last of all.
-const FLAT: f64 = -2.0;
+/// What lessens an ear's worth: a cut between two points at which the sheets meet, a point inside,
+/// and a corner that is not convex, whose cut may be another polygon's side.
+const MEETING: f64 = 2.0;
+const COVERING: f64 = 4.0;
+const REFLEX: f64 = 8.0;
+/// A cut that is an edge of another triangle already: the surface would not be one.
+const TAKEN: f64 = 16.0;
 
 /// Triangles, counter-clockwise, by the polygon's own numbers: always two fewer than its points.
-pub(super) fn triangulate(polygon: &[&Site]) -> Vec<[usize; 3]> {
+/// `taken` tells which pairs of points are joined by an edge elsewhere.
+pub(super) fn triangulate(polygon: &[&Site], taken: impl Fn(usize, usize) -> bool) -> Vec<[usize; 3]> {
     let mut left: Vec<usize> = (0..polygon.len()).collect();
     let mut triangles = Vec::with_capacity(polygon.len().saturating_sub(2));
     while left.len() > 3 {
         let count = left.len();
         let mut best = (0, f64::NEG_INFINITY);
         for i in 0..count {
-            let worth = worth(polygon, &left, i);
+            let cut = [left[(i + count - 1) % count], left[(i + 1) % count]];
+            let worth = worth(polygon, &left, i) - if taken(cut[0], cut[1]) { TAKEN } else { 0.0 };
             if worth > best.1 {
                 best = (i, worth);
             }
@@ -28,15 +35,19 @@ pub(super) fn triangulate(polygon: &[&Site]) -> Vec<[usize; 3]> {
     triangles
 }
 
-/// How good an ear is: its area over its sides' squares, less than -1 where it is none.
+/// How good an ear is: its area over its sides' squares, less what is wrong with it.
 fn worth(polygon: &[&Site], left: &[usize], i: usize) -> f64 {
     let count = left.len();
-    let [a, b, c] = [i + count - 1, i, i + 1].map(|n| polygon[left[n % count]]);
-    let shape = quality(a.at(), b.at(), c.at());
-    let others = left.iter().filter(|&&n| ![a, b, c].iter().any(|site| std::ptr::eq(*site, polygon[n])));
-    let covers = shape > 0.0 && others.into_iter().any(|&n| within(a.at(), b.at(), c.at(), polygon[n].at()));
-    let pinched = a.pinched() && c.pinched();
-    shape + if pinched { FLAT } else { 0.0 } + if covers { 2.0 * FLAT } else { 0.0 }
+    let around = [i + count - 1, i, i + 1].map(|n| left[n % count]);
+    let [a, b, c] = around.map(|n| polygon[n].at());
+    let shape = quality(a, b, c);
+    if shape <= 0.0 {
+        return shape - REFLEX;
+    }
+    let mut others = left.iter().filter(|n| !around.contains(n));
+    let covering = others.any(|&n| within(a, b, c, polygon[n].at()));
+    let meeting = polygon[around[0]].pinched() && polygon[around[2]].pinched();
+    shape - if covering { COVERING } else { 0.0 } - if meeting { MEETING } else { 0.0 }
 }
 
 fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {

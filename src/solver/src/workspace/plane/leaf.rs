@@ -14,6 +14,9 @@ use super::site::{CREASES, CURVES, Site, value};
 /// Resolution of a point on an edge, as a part of the edge.
 const RESOLUTION: f64 = 1e-12;
 
+/// Heights that differ by less, in units of the machine, are the same where two curves meet.
+const SAME: f64 = 1e-9;
+
 /// A polygon by the numbers of its sites, counter-clockwise.
 pub(super) type Piece = Vec<usize>;
 
@@ -221,6 +224,12 @@ impl<'a> Leaf<'a> {
             value(self.domain, curve, &self.domain.column(drawn(part)))
         });
         let mut site = Site::new(self.domain, drawn(part));
+        // Where two limits of the strokes meet, a crease of the sheet they share ends.
+        for value in &mut site.values[CREASES..] {
+            if value.abs() <= SAME * self.domain.machine.derived.scale {
+                *value = 0.0;
+            }
+        }
         site.values[first] = 0.0;
         site.values[curve] = 0.0;
         site
@@ -228,22 +237,42 @@ impl<'a> Leaf<'a> {
 
     /// Triangles and sides of all pieces.
     fn deliver(self, patch: &mut Patch) {
+        let mut outlines = Vec::with_capacity(self.pieces.len());
+        let mut edges: Vec<[u32; 2]> = Vec::new();
         for piece in &self.pieces {
-            let piece = self.with_divisions(piece);
-            let numbers: Vec<u32> = piece.iter().map(|&site| patch.vertex(self.domain, &self.sites[site])).collect();
-            for (i, &a) in piece.iter().enumerate() {
-                let next = (i + 1) % piece.len();
-                let common = self.sites[a].on() & self.sites[piece[next]].on() & ((1 << LIMITS) - 1);
-                if common != 0 && numbers[i] != numbers[next] {
-                    let limit = u8::try_from(common.trailing_zeros()).unwrap_or(u8::MAX);
-                    patch.rims.push(Rim { ends: [numbers[i], numbers[next]], limit });
-                }
+            let mut piece = self.with_divisions(piece);
+            let mut numbers: Vec<u32> =
+                piece.iter().map(|&site| patch.vertex(self.domain, &self.sites[site])).collect();
+            without_spikes(&mut piece, &mut numbers);
+            for (i, &a) in numbers.iter().enumerate() {
+                edges.push([a, numbers[(i + 1) % numbers.len()]]);
             }
+            self.rims(&piece, &numbers, patch);
+            outlines.push((piece, numbers));
+        }
+        for (piece, numbers) in outlines {
             let sliders = self.sliders(&piece);
             let sites: Vec<&Site> = piece.iter().map(|&site| &self.sites[site]).collect();
-            for ear in ears::triangulate(&sites) {
-                let corners = ear.map(|i| numbers[i]);
+            let taken = |i: usize, j: usize| {
+                let (a, b) = (numbers[i], numbers[j]);
+                edges.contains(&[a, b]) || edges.contains(&[b, a])
+            };
+            let ears = ears::triangulate(&sites, taken).into_iter().map(|ear| ear.map(|i| numbers[i]));
+            for corners in ears {
                 patch.triangles.push(Triangle { corners, sliders });
+                edges.extend([0, 1, 2].map(|i| [corners[i], corners[(i + 1) % 3]]));
+            }
+        }
+    }
+
+    /// Notes the sides of an outline that lie on limits.
+    fn rims(&self, piece: &[usize], numbers: &[u32], patch: &mut Patch) {
+        for (i, &a) in piece.iter().enumerate() {
+            let next = (i + 1) % piece.len();
+            let common = self.sites[a].on() & self.sites[piece[next]].on() & ((1 << LIMITS) - 1);
+            if common != 0 {
+                let limit = u8::try_from(common.trailing_zeros()).unwrap_or(u8::MAX);
+                patch.rims.push(Rim { ends: [numbers[i], numbers[next]], limit });
             }
         }
     }
@@ -278,6 +307,26 @@ impl<'a> Leaf<'a> {
                 2
             }
         })
+    }
+}
+
+/// Takes out points that came to lie on their neighbours, and sides that go forth and back.
+fn without_spikes(piece: &mut Piece, numbers: &mut Vec<u32>) {
+    let mut i = 0;
+    while i < numbers.len() && numbers.len() > 2 {
+        let count = numbers.len();
+        let (before, after) = (numbers[(i + count - 1) % count], numbers[(i + 1) % count]);
+        if numbers[i] == after || before == after {
+            piece.remove(i);
+            numbers.remove(i);
+            i = 0;
+        } else {
+            i += 1;
+        }
+    }
+    if numbers.len() < 3 {
+        piece.clear();
+        numbers.clear();
     }
 }
 
