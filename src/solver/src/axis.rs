@@ -28,7 +28,7 @@ pub enum Preimages {
 /// length but zero; `None` if it is zero or not finite.
 pub fn preimages(axis: [f64; 3]) -> Option<Preimages> {
     let largest = axis.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-    if !(largest > 0.0 && largest.is_finite()) {
+    if largest == 0.0 || !axis.iter().all(|c| c.is_finite()) {
         return None;
     }
     let [i, j, k] = axis.map(|c| c / largest);

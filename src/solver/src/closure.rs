@@ -11,11 +11,12 @@
 mod sheet;
 mod touch;
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use arrayvec::ArrayVec;
 
 use crate::circle::{Site, TrigPolynomial, isolate};
+pub(crate) use sheet::{determinant, polish};
 
 /// Two equations f = 0 in (a, w) and their derivatives.
 #[derive(Clone, Copy, Debug)]
@@ -37,142 +38,127 @@ pub(crate) trait Closure<const M: usize> {
     fn w_at_root(&self, c: f64, s: f64) -> f64;
     /// The magnitude of w that counts as one.
     fn unit(&self) -> f64;
+    /// The size of the quadratic equation's terms.
+    fn square(&self) -> f64;
+    /// The Newton step whose square, times the closure's curvature, is nothing in double precision.
+    fn last_step(&self) -> f64;
 }
 
 /// A solution of the loop closure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Root {
+    /// The angle; within a turn of (-π, π].
+    pub(crate) a: f64,
+    /// Its cosine.
     pub(crate) c: f64,
+    /// Its sine.
     pub(crate) s: f64,
     pub(crate) w: f64,
     /// Two solutions that double precision cannot tell apart.
     pub(crate) merged: bool,
 }
 
+impl Root {
+    /// A start for Newton's method.
+    #[inline]
+    pub(crate) fn at(a: f64, [c, s]: [f64; 2], w: f64) -> Self {
+        Self { a, c, s, w, merged: false }
+    }
+}
+
 /// All solutions of a loop closure.
 pub(crate) type Roots = ArrayVec<Root, 8>;
 
+/// [`Closure::last_step`] of a closure whose curvature is of the order of one.
+pub(crate) const LAST_STEP: f64 = 3e-8;
 /// Relative error of the polynomial's coefficients, with a wide margin: a touch is decided on the
 /// sheets, which is always right and only slower.
 const NOISE: f64 = 1e-10;
-/// Newton steps on the polynomial; one or two are usual.
-const APPROACH: usize = 8;
-/// Step, relative to the distance from the bracket's ends, after which w is right to a percent.
-const NEAR: f64 = 0.03;
+/// Steps on the polynomial alone: Newton's few, or as many bisections as a double has bits.
+const APPROACH: usize = 60;
 /// Angle within which two roots of one closure count as found twice.
 const SAME: f64 = 1e-9;
 
-/// All solutions with |a| <= range and the sheet wanted (`Some(sign of w)`), or of both sheets.
+/// Finds all solutions with |a| <= range.
 #[inline]
-pub(crate) fn roots<const M: usize, C: Closure<M>>(closure: &C, range: f64, wanted: Option<f64>) -> Roots {
+pub(crate) fn find_roots<const M: usize, C: Closure<M>>(closure: &C, range: f64, found: &mut Roots) {
     let (poly, magnitude) = closure.polynomial();
-    let mut roots = Roots::new();
-    for site in isolate(&poly, NOISE * magnitude, range) {
-        match site {
-            Site::Crossing { low, high, start } => {
-                if let Some(root) = crossing(closure, &poly, [low, high], start, wanted) {
-                    add(&mut roots, root);
-                }
+    isolate(&poly, NOISE * magnitude, range, &mut |site| match site {
+        Site::Crossing { low, high, start } => add(found, alone(closure, &poly, [low, high], start)),
+        Site::Pair { low, high, at } => match sheet::either_side(closure, [low, high], at) {
+            Some(pair) => pair.into_iter().for_each(|root| add(found, root)),
+            None => {
+                add(found, alone(closure, &poly, [low, at], 0.5 * (low + at)));
+                add(found, alone(closure, &poly, [at, high], 0.5 * (at + high)));
             }
-            Site::Touch { low, high, at } => {
-                touch::roots(closure, [low, high], at).into_iter().for_each(|root| add(&mut roots, root));
-            }
-        }
-    }
-    roots
+        },
+        Site::Touch { low, high, at } => touch::add_roots(closure, [low, high], at, found),
+    });
 }
 
-/// The simple root of the polynomial in a bracket, polished on the loop closure.
-#[inline]
-fn crossing<const M: usize, C: Closure<M>>(
+/// The root of a bracket that holds one.
+fn alone<const M: usize, C: Closure<M>>(
     closure: &C,
     poly: &TrigPolynomial<M>,
     bracket: [f64; 2],
     start: f64,
-    wanted: Option<f64>,
-) -> Option<Root> {
-    let (c, s) = approached(poly, bracket, start);
-    let w = closure.w_at_root(c, s);
-    if wanted.is_some_and(|sign| w * sign < 0.0) {
-        return None;
-    }
-    let polished = sheet::polish(closure, Root { c, s, w, merged: false });
-    if let Some(root) = polished.filter(|root| within(root, bracket)) {
-        return Some(root);
-    }
-    let (s, c) = bisected(poly, bracket).sin_cos();
-    let root = Root { c, s, w: closure.w_at_root(c, s), merged: false };
-    Some(sheet::polish(closure, root).filter(|root| within(root, bracket)).unwrap_or(root))
+) -> Root {
+    sheet::root_between(closure, bracket, start).unwrap_or_else(|| {
+        let near = approached(poly, bracket, start);
+        sheet::root_between(closure, bracket, near).unwrap_or_else(|| at_angle(closure, near))
+    })
 }
 
-/// Newton's method on the polynomial until the root is known to a fraction of its distance from
-/// the bracket's ends: one of them may be another root's neighbour, and w must be this one's.
-#[inline]
-fn approached<const M: usize>(poly: &TrigPolynomial<M>, [low, high]: [f64; 2], start: f64) -> (f64, f64) {
+/// The root in a bracket on the polynomial alone, by Newton's method kept inside the shrinking
+/// bracket: for a root so near to another that only its own angle tells their w apart.
+#[cold]
+fn approached<const M: usize>(poly: &TrigPolynomial<M>, [mut low, mut high]: [f64; 2], start: f64) -> f64 {
+    let rising = poly.at(low).value < 0.0;
     let mut a = start;
-    let (mut s, mut c) = a.sin_cos();
     for _ in 0..APPROACH {
-        let (value, slope) = poly.value_slope(c, s);
-        let next = a - value / slope;
-        if !(next > low && next < high) {
-            let (s, c) = bisected(poly, [low, high]).sin_cos();
-            return (c, s);
+        let jet = poly.at(a);
+        if (jet.value < 0.0) == rising {
+            low = a
+        } else {
+            high = a
         }
-        let step = next - a;
-        (c, s) = rotated(c, s, step);
+        let newton = a - jet.value / jet.slope;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let step = (next - a).abs();
         a = next;
-        if step.abs() <= NEAR * (a - low).min(high - a) {
+        if step <= 1e-15 {
             break;
         }
     }
-    (c, s)
+    a
 }
 
-/// The root in a bracket to the last digit, on the polynomial alone: slow and sure.
+/// A root as the polynomial gives it.
 #[cold]
-fn bisected<const M: usize>(poly: &TrigPolynomial<M>, [mut low, mut high]: [f64; 2]) -> f64 {
-    let rising = poly.jet(low).value < 0.0;
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if (poly.jet(middle).value < 0.0) == rising { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
-}
-
-/// Whether a root lies in a bracket, give or take a tenth of it and the rounding.
-#[inline]
-fn within(root: &Root, [low, high]: [f64; 2]) -> bool {
-    // The rotation into the bracket's middle needs no arc tangent: compare cosines of half-angles.
-    let (middle, reach) = (0.5 * (low + high), 0.55 * (high - low) + 1e-9);
-    let (s, c) = middle.sin_cos();
-    let chord = (root.c - c).hypot(root.s - s);
-    chord <= reach
+fn at_angle<const M: usize, C: Closure<M>>(closure: &C, a: f64) -> Root {
+    let (s, c) = a.sin_cos();
+    Root::at(a, [c, s], closure.w_at_root(c, s))
 }
 
 fn add(roots: &mut Roots, root: Root) {
     let found = roots.iter().any(|other| {
-        (other.c - root.c).abs() + (other.s - root.s).abs() < SAME
-            && other.w * root.w >= 0.0
-            && (other.w - root.w).abs() <= 1e-6 * (other.w.abs() + root.w.abs())
+        let apart = (other.c - root.c).abs() + (other.s - root.s).abs();
+        let size = other.w.abs() + root.w.abs();
+        apart < SAME && (other.w - root.w).abs() <= 1e-6 * size
     });
     if !found && !roots.is_full() {
         roots.push(root);
     }
 }
 
-/// The angle of a direction, in (-π, π].
+/// The angle in (-π, π].
 #[inline]
-pub(crate) fn angle_of(c: f64, s: f64) -> f64 {
-    let a = s.atan2(c);
-    if a <= -PI { PI } else { a }
-}
-
-/// The direction (c, s) turned by `angle`, up to the third order of it, kept on the circle.
-#[inline]
-fn rotated(c: f64, s: f64, angle: f64) -> (f64, f64) {
-    // tan(angle/2) ≈ t: the rational rotation is exact in norm, and its angle right to O(angle³).
-    let t = 0.5 * angle;
-    let scale = 1.0 / (1.0 + t * t);
-    let (cd, sd) = ((1.0 - t * t) * scale, 2.0 * t * scale);
-    (c * cd - s * sd, s * cd + c * sd)
+pub(crate) fn wrapped(a: f64) -> f64 {
+    if a > PI {
+        a - TAU
+    } else if a <= -PI {
+        a + TAU
+    } else {
+        a
+    }
 }

@@ -5,43 +5,80 @@ mod obstacle;
 
 use std::f64::consts::PI;
 
-use crate::closure::{Root, angle_of, roots};
+use crate::closure::{Closure, Root, Roots, determinant, find_roots, polish, wrapped};
+use crate::jacobian::at_home;
 use crate::limit::{Refusal, in_domain};
-use crate::machine::Machine;
+use crate::machine::{Derived, Geometry, Machine};
 use crate::pose::PlatformPose;
-use crate::posture::{Mode, Posture, Postures, Side};
-use crate::residual::{residual, tolerance};
+use crate::posture::{Mode, Posture, Postures, Side, gathered};
+use crate::residual::{Checked, RESIDUAL_TOLERANCE, checked, size};
 use elimination::Assembly;
 
 /// All assembly modes (up to 8) for slider positions `rho`; at least one, or the refusal.
 pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, Refusal> {
     let assembly = question(machine, rho)?;
-    let mut postures = Postures::new();
-    for root in roots(&assembly, PI, None) {
-        postures.extend(posture(machine, &assembly, rho, &root));
-    }
-    if postures.is_empty() {
-        Err(Refusal::Blocked(obstacle::nearest(machine, &assembly)))
-    } else {
-        Ok(postures)
-    }
+    let mut roots = Roots::new();
+    find_roots(&assembly, PI, &mut roots);
+    gathered(
+        |found| found.extend(roots.iter().filter_map(|root| posture(machine, &assembly, rho, root))),
+        || obstacle::nearest(machine, &assembly),
+    )
 }
 
-/// The assembly mode in the working mode, found without a start value.
+/// The assembly mode in the working mode, found without a start value. Should there be two, which
+/// takes sliders far outside their strokes, it is the one whose `det_P` has the sign of home.
 pub fn forward_working(machine: &Machine, rho: [f64; 3]) -> Result<Posture, Refusal> {
     let assembly = question(machine, rho)?;
-    // The rods of leg I do not cross for |a| below this, and there λ = w1/u is positive.
+    if let Some(posture) = direct(machine, &assembly, rho) {
+        return Ok(posture);
+    }
+    among_all(machine, &assembly, rho)
+}
+
+/// Newton's method on the sheet λ > 0 from the level platform: the working mode's only basin in
+/// practice. What it finds counts only in the working mode and on home's side of the singularity.
+#[inline]
+fn direct(machine: &Machine, assembly: &Assembly, rho: [f64; 3]) -> Option<Posture> {
+    let w = assembly.sheets(1.0, 0.0)?[0];
+    let root = polish(assembly, Root::at(0.0, [1.0, 0.0], w))?;
+    let posture = posture(machine, assembly, rho, &root)?;
+    (posture.working && on_home_side(machine, assembly, &root)).then_some(posture)
+}
+
+/// The working mode among all roots of the sheet, wherever they are.
+#[cold]
+fn among_all(machine: &Machine, assembly: &Assembly, rho: [f64; 3]) -> Result<Posture, Refusal> {
+    // The rods of leg I cross beyond this angle.
     let uncrossed = machine.derived.uncrossed;
-    let found = roots(&assembly, uncrossed, Some(1.0))
-        .iter()
-        .filter_map(|root| posture(machine, &assembly, rho, root))
-        .find(|posture| posture.working);
-    found.ok_or_else(|| Refusal::Blocked(obstacle::out_of_mode(machine, rho, &assembly)))
+    let mut found: Option<Posture> = None;
+    let mut roots = Roots::new();
+    find_roots(assembly, uncrossed, &mut roots);
+    for root in roots {
+        let working = posture(machine, assembly, rho, &root).filter(|posture| posture.working);
+        if let Some(posture) = working
+            && (found.is_none() || on_home_side(machine, assembly, &root))
+        {
+            found = Some(posture);
+        }
+    }
+    found.ok_or_else(|| Refusal::Blocked(obstacle::out_of_mode(machine, rho, assembly)))
+}
+
+#[inline]
+fn on_home_side(machine: &Machine, assembly: &Assembly, root: &Root) -> bool {
+    determinant(assembly, root) * machine.derived.home_turn > 0.0
+}
+
+/// The closure's determinant at home, all sliders above: its sign is the machine's.
+pub(crate) fn turn_at_home(g: &Geometry, derived: &Derived) -> f64 {
+    let [w1, w2, w3] = at_home(g).drops;
+    let assembly = Assembly::new(g, derived, [-w1, -w2, -w3]);
+    determinant(&assembly, &Root::at(0.0, [1.0, 0.0], w1 / (g.R1 - g.r1)))
 }
 
 fn question(machine: &Machine, rho: [f64; 3]) -> Result<Assembly, Refusal> {
     in_domain(&rho)?;
-    let assembly = Assembly::new(machine, rho);
+    let assembly = Assembly::new(machine.geometry(), &machine.derived, rho);
     if assembly.is_free(machine.derived.scale) { Err(Refusal::SelfMotion) } else { Ok(assembly) }
 }
 
@@ -55,10 +92,10 @@ fn posture(machine: &Machine, assembly: &Assembly, rho: [f64; 3], root: &Root) -
         x: assembly.x1(root.c, root.s, root.w) - machine.derived.e1,
         y: -root.w * v,
         z: rho[0] + w1,
-        alpha: angle_of(root.c, root.s),
+        alpha: wrapped(root.a),
     };
-    let residual = residual(machine, &pose, rho);
-    if residual > tolerance(machine, pose.z) {
+    let Checked { pose, residual } = checked(machine, pose, rho);
+    if residual > RESIDUAL_TOLERANCE * size(machine, pose.z) {
         return None;
     }
     let q = g.R2 * root.s;

@@ -16,7 +16,7 @@ use crate::rods::Rods;
 pub type ParallelMatrix = [[f64; 4]; 4];
 
 /// Below this ratio of singular values a matrix is singular to double precision.
-const SINGULAR: f64 = 1e-15;
+const SINGULAR: f64 = 1e-14;
 
 /// How a posture stands to singularities.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,36 +31,39 @@ pub struct Conditioning {
 
 /// The parallel matrix of a posture.
 pub fn parallel_matrix(machine: &Machine, posture: &Posture) -> ParallelMatrix {
-    matrix(machine.geometry(), &Rods::of(machine, posture))
+    matrix(machine.geometry(), &Rods::of(machine, &posture.pose, posture.rho))
 }
 
 /// Determinant and condition number of the parallel matrix, and the serial cosines.
 pub fn conditioning(machine: &Machine, posture: &Posture) -> Conditioning {
-    let rods = Rods::of(machine, posture);
+    let rods = Rods::of(machine, &posture.pose, posture.rho);
     let rows = matrix(machine.geometry(), &rods);
-    let values = Matrix4::from_fn(|row, column| rows[row][column]).singular_values();
-    let (most, least) = (values.max(), values.min());
     Conditioning {
         det: determinant(&rows),
-        condition_number: (least > SINGULAR * most).then(|| most / least),
+        condition_number: spread(&Matrix4::from_fn(|row, column| rows[row][column])),
         serial: rods.directions.map(|direction| direction[2]),
     }
+}
+
+/// Ratio of the greatest to the least singular value; `None` for a singular matrix.
+fn spread(matrix: &Matrix4<f64>) -> Option<f64> {
+    let values = matrix.singular_values();
+    let (most, least) = (values.max(), values.min());
+    (least > SINGULAR * most).then(|| most / least)
 }
 
 /// Rates d(x, y, z, alpha)/d(rho1, rho2, rho3), in mm/mm and rad/mm; `None` at a parallel
 /// singularity.
 pub fn velocities(machine: &Machine, posture: &Posture) -> Option<[[f64; 3]; 4]> {
-    let rods = Rods::of(machine, posture);
+    let rods = Rods::of(machine, &posture.pose, posture.rho);
     let rows = matrix(machine.geometry(), &rods);
     let [d1, d2, d3, d4] = rods.directions.map(|direction| direction[2]);
     let sliders = Matrix4x3::new(d1, 0.0, 0.0, d2, 0.0, 0.0, 0.0, d3, 0.0, 0.0, 0.0, d4);
-    let rates = Matrix4::from_fn(|row, column| rows[row][column]).lu().solve(&sliders)?;
-    let radius = machine.geometry().R1;
-    let rates: [[f64; 3]; 4] = std::array::from_fn(|row| {
-        let unit = if row == 3 { 1.0 / radius } else { 1.0 };
-        std::array::from_fn(|column| rates[(row, column)] * unit)
-    });
-    rates.iter().flatten().all(|rate| rate.is_finite()).then_some(rates)
+    let matrix = Matrix4::from_fn(|row, column| rows[row][column]);
+    spread(&matrix)?;
+    let rates = matrix.lu().solve(&sliders)?;
+    let units = [1.0, 1.0, 1.0, 1.0 / machine.geometry().R1];
+    Some(std::array::from_fn(|row| std::array::from_fn(|column| rates[(row, column)] * units[row])))
 }
 
 /// The dimensionless parallel matrix.
@@ -68,10 +71,11 @@ pub fn velocities(machine: &Machine, posture: &Posture) -> Option<[[f64; 3]; 4]>
 pub(crate) fn matrix(g: &Geometry, rods: &Rods) -> ParallelMatrix {
     let ratio = g.R2 / g.R1;
     let arms = [1.0, -1.0, -ratio, ratio];
-    std::array::from_fn(|i| {
+    let row = |i: usize| {
         let [x, y, z] = rods.directions[i];
         [x, y, z, arms[i] * (rods.c * z - rods.s * y)]
-    })
+    };
+    [row(0), row(1), row(2), row(3)]
 }
 
 /// Determinant by complementary 2×2 minors.
@@ -88,14 +92,23 @@ pub(crate) fn determinant(m: &ParallelMatrix) -> f64 {
 
 /// `det_P` in a pose at home: x = y = alpha = 0.
 pub(crate) fn det_at_home(g: &Geometry) -> f64 {
-    determinant(&matrix(g, &at_home(g)))
+    determinant(&matrix(g, &at_home(g).rods))
 }
 
-/// The rods at home, all sliders above.
-pub(crate) fn at_home(g: &Geometry) -> Rods {
+/// The home pose x = y = alpha = 0 with all sliders above.
+pub(crate) struct Home {
+    /// The rods.
+    pub(crate) rods: Rods,
+    /// z - rho of the three sliders, mm.
+    pub(crate) drops: [f64; 3],
+}
+
+/// Home; it exists in every valid machine.
+pub(crate) fn at_home(g: &Geometry) -> Home {
     let x = [g.D1 - g.d1, g.D2 - g.d2];
     let (u, p) = (g.R1 - g.r1, g.R2 - g.r4);
     let drop = |length: f64, x: f64, y: f64| (length * length - x * x - y * y).max(0.0).sqrt();
-    let w = [drop(g.L1, x[0], u), drop(g.L2, x[1], p), drop(g.L3, x[1], p)];
-    Rods::new(g, x, 0.0, w, [1.0, 0.0])
+    let drops = [drop(g.L1, x[0], u), drop(g.L2, x[1], p), drop(g.L3, x[1], p)];
+    let inverse = [1.0 / g.L1, 1.0 / g.L1, 1.0 / g.L2, 1.0 / g.L3];
+    Home { rods: Rods::new(g, &inverse, x, 0.0, drops, [1.0, 0.0]), drops }
 }

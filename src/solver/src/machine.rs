@@ -6,6 +6,7 @@ mod validate;
 
 pub use fault::MachineFault;
 
+use crate::forward;
 use crate::jacobian;
 use crate::margins::interference;
 
@@ -110,6 +111,8 @@ pub(crate) struct Derived {
     /// C = R1² + r1² and k = 2 R1 r1, so that u² + v² = C - k cos a.
     pub(crate) c: f64,
     pub(crate) k: f64,
+    /// 1/L of rod 11, rod 12, leg II, leg III.
+    pub(crate) inverse_lengths: [f64; 4],
     /// 1/R1².
     pub(crate) inverse_r1_square: f64,
     /// acos(r1/R1): the rods of leg I do not cross for |alpha| below it.
@@ -121,6 +124,8 @@ pub(crate) struct Derived {
     pub(crate) platform_axes: [[f64; 3]; 4],
     /// `det_P` at home; its sign is the machine's.
     pub(crate) home_det: f64,
+    /// The forward closure's determinant at home; its sign goes with `home_det`'s.
+    pub(crate) home_turn: f64,
     /// Least distance between two rods' axes at home, mm: the scale of rod interference.
     pub(crate) home_distance: f64,
 }
@@ -169,25 +174,29 @@ impl Derived {
         let g = &data.geometry;
         let e1 = g.D1 - g.d1;
         let e2 = g.D2 - g.d2;
-        let rods = jacobian::at_home(g);
+        let rods = jacobian::at_home(g).rods;
         let home = rods.directions.map(unit);
         let slider_axes = data.limits.slider_axes.map_or(home, |axes| axes.map(unit));
         let platform_axes = data.limits.platform_axes.map_or(home, |axes| axes.map(unit));
         let scale =
             [g.L1, g.L2, g.L3, g.R1, g.r1, g.R2, g.r4, e1.abs(), e2.abs()].into_iter().fold(0.0, f64::max);
-        Self {
+        let mut derived = Self {
             e1,
             e2,
             c: g.R1 * g.R1 + g.r1 * g.r1,
             k: 2.0 * g.R1 * g.r1,
+            inverse_lengths: [1.0 / g.L1, 1.0 / g.L1, 1.0 / g.L2, 1.0 / g.L3],
             inverse_r1_square: 1.0 / (g.R1 * g.R1),
             uncrossed: (g.r1 / g.R1).acos(),
             scale,
             slider_axes,
             platform_axes,
             home_det: jacobian::det_at_home(g),
-            home_distance: interference::nearest(g, &rods, [e1, e2], 0.0).0.max(SMALL_DISTANCE),
-        }
+            home_distance: interference::nearest(g, &rods).0.max(SMALL_DISTANCE),
+            home_turn: 0.0,
+        };
+        derived.home_turn = forward::turn_at_home(g, &derived);
+        derived
     }
 }
 

@@ -44,9 +44,8 @@ impl Margins {
     pub fn of(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Self {
         let (g, limits, derived) = (machine.geometry(), machine.limits(), &machine.derived);
         let pose = &posture.pose;
-        let rods = Rods::of(machine, posture);
-        let x = [pose.x + derived.e1, pose.x + derived.e2];
-        let (distance, nearest_rods) = interference::nearest(g, &rods, x, pose.y);
+        let rods = Rods::of(machine, &posture.pose, posture.rho);
+        let (distance, nearest_rods) = interference::nearest(g, &rods);
         let q = g.R2 * rods.s;
         let [rho1, rho2, rho3] = posture.rho;
         let drops = [pose.z - rho1, pose.z - q - rho2, pose.z + q - rho3];

@@ -2,6 +2,7 @@
 
 use arrayvec::ArrayVec;
 
+use crate::limit::{Margin, Refusal};
 use crate::pose::PlatformPose;
 
 /// Which end of a leg is higher.
@@ -60,3 +61,20 @@ pub const MOST: usize = 24;
 
 /// All postures that answer one question.
 pub type Postures = ArrayVec<Posture, MOST>;
+
+/// The postures that `fill` finds, or the obstacle where it finds none. They are built in place:
+/// moving them would cost as much as finding some of them.
+#[inline]
+pub(crate) fn gathered(
+    fill: impl FnOnce(&mut Postures),
+    obstacle: impl FnOnce() -> Margin,
+) -> Result<Postures, Refusal> {
+    let mut answer = Ok(Postures::new());
+    if let Ok(found) = &mut answer {
+        fill(found);
+        if found.is_empty() {
+            answer = Err(Refusal::Blocked(obstacle()));
+        }
+    }
+    answer
+}

@@ -1,34 +1,86 @@
 //! The check that every solution passes before it leaves the solver: back into Eqs (3)-(6).
 
+use nalgebra::{Matrix4, Vector4};
+
+use crate::closure::wrapped;
+use crate::jacobian::matrix;
 use crate::machine::Machine;
 use crate::pose::PlatformPose;
+use crate::rods::Rods;
 
 /// Largest rod-length error of a solution, relative to the size of its numbers. Evaluating the
-/// equations rounds by a few 1e-16 of that size; a hundred times as much is no solution.
+/// equations rounds by a few 1e-16 of that size; some hundred times as much is no solution.
 pub const RESIDUAL_TOLERANCE: f64 = 1e-13;
+/// Relative error above which the elimination has lost digits that the equations still have: the
+/// solution is then corrected on Eqs (3)-(6) themselves.
+pub(crate) const FINE: f64 = 1e-15;
+/// Relative error above which nothing is corrected.
+const ROUGH: f64 = 1e-9;
+/// Newton steps of a correction.
+const STEPS: usize = 4;
 
-/// The largest error of a rod's length, (|B - A|² - L²) / 2L, over Eqs (3)-(6), in mm.
-#[inline]
-pub(crate) fn residual(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> f64 {
-    let (s, c) = pose.alpha.sin_cos();
-    let g = machine.geometry();
-    let (u, v) = (g.R1 * c - g.r1, g.R1 * s);
-    let (p, q) = (g.R2 * c - g.r4, g.R2 * s);
-    let (x1, x2) = (pose.x + machine.derived.e1, pose.x + machine.derived.e2);
-    let w = rho.map(|rho| pose.z - rho);
-    let error =
-        |x: f64, y: f64, z: f64, length: f64| (x * x + y * y + (z - length) * (z + length)) * (0.5 / length);
-    let errors = [
-        error(x1, pose.y + u, w[0] + v, g.L1),
-        error(x1, pose.y - u, w[0] - v, g.L1),
-        error(x2, pose.y - p, w[1] - q, g.L2),
-        error(x2, pose.y + p, w[2] + q, g.L3),
-    ];
-    errors.iter().fold(0.0, |worst: f64, error| worst.max(error.abs()))
+/// A pose and how well it satisfies Eqs (3)-(6).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Checked {
+    pub(crate) pose: PlatformPose,
+    /// The largest error of a rod's length, (|B - A|² - L²) / 2L, mm.
+    pub(crate) residual: f64,
 }
 
-/// The residual that a solution of this size may have: a pose far along z is rounded with its z.
+/// Puts a pose back into Eqs (3)-(6) with the sliders at `rho`, and corrects it there if the
+/// elimination left an error.
 #[inline]
-pub(crate) fn tolerance(machine: &Machine, z: f64) -> f64 {
-    RESIDUAL_TOLERANCE * (machine.derived.scale + z.abs())
+pub(crate) fn checked(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
+    let residual = worst(&errors(machine, &pose, rho).0);
+    let size = size(machine, pose.z);
+    // What is further off is no rounded solution: correcting it would find another one.
+    let rounded = residual > FINE * size && residual < ROUGH * size;
+    if rounded { corrected(machine, pose, rho) } else { Checked { pose, residual } }
+}
+
+/// Newton's method on (3)-(6) in (x, y, z, a), as long as it gains.
+#[cold]
+fn corrected(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
+    let radius = machine.geometry().R1;
+    let (mut errors_now, mut rods) = errors(machine, &pose, rho);
+    let mut best = Checked { pose, residual: worst(&errors_now) };
+    for _ in 0..STEPS {
+        let rows = matrix(machine.geometry(), &rods);
+        let jacobian = Matrix4::from_fn(|row, column| rows[row][column]);
+        let Some(step) = jacobian.lu().solve(&Vector4::from(errors_now)) else { break };
+        let p = best.pose;
+        let alpha = wrapped(p.alpha - step[3] / radius);
+        let pose = PlatformPose { x: p.x - step[0], y: p.y - step[1], z: p.z - step[2], alpha };
+        (errors_now, rods) = errors(machine, &pose, rho);
+        let residual = worst(&errors_now);
+        // A NaN gains nothing either.
+        if !(residual < best.residual) {
+            break;
+        }
+        best = Checked { pose, residual };
+    }
+    best
+}
+
+/// The rods' length errors in Eqs (3)-(6), mm, and the rods.
+#[inline]
+fn errors(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> ([f64; 4], Rods) {
+    let g = machine.geometry();
+    let rods = Rods::of(machine, pose, rho);
+    let error =
+        |[x, y, z]: [f64; 3], length: f64| (x * x + y * y + (z - length) * (z + length)) * (0.5 / length);
+    let [b11, b12, b2, b3] = rods.vectors;
+    ([error(b11, g.L1), error(b12, g.L1), error(b2, g.L2), error(b3, g.L3)], rods)
+}
+
+#[inline]
+fn worst(errors: &[f64; 4]) -> f64 {
+    errors[0].abs().max(errors[1].abs()).max(errors[2].abs().max(errors[3].abs()))
+}
+
+/// The size of a pose's numbers, which scales all rounding: a pose far along z is rounded with
+/// its z.
+#[inline]
+pub(crate) fn size(machine: &Machine, z: f64) -> f64 {
+    machine.derived.scale + z.abs()
 }

@@ -1,7 +1,7 @@
 //! The six rods of a posture in space.
 
 use crate::machine::{Geometry, Machine};
-use crate::posture::Posture;
+use crate::pose::PlatformPose;
 
 /// Number of each rod: leg, then rod of the leg.
 pub(crate) const RODS: [u8; 6] = [11, 12, 21, 22, 31, 32];
@@ -21,17 +21,23 @@ pub(crate) struct Rods {
 
 impl Rods {
     #[inline]
-    pub(crate) fn of(machine: &Machine, posture: &Posture) -> Self {
+    pub(crate) fn of(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> Self {
         let g = machine.geometry();
-        let pose = &posture.pose;
         let (s, c) = pose.alpha.sin_cos();
-        let w = posture.rho.map(|rho| pose.z - rho);
+        let w = rho.map(|rho| pose.z - rho);
         let (e1, e2) = (machine.derived.e1, machine.derived.e2);
-        Self::new(g, [pose.x + e1, pose.x + e2], pose.y, w, [c, s])
+        Self::new(g, &machine.derived.inverse_lengths, [pose.x + e1, pose.x + e2], pose.y, w, [c, s])
     }
 
     #[inline]
-    pub(crate) fn new(g: &Geometry, x: [f64; 2], y: f64, w: [f64; 3], [c, s]: [f64; 2]) -> Self {
+    pub(crate) fn new(
+        g: &Geometry,
+        inverse: &[f64; 4],
+        x: [f64; 2],
+        y: f64,
+        w: [f64; 3],
+        [c, s]: [f64; 2],
+    ) -> Self {
         let (u, v) = (g.R1 * c - g.r1, g.R1 * s);
         let (p, q) = (g.R2 * c - g.r4, g.R2 * s);
         let vectors = [
@@ -40,27 +46,23 @@ impl Rods {
             [x[1], y - p, w[1] - q],
             [x[1], y + p, w[2] + q],
         ];
-        let inverse = [1.0 / g.L1, 1.0 / g.L1, 1.0 / g.L2, 1.0 / g.L3];
-        let directions = std::array::from_fn(|i| vectors[i].map(|component| component * inverse[i]));
+        let scaled = |i: usize| vectors[i].map(|component| component * inverse[i]);
+        let directions = [scaled(0), scaled(1), scaled(2), scaled(3)];
         Self { vectors, directions, c, s }
     }
 
-    /// Slider ends A of the six rods. The platform stands at the origin of z: only differences
-    /// between rods matter to those who ask.
+    /// Platform ends B of the six rods from P, in the base frame's directions.
     #[inline]
-    pub(crate) fn slider_ends(&self, g: &Geometry, x: [f64; 2], y: f64) -> [[f64; 3]; 6] {
+    pub(crate) fn platform_ends(&self, g: &Geometry) -> [[f64; 3]; 6] {
         let half = g.parallelogram_half_width;
-        let ends = [
-            [x[0], y + g.R1 * self.c, g.R1 * self.s],
-            [x[0], y - g.R1 * self.c, -g.R1 * self.s],
-            [x[1] - half, y - g.R2 * self.c, -g.R2 * self.s],
-            [x[1] + half, y - g.R2 * self.c, -g.R2 * self.s],
-            [x[1] - half, y + g.R2 * self.c, g.R2 * self.s],
-            [x[1] + half, y + g.R2 * self.c, g.R2 * self.s],
-        ];
-        std::array::from_fn(|i| {
-            let vector = self.vectors[FAMILY[i]];
-            std::array::from_fn(|axis| ends[i][axis] - vector[axis])
-        })
+        let (first, others) = ([g.R1 * self.c, g.R1 * self.s], [g.R2 * self.c, g.R2 * self.s]);
+        [
+            [g.D1, first[0], first[1]],
+            [g.D1, -first[0], -first[1]],
+            [g.D2 + half, -others[0], -others[1]],
+            [g.D2 - half, -others[0], -others[1]],
+            [g.D2 + half, others[0], others[1]],
+            [g.D2 - half, others[0], others[1]],
+        ]
     }
 }

@@ -5,6 +5,7 @@
 //! in three dimensions. The domain's boundary is found by root-finding on the constraints.
 
 mod column;
+mod contains;
 mod domain;
 mod image;
 mod measure;
@@ -15,10 +16,13 @@ mod plane;
 mod quadrature;
 mod request;
 mod root;
+mod slice;
 mod surface;
 
+pub use contains::{Membership, contains};
 pub use domain::Binding;
 pub use measure::{Measure, Volume, measure};
 pub use observer::{Observer, Unobserved};
 pub use request::{Kind, Request, WorkspaceError};
+pub use slice::{Contour, Polygon, Slice, slice};
 pub use surface::{Surface, surface};

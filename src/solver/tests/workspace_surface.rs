@@ -63,6 +63,10 @@ fn fuzz() {
             let c=(bb[1][0]-bb[0][0])*(bb[1][1]-bb[0][1])/(n*n) as f64;
             println!("brute area {} vol {} measured {v:?} bounds {bb:?} {:?}", area*c, vol*c, m.data());
         }
+        if b>0 && std::env::var("EDGES").is_ok() { let mut m:HashMap<(u32,u32),i32>=HashMap::new();
+ for t in &s.triangles { for i in 0..3 { *m.entry((t[i],t[(i+1)%3])).or_default()+=1; } }
+ for ((a,b),n) in &m { if *n!=1 || m.get(&(*b,*a))!=Some(&1) { println!("edge {a} {b} x{n} {:?} {:?}", s.positions[*a as usize], s.positions[*b as usize]);
+   for (t,bd) in s.triangles.iter().zip(&s.bindings) { if t.contains(a)&&t.contains(b) { println!("   {t:?} {bd:?}"); } } } } }
         if b>0 { bad+=1; println!("case {case} {kind:?} tol {} bad {b} chi {chi} tri {}", r.tolerance, s.triangles.len()); }
         match v.volume { Volume::Value{value,error} => { if error>1e-6*value { println!("case {case} {kind:?} volume {value} error {:.2e} area err {:.1e}", error/value, v.area_error/v.area); }
             let off=(s.volume()-value)/(v.area.max(1.0)+1.0)/r.tolerance; worst.push((off.abs(),format!("case {case} {kind:?} tol {} vol {value} mesh {} off/tol {off} area {}",r.tolerance,s.volume(),v.area))); }

@@ -1,75 +1,89 @@
 //! Certified isolation of all real roots; the method is described in [`crate::circle`].
 
-use arrayvec::ArrayVec;
+use std::f64::consts::TAU;
 
 use super::grid::{NODES, STEP, node_angle, on_grid};
-use super::polynomial::TrigPolynomial;
+use super::polynomial::{Jet, TrigPolynomial};
 
 /// An arc that holds roots, as `[low, high]` with `low < high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Site {
     /// Exactly one root, simple, near `start`.
     Crossing { low: f64, high: f64, start: f64 },
+    /// Two simple roots, one at either side of `at`.
+    Pair { low: f64, high: f64, at: f64 },
     /// The polynomial comes so close to zero at `at`, its only extremum on the arc, that its own
     /// rounding cannot tell two roots from none.
     Touch { low: f64, high: f64, at: f64 },
 }
-
-/// The sites of one polynomial: eight roots at most, and room for touches that are none.
-pub(crate) type Sites = ArrayVec<Site, 16>;
 
 /// Factor of the fourth derivative's bound in the Hermite interpolant's error (of its value,
 /// slope and curvature, times h⁴, h³ and h²).
 const ERROR: [f64; 3] = [1.0 / 384.0, 0.008_02, 1.0 / 12.0];
 /// Arcs are not split below this width.
 const NARROWEST: f64 = 1e-7;
+/// Steps to an extremum: most arcs are certain after one or two, a touch takes them all.
+const EXTREMUM_STEPS: usize = 40;
 /// How far the grid is turned when a root lies on a node: ten distinct grids, while a polynomial
 /// has eight roots, so that one of them is free.
 const TURN: f64 = STEP / 11.0;
 /// Where an arc is split: in the middle, or beside it if a root is just there.
 const SPLITS: [f64; 4] = [0.5, 0.41, 0.59, 0.33];
 
-/// All sites on the arcs of the grid that meet `|θ| <= range`. `noise` bounds the polynomial's own
-/// error: what is smaller is not told from zero.
+/// Shows all sites on the arcs of the grid that meet `|θ| <= range`, in rising order of the angle.
+/// `noise` bounds the polynomial's own error: what is smaller is not told from zero.
 #[inline]
-pub(crate) fn isolate<const M: usize>(poly: &TrigPolynomial<M>, noise: f64, range: f64) -> Sites {
+pub(crate) fn isolate<const M: usize>(
+    poly: &TrigPolynomial<M>,
+    noise: f64,
+    range: f64,
+    show: &mut impl FnMut(Site),
+) {
     let values = on_grid(poly);
     if values.iter().all(|value| value.abs() > noise) {
-        return walk(poly, &values, noise, range);
+        walk(poly, &values, noise, range, show);
+    } else {
+        isolate_turned(poly, noise, range, show);
     }
-    isolate_turned(poly, noise, range)
 }
 
 /// As [`isolate`], for a polynomial with a root on a node of the grid.
 #[cold]
-fn isolate_turned<const M: usize>(poly: &TrigPolynomial<M>, noise: f64, range: f64) -> Sites {
-    let mut best = (0.0, f64::NEG_INFINITY);
-    for turn in 1..=10 {
-        let angle = f64::from(turn) * TURN;
-        let least = on_grid(&poly.turned(angle)).iter().fold(f64::INFINITY, |m, value| m.min(value.abs()));
-        if least > best.1 {
-            best = (angle, least);
-        }
-    }
-    let turned = poly.turned(best.0);
-    let mut sites = walk(&turned, &on_grid(&turned), noise, range + STEP);
-    for site in &mut sites {
-        match site {
-            Site::Crossing { low, high, start: at } | Site::Touch { low, high, at } => {
-                *low += best.0;
-                *high += best.0;
-                *at += best.0;
+fn isolate_turned<const M: usize>(
+    poly: &TrigPolynomial<M>,
+    noise: f64,
+    range: f64,
+    show: &mut impl FnMut(Site),
+) {
+    let least =
+        |angle: f64| on_grid(&poly.turned(angle)).iter().fold(f64::INFINITY, |m, value| m.min(value.abs()));
+    let angles = (1..=10).map(|turn| f64::from(turn) * TURN);
+    let turn = angles.max_by(|a, b| least(*a).total_cmp(&least(*b))).unwrap_or(TURN);
+    let turned = poly.turned(turn);
+    walk(&turned, &on_grid(&turned), noise, range + STEP, &mut |site| {
+        show(match site {
+            Site::Crossing { low, high, start } => {
+                Site::Crossing { low: low + turn, high: high + turn, start: start + turn }
             }
-        }
-    }
-    sites
+            Site::Pair { low, high, at } => Site::Pair { low: low + turn, high: high + turn, at: at + turn },
+            Site::Touch { low, high, at } => {
+                Site::Touch { low: low + turn, high: high + turn, at: at + turn }
+            }
+        });
+    });
 }
 
-fn walk<const M: usize>(poly: &TrigPolynomial<M>, values: &[f64; NODES], noise: f64, range: f64) -> Sites {
+#[inline]
+fn walk<const M: usize>(
+    poly: &TrigPolynomial<M>,
+    values: &[f64; NODES],
+    noise: f64,
+    range: f64,
+    show: &mut impl FnMut(Site),
+) {
     let slopes = on_grid(&poly.derivative());
     let search = Search { poly, noise, fourth: poly.bound(4) };
     let slack = search.slack(0, STEP);
-    let mut sites = Sites::new();
     for i in 0..NODES {
         let next = (i + 1) % NODES;
         let arc = Arc {
@@ -78,13 +92,11 @@ fn walk<const M: usize>(poly: &TrigPolynomial<M>, values: &[f64; NODES], noise: 
             value: [values[i], values[next]],
             slope: [slopes[i], slopes[next]],
         };
-        let inside =
-            arc.low <= range && arc.low + STEP >= -range || arc.low + STEP >= std::f64::consts::TAU - range;
+        let inside = arc.low <= range && arc.low + STEP >= -range || arc.low + STEP >= TAU - range;
         if inside && one_sign(arc.control_points(), slack).is_none() {
-            search.resolve(&arc, &mut sites);
+            search.resolve(&arc, show);
         }
     }
-    sites
 }
 
 /// One arc with the polynomial's value and slope at its ends.
@@ -109,18 +121,25 @@ impl Arc {
         self.low + self.width
     }
 
-    /// Where the interpolant of a monotone arc crosses zero, to about a thousandth of the arc.
+    /// Where the interpolant of a monotone arc crosses zero, to a few hundredths of the arc: the
+    /// secant, improved by one Newton step.
     fn interpolated_root(&self) -> f64 {
         let [b0, b1, b2, b3] = self.control_points();
         let (c1, c2, c3) = (3.0 * (b1 - b0), 3.0 * (b2 - 2.0 * b1 + b0), b3 - b0 + 3.0 * (b1 - b2));
-        let mut t = b0 / (b0 - b3);
-        for _ in 0..3 {
-            let value = b0 + t * (c1 + t * (c2 + t * c3));
-            let slope = c1 + t * (2.0 * c2 + 3.0 * t * c3);
-            t = (t - value / slope).clamp(0.0, 1.0);
-        }
-        // A flat interpolant divides by zero: the middle will do.
-        if t.is_finite() { self.low + t * self.width } else { self.low + 0.5 * self.width }
+        let t = b0 / (b0 - b3);
+        let value = b0 + t * (c1 + t * (c2 + t * c3));
+        let slope = c1 + t * (2.0 * c2 + 3.0 * t * c3);
+        let improved = t - value / slope;
+        // A flat interpolant divides by zero: the secant will do.
+        self.low + self.width * if improved > 0.0 && improved < 1.0 { improved } else { t }
+    }
+
+    fn split(&self, at: f64, jet: Jet) -> (Self, Self) {
+        let ([a, b], [da, db]) = (self.value, self.slope);
+        let (value, slope) = ([a, jet.value], [da, jet.slope]);
+        let left = Self { low: self.low, width: at - self.low, value, slope };
+        let (value, slope) = ([jet.value, b], [jet.slope, db]);
+        (left, Self { low: at, width: self.high() - at, value, slope })
     }
 
     fn crossing(&self) -> Option<Site> {
@@ -158,104 +177,87 @@ impl<const M: usize> Search<'_, M> {
         ERROR[power] * self.fourth * scaled
     }
 
-    fn resolve(&self, arc: &Arc, sites: &mut Sites) {
+    fn resolve(&self, arc: &Arc, show: &mut impl FnMut(Site)) {
         let [b0, b1, b2, b3] = arc.control_points();
         if one_sign([b0, b1, b2, b3], self.slack(0, arc.width)).is_some() {
             return;
         }
         let slopes = [arc.slope[0], 3.0 * (b2 - b1) / arc.width, arc.slope[1]];
         if one_sign(slopes, self.slack(1, arc.width)).is_some() {
-            push(sites, arc.crossing());
+            push(show, arc.crossing());
             return;
         }
         let scale = 6.0 / (arc.width * arc.width);
         let curvatures = [scale * (b2 - 2.0 * b1 + b0), scale * (b3 - 2.0 * b2 + b1)];
         if let Some(bent) = one_sign(curvatures, self.slack(2, arc.width)) {
             if (arc.slope[0] < 0.0) == (arc.slope[1] < 0.0) {
-                push(sites, arc.crossing());
+                push(show, arc.crossing());
             } else {
-                self.around_extremum(arc, bent, sites);
+                self.around_extremum(arc, bent, show);
             }
             return;
         }
-        self.halves(arc, sites);
+        self.halves(arc, show);
     }
 
-    /// An arc of one curvature with its extremum inside.
-    fn around_extremum(&self, arc: &Arc, bent: f64, sites: &mut Sites) {
-        let (at, value) = self.extremum(arc);
-        if value.abs() <= self.noise {
-            push(sites, Some(Site::Touch { low: arc.low, high: arc.high(), at }));
-        } else if value * bent < 0.0 {
-            let left =
-                Arc { width: at - arc.low, value: [arc.value[0], value], slope: [arc.slope[0], 0.0], ..*arc };
-            let right = Arc {
-                low: at,
-                width: arc.high() - at,
-                value: [value, arc.value[1]],
-                slope: [0.0, arc.slope[1]],
-            };
-            push(sites, left.crossing());
-            push(sites, right.crossing());
-        }
-    }
-
-    /// Where the slope vanishes, by Newton's method kept inside the shrinking bracket, and the
-    /// value there.
-    fn extremum(&self, arc: &Arc) -> (f64, f64) {
-        let (mut low, mut high) = (arc.low, arc.high());
-        let rising = arc.slope[1] > arc.slope[0];
-        let mut at = arc.low + arc.width * (arc.slope[0] / (arc.slope[0] - arc.slope[1]));
-        let mut jet = self.poly.jet(at);
-        for _ in 0..60 {
-            if (jet.slope > 0.0) == rising {
-                high = at;
+    /// An arc of one curvature with its extremum inside: the slope's zero is approached until the
+    /// arc's roots are certain.
+    fn around_extremum(&self, arc: &Arc, bent: f64, show: &mut impl FnMut(Site)) {
+        let (mut low, mut high) = ((arc.low, arc.slope[0]), (arc.high(), arc.slope[1]));
+        let mut at = arc.low;
+        for step in 1..EXTREMUM_STEPS {
+            // The secant, and a bisection now and then: the one is fast, the other sure.
+            let part = if step % 3 == 0 { 0.5 } else { low.1 / (low.1 - high.1) };
+            at = low.0 + (high.0 - low.0) * part;
+            let jet = self.poly.at(at);
+            if jet.value * bent < -self.noise {
+                self.around_crossed(arc, at, jet, show);
+                return;
+            }
+            // The curve lies on one side of its tangent, which is nearest to zero at a bracket's end.
+            let ends = [low.0 - at, high.0 - at].map(|offset| bent * (jet.value + jet.slope * offset));
+            if ends[0].min(ends[1]) > self.noise {
+                return;
+            }
+            if (jet.slope < 0.0) == (arc.slope[0] < 0.0) {
+                low = (at, jet.slope);
             } else {
-                low = at;
-            }
-            let newton = at - jet.slope / jet.curvature;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            let step = (next - at).abs();
-            at = next;
-            jet = self.poly.jet(at);
-            if step <= 1e-12 {
-                break;
+                high = (at, jet.slope);
             }
         }
-        (at, jet.value)
+        show(Site::Touch { low: arc.low, high: arc.high(), at });
     }
 
-    fn halves(&self, arc: &Arc, sites: &mut Sites) {
+    /// An arc of one curvature with a point of the other sign than its bend: a root at either side
+    /// where the end's sign differs.
+    fn around_crossed(&self, arc: &Arc, at: f64, jet: Jet, show: &mut impl FnMut(Site)) {
+        let (left, right) = arc.split(at, jet);
+        match (left.crossing(), right.crossing()) {
+            (Some(_), Some(_)) => show(Site::Pair { low: arc.low, high: arc.high(), at }),
+            (one, other) => {
+                push(show, one);
+                push(show, other);
+            }
+        }
+    }
+
+    fn halves(&self, arc: &Arc, show: &mut impl FnMut(Site)) {
         for part in SPLITS {
             let middle = arc.low + part * arc.width;
-            let jet = self.poly.jet(middle);
+            let jet = self.poly.at(middle);
             if arc.width > NARROWEST && jet.value.abs() > self.noise {
-                let left = Arc {
-                    width: middle - arc.low,
-                    value: [arc.value[0], jet.value],
-                    slope: [arc.slope[0], jet.slope],
-                    ..*arc
-                };
-                let right = Arc {
-                    low: middle,
-                    width: arc.high() - middle,
-                    value: [jet.value, arc.value[1]],
-                    slope: [jet.slope, arc.slope[1]],
-                };
-                self.resolve(&left, sites);
-                self.resolve(&right, sites);
+                let (left, right) = arc.split(middle, jet);
+                self.resolve(&left, show);
+                self.resolve(&right, show);
                 return;
             }
         }
-        push(sites, Some(Site::Touch { low: arc.low, high: arc.high(), at: arc.low + 0.5 * arc.width }));
+        show(Site::Touch { low: arc.low, high: arc.high(), at: arc.low + 0.5 * arc.width });
     }
 }
 
-/// Sites beyond the room of [`Sites`] would be more roots than the degree allows: rounding only.
-fn push(sites: &mut Sites, site: Option<Site>) {
-    if let Some(site) = site
-        && !sites.is_full()
-    {
-        sites.push(site);
+fn push(show: &mut impl FnMut(Site), site: Option<Site>) {
+    if let Some(site) = site {
+        show(site);
     }
 }

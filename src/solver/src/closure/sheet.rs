@@ -1,40 +1,125 @@
 //! Newton's method on the loop closure, and one sheet of it as a function of the angle.
 
-use super::{Closure, Root, rotated};
+use super::{Closure, Root};
 
 /// Newton steps until the last digit; convergence is quadratic, so few are ever used.
 const STEPS: usize = 12;
-/// A step below this leaves an error of its square: nothing in double precision.
-const SMALL: f64 = 1e-8;
+/// Roundings of each term of the linear equation, generously.
+const ROUNDINGS: f64 = 8.0;
+/// Up to this angle the series of cos and sin below are exact in double precision.
+const SERIES: f64 = 0.15;
 
 /// Newton's method in (a, w); `None` if it does not converge.
 #[inline]
-pub(super) fn polish<const M: usize, C: Closure<M>>(closure: &C, start: Root) -> Option<Root> {
+pub(crate) fn polish<const M: usize, C: Closure<M>>(closure: &C, start: Root) -> Option<Root> {
     let mut root = start;
     for _ in 0..STEPS {
-        let e = closure.equations(root.c, root.s, root.w);
-        let det = e.da[0] * e.dw[1] - e.da[1] * e.dw[0];
-        let scale = 1.0 / det;
-        let step_a = (e.f[1] * e.dw[0] - e.f[0] * e.dw[1]) * scale;
-        let step_w = (e.f[0] * e.da[1] - e.f[1] * e.da[0]) * scale;
-        if !(step_a.abs() < 1.0) {
-            return None;
+        let step = step(closure, &root);
+        root = stepped(&root, step)?;
+        if settled(closure, &root, step) {
+            return Some(root);
         }
-        (root.c, root.s) = rotated(root.c, root.s, step_a);
-        root.w += step_w;
-        if step_a.abs() < SMALL && step_w.abs() <= SMALL * (root.w.abs() + closure.unit()) {
-            return renormalised(root);
+    }
+    None
+}
+
+/// [`polish`] for two roots in step: a processor works on both at once, where two calls would
+/// wait for each division in turn.
+#[inline]
+fn polish_both<const M: usize, C: Closure<M>>(closure: &C, starts: [Root; 2]) -> Option<[Root; 2]> {
+    let [mut first, mut second] = starts;
+    for _ in 0..STEPS {
+        let steps = [step(closure, &first), step(closure, &second)];
+        first = stepped(&first, steps[0])?;
+        second = stepped(&second, steps[1])?;
+        if settled(closure, &first, steps[0]) & settled(closure, &second, steps[1]) {
+            return Some([first, second]);
         }
     }
     None
 }
 
 #[inline]
-fn renormalised(root: Root) -> Option<Root> {
-    let norm = root.c * root.c + root.s * root.s;
-    // One Newton step for 1/sqrt: the norm is one up to a few roundings.
-    let scale = 1.5 - 0.5 * norm;
-    Some(Root { c: root.c * scale, s: root.s * scale, ..root })
+fn settled<const M: usize, C: Closure<M>>(closure: &C, root: &Root, step: [f64; 2]) -> bool {
+    let last = closure.last_step();
+    (step[0].abs() < last) & (step[1].abs() <= last * (root.w.abs() + closure.unit()))
+}
+
+/// The root in a bracket that holds one, from either sheet.
+pub(super) fn root_between<const M: usize, C: Closure<M>>(
+    closure: &C,
+    [low, high]: [f64; 2],
+    a: f64,
+) -> Option<Root> {
+    let (s, c) = a.sin_cos();
+    let inside = |root: &Root| root.a >= low && root.a <= high;
+    let w = closure.w_at_root(c, s);
+    let sheets = closure.sheets(c, s).unwrap_or([w, w]);
+    // The nearer sheet first: a root close to another in the angle may be on either.
+    let nearer = usize::from((sheets[1] - w).abs() < (sheets[0] - w).abs());
+    [nearer, 1 - nearer]
+        .into_iter()
+        .find_map(|sheet| polish(closure, Root::at(a, [c, s], sheets[sheet])).filter(inside))
+}
+
+/// The two roots of a bracket, one at either side of `at` and one on each sheet: each is alone on
+/// its sheet, and Newton's method goes straight to it however near they are. `None` if they are
+/// not so placed.
+#[inline]
+pub(super) fn either_side<const M: usize, C: Closure<M>>(
+    closure: &C,
+    [low, high]: [f64; 2],
+    at: f64,
+) -> Option<[Root; 2]> {
+    let (s, c) = at.sin_cos();
+    let [above, below] = closure.sheets(c, s)?;
+    let [first, second] = polish_both(closure, [above, below].map(|w| Root::at(at, [c, s], w)))?;
+    let pair = if first.a < second.a { [first, second] } else { [second, first] };
+    let placed = low <= pair[0].a && pair[0].a <= at && at <= pair[1].a && pair[1].a <= high;
+    placed.then_some(pair)
+}
+
+/// The determinant of the closure's derivatives: zero at a parallel singularity, and a multiple of
+/// `det_P` whose factor has one sign for a machine.
+#[inline]
+pub(crate) fn determinant<const M: usize, C: Closure<M>>(closure: &C, root: &Root) -> f64 {
+    let e = closure.equations(root.c, root.s, root.w);
+    e.da[0] * e.dw[1] - e.da[1] * e.dw[0]
+}
+
+/// The Newton step in (a, w).
+#[inline]
+fn step<const M: usize, C: Closure<M>>(closure: &C, root: &Root) -> [f64; 2] {
+    let e = closure.equations(root.c, root.s, root.w);
+    let scale = 1.0 / (e.da[0] * e.dw[1] - e.da[1] * e.dw[0]);
+    [(e.f[1] * e.dw[0] - e.f[0] * e.dw[1]) * scale, (e.f[0] * e.da[1] - e.f[1] * e.da[0]) * scale]
+}
+
+/// The root moved by a step; `None` for a step that leads astray.
+#[inline]
+fn stepped(root: &Root, [step_a, step_w]: [f64; 2]) -> Option<Root> {
+    let (a, w) = (root.a + step_a, root.w + step_w);
+    let size = step_a.abs();
+    if size < SERIES {
+        let (c, s) = rotated(root.c, root.s, step_a);
+        Some(Root { a, c, s, w, ..*root })
+    } else if size < 1.0 {
+        let (s, c) = a.sin_cos();
+        Some(Root { a, c, s, w, ..*root })
+    } else {
+        None
+    }
+}
+
+/// The direction (c, s) turned by an angle below [`SERIES`], by the Taylor series of cos and sin.
+#[inline]
+fn rotated(c: f64, s: f64, angle: f64) -> (f64, f64) {
+    let x = angle * angle;
+    let sd =
+        angle * (1.0 - x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5_040.0 - x * (1.0 / 362_880.0)))));
+    let cd = 1.0
+        - x * (0.5 - x * (1.0 / 24.0 - x * (1.0 / 720.0 - x * (1.0 / 40_320.0 - x * (1.0 / 3_628_800.0)))));
+    (c * cd - s * sd, s * cd + c * sd)
 }
 
 /// The linear equation on one sheet: its value and its slope along the sheet.
@@ -42,6 +127,8 @@ fn renormalised(root: Root) -> Option<Root> {
 pub(super) struct OnSheet {
     pub(super) value: f64,
     pub(super) slope: f64,
+    /// What rounding may have done to the value.
+    pub(super) noise: f64,
 }
 
 /// Sheet 0 (w₊) or 1 (w₋) at an angle; `None` where it does not exist.
@@ -50,5 +137,8 @@ pub(super) fn on_sheet<const M: usize, C: Closure<M>>(closure: &C, sheet: usize,
     let w = closure.sheets(c, s)?[sheet];
     let e = closure.equations(c, s, w);
     let slope = e.da[0] - e.dw[0] * e.da[1] / e.dw[1];
-    slope.is_finite().then_some(OnSheet { value: e.f[0], slope })
+    // The equation's two terms, one of them with w, cancel at a root; and w is itself rounded, by
+    // what the quadratic equation leaves of its digits.
+    let noise = ROUNDINGS * f64::EPSILON * e.dw[0].abs() * (w.abs() + closure.square() / e.dw[1].abs());
+    slope.is_finite().then_some(OnSheet { value: e.f[0], slope, noise })
 }

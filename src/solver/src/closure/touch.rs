@@ -2,39 +2,60 @@
 
 use arrayvec::ArrayVec;
 
-use super::sheet::{on_sheet, polish};
-use super::{Closure, Root};
+use super::sheet::{OnSheet, on_sheet, polish};
+use super::{Closure, Root, Roots, add};
 
-/// Half-width of the window around a touch in which the sheets are looked at: much wider than the
-/// distance of two roots that the polynomial cannot tell apart, much narrower than the grid.
-const WINDOW: f64 = 1e-3;
-/// Step of the second difference of a sheet.
-const DIFFERENCE: f64 = 1e-5;
-/// Two roots closer than this cannot be told apart: the square root of the rounding.
-const RESOLUTION: f64 = 4e-8;
+/// Even intervals of the arc in which the sheets are looked at.
+const EVEN: u8 = 16;
+/// Distances from the touch at which they are looked at besides.
+const CLOSE: [f64; 6] = [1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
+/// Bisections of an interval: as many as a double has bits.
+const BISECTIONS: u8 = 60;
+/// Two roots closer than twice this cannot be told apart: the square root of the rounding.
+const RESOLUTION: f64 = 1e-7;
 
-/// The roots at a touch: one on each of two sheets, or two, one merged or none on one of them.
+/// Adds the roots at a touch: one on each of two sheets, or two, one merged or none on one of
+/// them. The sheets are smooth where the polynomial is all rounding, so looking at them in a few
+/// dozen intervals, closer around the touch, misses nothing that double precision can show.
 #[cold]
-pub(super) fn roots<const M: usize, C: Closure<M>>(
+pub(super) fn add_roots<const M: usize, C: Closure<M>>(
     closure: &C,
-    bracket: [f64; 2],
+    [low, high]: [f64; 2],
     at: f64,
-) -> ArrayVec<Root, 4> {
-    let window = [bracket[0].max(at - WINDOW), bracket[1].min(at + WINDOW)];
-    let mut roots = ArrayVec::new();
-    for sheet in 0..2 {
-        let ends = window.map(|a| on_sheet(closure, sheet, a));
-        let [Some(low), Some(high)] = ends else {
-            roots.extend(at_fold(closure, sheet, window, at));
-            continue;
-        };
-        if (low.value < 0.0) != (high.value < 0.0) {
-            roots.extend(bracketed(closure, sheet, window));
-        } else {
-            roots.extend(tangent(closure, sheet, window, at));
+    found: &mut Roots,
+) {
+    let even = (0..=EVEN).map(|i| low + (high - low) * f64::from(i) / f64::from(EVEN));
+    let close = CLOSE.into_iter().flat_map(|offset| [at - offset, at + offset]);
+    let mut angles: ArrayVec<f64, 32> = even.chain(close).filter(|a| (low..=high).contains(a)).collect();
+    angles.sort_unstable_by(f64::total_cmp);
+    for interval in angles.windows(2) {
+        let window = [interval[0], interval[1]];
+        for sheet in 0..2 {
+            on_interval(closure, sheet, window, found);
         }
     }
-    roots
+}
+
+/// Adds the roots of one sheet on one interval.
+fn on_interval<const M: usize, C: Closure<M>>(
+    closure: &C,
+    sheet: usize,
+    window: [f64; 2],
+    found: &mut Roots,
+) {
+    let ends = window.map(|a| on_sheet(closure, sheet, a));
+    let mut keep = |root| add(found, root);
+    match ends {
+        [None, None] => {}
+        [Some(low), Some(high)] if (low.value < 0.0) == (high.value < 0.0) => {
+            // A sheet that bends towards zero: only then can it reach it in between.
+            if low.value * low.slope < 0.0 && high.value * high.slope > 0.0 {
+                tangent(closure, sheet, window).into_iter().for_each(&mut keep);
+            }
+        }
+        [Some(_), Some(_)] => bracketed(closure, sheet, window).into_iter().for_each(&mut keep),
+        _ => at_fold(closure, sheet, window).into_iter().for_each(&mut keep),
+    }
 }
 
 /// The root of a sheet that changes sign over the window.
@@ -43,63 +64,54 @@ fn bracketed<const M: usize, C: Closure<M>>(
     sheet: usize,
     [mut low, mut high]: [f64; 2],
 ) -> Option<Root> {
+    let reach = high - low;
     let rising = on_sheet(closure, sheet, low)?.value < 0.0;
-    for _ in 0..60 {
+    for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if (on_sheet(closure, sheet, middle)?.value < 0.0) == rising { low = middle } else { high = middle }
     }
     let a = 0.5 * (low + high);
     let root = root_at(closure, sheet, a, false)?;
-    Some(polish(closure, root).filter(|polished| close(polished, &root)).unwrap_or(root))
+    let inside = |polished: &Root| (polished.a - a).abs() <= reach;
+    Some(polish(closure, root).filter(inside).unwrap_or(root))
 }
 
-/// A sheet of one sign at both ends: it crosses twice, touches, or passes by.
-fn tangent<const M: usize, C: Closure<M>>(
-    closure: &C,
-    sheet: usize,
-    window: [f64; 2],
-    at: f64,
-) -> ArrayVec<Root, 2> {
+/// A sheet of one sign at both ends that bends towards zero in between: it crosses twice, touches,
+/// or turns back.
+fn tangent<const M: usize, C: Closure<M>>(closure: &C, sheet: usize, window: [f64; 2]) -> ArrayVec<Root, 2> {
     let mut roots = ArrayVec::new();
-    let Some((extremum, value, curvature)) = sheet_extremum(closure, sheet, window, at) else { return roots };
+    let Some((extremum, at, curvature)) = sheet_extremum(closure, sheet, window) else { return roots };
     // The parabola value + curvature/2 δ² has its roots at ± reach, or misses by as much.
-    let square = -2.0 * value / curvature;
-    let reach = square.abs().sqrt();
-    if square > 0.0 && reach > RESOLUTION {
-        let found = [-reach, reach].map(|offset| {
-            let start = root_at(closure, sheet, extremum + offset, false)?;
-            Some(polish(closure, start).filter(|polished| close(polished, &start)).unwrap_or(start))
-        });
-        roots.extend(found.into_iter().flatten());
-    } else if reach <= RESOLUTION {
+    let square = -2.0 * at.value / curvature;
+    if square.abs() <= RESOLUTION * RESOLUTION || at.value.abs() <= at.noise {
         roots.extend(root_at(closure, sheet, extremum, true));
+    } else if square > 0.0 {
+        roots.extend(bracketed(closure, sheet, [window[0], extremum]));
+        roots.extend(bracketed(closure, sheet, [extremum, window[1]]));
     }
     roots
 }
 
-/// The extremum of a sheet in the window, with the sheet's value and curvature there; `None` if
-/// there is none.
+/// The extremum of a sheet in a window over which its slope changes sign, with the sheet there
+/// and its mean curvature.
 fn sheet_extremum<const M: usize, C: Closure<M>>(
     closure: &C,
     sheet: usize,
-    [low, high]: [f64; 2],
-    at: f64,
-) -> Option<(f64, f64, f64)> {
-    let mut a = at;
-    for _ in 0..20 {
-        let [before, after] = [a - DIFFERENCE, a + DIFFERENCE].map(|a| on_sheet(closure, sheet, a));
-        let here = on_sheet(closure, sheet, a)?;
-        let curvature = (after?.slope - before?.slope) / (2.0 * DIFFERENCE);
-        let next = a - here.slope / curvature;
-        if !(next >= low && next <= high) {
-            return None;
+    window: [f64; 2],
+) -> Option<(f64, OnSheet, f64)> {
+    let [mut low, mut high] = window;
+    let (first, last) = (on_sheet(closure, sheet, low)?.slope, on_sheet(closure, sheet, high)?.slope);
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        if (on_sheet(closure, sheet, middle)?.slope < 0.0) == (first < 0.0) {
+            low = middle
+        } else {
+            high = middle
         }
-        if (next - a).abs() <= 1e-11 {
-            return Some((next, on_sheet(closure, sheet, next)?.value, curvature));
-        }
-        a = next;
     }
-    None
+    let extremum = 0.5 * (low + high);
+    let curvature = (last - first) / (window[1] - window[0]);
+    Some((extremum, on_sheet(closure, sheet, extremum)?, curvature))
 }
 
 /// Where the sheets themselves end in the window (w₊ = w₋), the angle does not parametrise the
@@ -107,24 +119,16 @@ fn sheet_extremum<const M: usize, C: Closure<M>>(
 fn at_fold<const M: usize, C: Closure<M>>(
     closure: &C,
     sheet: usize,
-    window: [f64; 2],
-    at: f64,
-) -> Option<Root> {
-    let starts = [at, window[0], window[1], 0.5 * (at + window[0]), 0.5 * (at + window[1])];
-    starts.into_iter().filter_map(|a| root_at(closure, sheet, a, false)).find_map(|start| {
-        let root = polish(closure, start)?;
-        let (s, c) = at.sin_cos();
-        ((root.c - c).hypot(root.s - s) <= 2.0 * WINDOW).then_some(root)
-    })
+    [low, high]: [f64; 2],
+) -> ArrayVec<Root, 5> {
+    let starts = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| low + part * (high - low));
+    let near = |root: &Root| root.a >= low - (high - low) && root.a <= high + (high - low);
+    let roots = starts.into_iter().filter_map(|a| polish(closure, root_at(closure, sheet, a, false)?));
+    roots.filter(near).collect()
 }
 
 fn root_at<const M: usize, C: Closure<M>>(closure: &C, sheet: usize, a: f64, merged: bool) -> Option<Root> {
     let (s, c) = a.sin_cos();
     let w = closure.sheets(c, s)?[sheet];
-    Some(Root { c, s, w, merged })
-}
-
-/// Polishing moves a root by far less than the window, or it went astray.
-fn close(polished: &Root, start: &Root) -> bool {
-    (polished.c - start.c).hypot(polished.s - start.s) <= 0.1 * WINDOW
+    Some(Root { a, c, s, w, merged })
 }

@@ -1,8 +1,8 @@
 //! The forward question's loop closure in (a, λ), and its polynomial of degree four.
 
 use crate::circle::{TrigPolynomial, linear};
-use crate::closure::{Closure, Equations};
-use crate::machine::Machine;
+use crate::closure::{Closure, Equations, LAST_STEP};
+use crate::machine::{Derived, Geometry};
 
 /// With (y, w1) = λ (-v, u), which satisfies the difference of Eqs (3) and (4), and x from their
 /// mean with Eqs (5) and (6), two equations remain:
@@ -31,9 +31,7 @@ pub(super) struct Assembly {
 }
 
 impl Assembly {
-    pub(super) fn new(machine: &Machine, rho: [f64; 3]) -> Self {
-        let g = machine.geometry();
-        let derived = &machine.derived;
+    pub(super) fn new(g: &Geometry, derived: &Derived, rho: [f64; 3]) -> Self {
         let [a, b] = [rho[0] - rho[1], rho[0] - rho[2]];
         let gap = rho[2] - rho[1];
         let s = a + b;
@@ -92,15 +90,12 @@ impl Closure<5> for Assembly {
         let (d, n) = (self.d(), self.n());
         let u = linear(-self.r1_slider, self.r1_platform, 0.0);
         let t = linear(self.t[0], self.t[1], self.t[2]);
-        let spread = linear(self.c, -self.k, 0.0);
         // F = X² + (C - k cos a) N² + (C - k cos a - L1²) D² with X = D X1.
-        let x = t.times::<2, 3>(&d).plus(self.s, &u.times::<2, 3>(&n));
-        let squares = n.times::<2, 3>(&n).plus(1.0, &d.times::<2, 3>(&d));
-        let d_square = d.times::<2, 3>(&d);
-        let rest = squares.times::<2, 4>(&spread).plus(-self.l1_square, &d_square.raised());
+        let x = t.times(&d).plus(self.s, &u.times(&n));
+        let from_n = n.times(&n).times_even(self.c, -self.k);
+        let rest = from_n.plus(1.0, &d.times(&d).times_even(self.c - self.l1_square, -self.k));
         let weight = self.inverse_d * self.inverse_d;
-        let mut poly = rest.raised::<5>();
-        poly = poly.plus(weight, &x.times::<3, 5>(&x));
+        let poly = rest.raised::<5>().plus(weight, &x.squared());
         let (bx, bn, bd) = (x.bound(0), n.bound(0), d.bound(0));
         let magnitude = weight * bx * bx + (self.c + self.k) * (bn * bn + bd * bd) + self.l1_square * bd * bd;
         (poly, magnitude)
@@ -150,5 +145,13 @@ impl Closure<5> for Assembly {
 
     fn unit(&self) -> f64 {
         1.0
+    }
+
+    fn square(&self) -> f64 {
+        self.l1_square
+    }
+
+    fn last_step(&self) -> f64 {
+        LAST_STEP
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::elimination::Assembly;
 use super::posture;
-use crate::closure::{Closure, roots};
+use crate::closure::{Closure, Roots, find_roots};
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
 use crate::margins::Margins;
@@ -40,7 +40,9 @@ fn miss_at(machine: &Machine, assembly: &Assembly, a: f64) -> f64 {
 /// Assemblies exist, but none in the working mode: the worst margin of the one that comes nearest.
 #[cold]
 pub(super) fn out_of_mode(machine: &Machine, rho: [f64; 3], assembly: &Assembly) -> Margin {
-    let nearest_to_working = roots(assembly, PI, None)
+    let mut roots = Roots::new();
+    find_roots(assembly, PI, &mut roots);
+    let nearest_to_working = roots
         .iter()
         .filter_map(|root| posture(machine, assembly, rho, root))
         .max_by(|a, b| mode_margin(machine, a).total_cmp(&mode_margin(machine, b)));

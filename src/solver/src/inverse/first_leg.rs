@@ -15,9 +15,8 @@ use crate::residual::RESIDUAL_TOLERANCE;
 
 /// Newton steps: near a double root convergence is linear, a bit each.
 const STEPS: usize = 60;
-/// Relative step at which a root stands: far below the square root of the rounding, so that the
-/// quadratic rest is nothing even near a double root.
-const SETTLED: f64 = 1e-11;
+/// Relative size of the next step at which a root stands.
+const SETTLED: f64 = 1e-16;
 /// Two roots closer than this are one: the square root of the rounding.
 const RESOLUTION: f64 = 4e-8;
 /// Where w1² exceeds this part of L1², its root is the better formula for w1, else y u / v.
@@ -56,7 +55,8 @@ impl<'a> FirstLeg<'a> {
     /// The angle nearest to zero, where the working mode usually is.
     #[inline]
     pub(crate) fn nearest(&self) -> Option<LegAngle> {
-        let t = self.cubic(1.0).newton(0.0)?;
+        let cubic = self.cubic(1.0);
+        let t = cubic.newton(cubic.guess()).or_else(|| cubic.newton(0.0))?;
         Some(self.angle(1.0 - t, t, false))
     }
 
@@ -65,8 +65,10 @@ impl<'a> FirstLeg<'a> {
     pub(crate) fn both(&self) -> ArrayVec<LegAngle, 2> {
         let (k, right_side) = (self.machine.derived.k, self.cubic(1.0));
         let inflection = 1.0 - self.e / (3.0 * k);
-        let right = right_side.newton(0.0);
-        let left = self.cubic(-1.0).newton(inflection.max(0.0));
+        let right = right_side.newton(right_side.guess()).or_else(|| right_side.newton(0.0));
+        let left_side = self.cubic(-1.0);
+        let left =
+            if inflection > 0.0 { left_side.newton(inflection) } else { left_side.newton(left_side.guess()) };
         let mut angles = ArrayVec::new();
         match (right, left) {
             (Some(t), Some(near)) if 2.0 - t - near > RESOLUTION => {
@@ -142,19 +144,35 @@ impl Cubic {
         a0 + t * (a1 + t * (a2 + t * a3))
     }
 
+    /// The zero without the cubic term, which is small: where Newton's method begins.
+    #[inline]
+    fn guess(&self) -> f64 {
+        let [a0, a1, a2, _] = self.0;
+        let disc = a1 * a1 - 4.0 * a0 * a2;
+        if disc > 0.0 && a1 > 0.0 { -2.0 * a0 / (a1 + disc.sqrt()) } else { 0.0 }
+    }
+
+    #[inline]
+    fn slope(&self, t: f64) -> f64 {
+        let [_, a1, a2, a3] = self.0;
+        a1 + t * (2.0 * a2 + t * (3.0 * a3))
+    }
+
     #[inline]
     fn newton(&self, start: f64) -> Option<f64> {
-        let [_, a1, a2, a3] = self.0;
+        let [_, _, a2, a3] = self.0;
         let mut t = start;
         for _ in 0..STEPS {
-            let slope = a1 + t * (2.0 * a2 + t * (3.0 * a3));
+            let slope = self.slope(t);
             // Behind the maximum: g has no root between.
             if !(slope > 0.0 && t <= 2.0) {
                 return None;
             }
             let step = self.value(t) / slope;
             t -= step;
-            if step.abs() <= SETTLED * t {
+            // What the next step would be, as far as convergence is quadratic.
+            let next = step * step * (a2 + 3.0 * a3 * t).abs();
+            if next <= SETTLED * t * slope {
                 break;
             }
         }

@@ -2,12 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::legs::{self, Closed};
+use super::legs;
 use super::track::{LegOne, Track};
-use crate::closure::roots;
+use crate::closure::{Roots, find_roots};
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
-use crate::posture::Side;
 
 /// Angles at which leg I is tried.
 const TRIALS: u32 = 32;
@@ -17,29 +16,31 @@ const STEPS: usize = 20;
 /// No posture in any mode: leg I does not close, or where it does another leg is too short.
 #[cold]
 pub(super) fn of_all(machine: &Machine, track: &Track) -> Margin {
-    roots(&LegOne::new(machine, track), PI, None)
+    let mut roots = Roots::new();
+    find_roots(&LegOne::new(machine, track), PI, &mut roots);
+    roots
         .iter()
-        .filter_map(|root| {
-            let p = track.at(root.c, root.s);
-            let closed =
-                Closed { p, c: root.c, s: root.s, w1: root.w, side: Side::of(root.w), merged: false };
-            legs::reach_of_others(machine, &closed)
-        })
+        .filter_map(|root| legs::reach_of_others(machine, &track.closed(machine, root)))
         .max_by(|a, b| a.value.total_cmp(&b.value))
         .unwrap_or_else(|| of_leg_one(machine, track))
 }
 
-/// Leg I closes at no angle at which its rods do not cross: by how much its rods cross where it
-/// closes, or by how much it misses at the best angle.
+/// Leg I closes at no angle in the working mode: its rods cross or a slider end lies low where it
+/// closes, or it does not close and misses by so much at the best angle.
 #[cold]
 pub(super) fn of_leg_one(machine: &Machine, track: &Track) -> Margin {
     let leg = LegOne::new(machine, track);
-    let g = machine.geometry();
-    let crossed = roots(&leg, PI, Some(1.0)).iter().map(|root| g.R1 * root.c - g.r1).max_by(f64::total_cmp);
-    if let Some(value) = crossed.filter(|value| *value < 0.0) {
-        return Margin { constraint: Constraint::RodCrossing, element: Element::Leg(1), value };
-    }
-    Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value: best_slack(&leg).min(0.0) }
+    let mut roots = Roots::new();
+    find_roots(&leg, PI, &mut roots);
+    roots
+        .iter()
+        .filter_map(|root| legs::out_of_mode(machine, &track.closed(machine, root)))
+        .max_by(|a, b| a.value.total_cmp(&b.value))
+        .unwrap_or_else(|| {
+            // The slack is negative where there is no root, but for the rounding at the limit itself.
+            let value = best_slack(&leg).min(-f64::EPSILON * machine.derived.scale);
+            Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value }
+        })
 }
 
 /// The greatest slack of leg I over the platform's angles.

@@ -2,15 +2,16 @@
 
 use std::f64::consts::PI;
 
-use super::legs::{self, Closed};
+use super::legs::{self, Closed, check};
 use super::obstacle;
 use super::platform::{platform, platform_working};
 use crate::circle::{TrigPolynomial, linear};
-use crate::closure::{Closure, Equations, Root, roots};
+use crate::closure::{Closure, Equations, LAST_STEP, Root, Roots, find_roots, polish, wrapped};
 use crate::limit::{Margin, Refusal};
 use crate::machine::Machine;
 use crate::pose::Point;
-use crate::posture::{Posture, Postures, Side};
+use crate::posture::{Posture, Postures, Side, gathered};
+use crate::residual::size;
 
 /// P = (x, y0 + yc cos a + ys sin a, z0 + zc cos a + zs sin a): where the platform has to be at
 /// each of its angles, for a tool given in the base or the table frame.
@@ -43,25 +44,40 @@ impl Track {
         if let Some(p) = self.fixed() {
             return platform(machine, p);
         }
-        let mut postures = Postures::new();
-        for root in roots(&LegOne::new(machine, self), PI, None) {
-            legs::postures(machine, &self.closed(&root), &mut postures);
-        }
-        if postures.is_empty() {
-            Err(Refusal::Blocked(obstacle::of_all(machine, self)))
-        } else {
-            Ok(postures)
-        }
+        let mut roots = Roots::new();
+        find_roots(&LegOne::new(machine, self), PI, &mut roots);
+        gathered(
+            |found| roots.iter().for_each(|root| legs::postures(machine, &self.closed(machine, root), found)),
+            || obstacle::of_all(machine, self),
+        )
     }
 
     /// The posture in the working mode along the track.
+    #[inline]
     pub(super) fn working(&self, machine: &Machine) -> Result<Posture, Refusal> {
         if let Some(p) = self.fixed() {
             return platform_working(machine, p);
         }
+        let leg = LegOne::new(machine, self);
+        // From the level platform on the sheet w1 > 0: the working mode's only basin in practice.
+        let direct = leg.sheets(1.0, 0.0).and_then(|[w, _]| {
+            let root = polish(&leg, Root::at(0.0, [1.0, 0.0], w))?;
+            legs::working(machine, &self.closed(machine, &root)).ok()
+        });
+        match direct {
+            Some(posture) => Ok(posture),
+            None => self.among_all(machine, &leg),
+        }
+    }
+
+    /// The working mode among all roots of the sheet at which leg I's rods do not cross.
+    #[cold]
+    fn among_all(&self, machine: &Machine, leg: &LegOne) -> Result<Posture, Refusal> {
         let mut refused: Option<Margin> = None;
-        for root in roots(&LegOne::new(machine, self), machine.derived.uncrossed, Some(1.0)) {
-            match legs::working(machine, &self.closed(&root)) {
+        let mut roots = Roots::new();
+        find_roots(leg, machine.derived.uncrossed, &mut roots);
+        for root in roots.iter().filter(|root| root.w >= 0.0) {
+            match legs::working(machine, &self.closed(machine, root)) {
                 Ok(posture) => return Ok(posture),
                 Err(margin) => refused = refused.or(Some(margin)),
             }
@@ -69,10 +85,23 @@ impl Track {
         Err(Refusal::Blocked(refused.unwrap_or_else(|| obstacle::of_leg_one(machine, self))))
     }
 
+    /// The platform's pose at a root of leg I's closure.
     #[inline]
-    fn closed(&self, root: &Root) -> Closed {
+    pub(super) fn closed(&self, machine: &Machine, root: &Root) -> Closed {
         let p = self.at(root.c, root.s);
-        Closed { p, c: root.c, s: root.s, w1: root.w, side: Side::of(root.w), merged: root.merged }
+        let alpha = wrapped(root.a);
+        let (c, s) = (root.c, root.s);
+        Closed {
+            p,
+            alpha,
+            c,
+            s,
+            checked: check(alpha),
+            w1: root.w,
+            side: Side::of(root.w),
+            merged: root.merged,
+            size: size(machine, p[2]) + self.y[1].abs() + self.y[2].abs(),
+        }
     }
 }
 
@@ -88,6 +117,7 @@ pub(super) struct LegOne {
     /// L1² - X1² - C.
     e: f64,
     scale: f64,
+    last_step: f64,
 }
 
 impl LegOne {
@@ -104,6 +134,8 @@ impl LegOne {
             k: derived.k,
             e: (g.L1 - x1) * (g.L1 + x1) - derived.c,
             scale: derived.scale,
+            // A long arm bends the closure by as much as it is longer than the machine.
+            last_step: LAST_STEP * derived.scale / (derived.scale + track.y[1].abs() + track.y[2].abs()),
         }
     }
 
@@ -123,12 +155,10 @@ impl Closure<4> for LegOne {
     #[inline]
     fn polynomial(&self) -> (TrigPolynomial<4>, f64) {
         let y = linear(self.y[0], self.y[1], self.y[2]);
-        let spread = linear(self.c, -self.k, 0.0);
         let half = 0.5 * self.r1_platform * self.r1_platform;
         let v_square = TrigPolynomial { cos: [half, 0.0, -half], sin: [0.0; 3] };
-        let left = linear(-self.e, -self.k, 0.0);
-        let y_square = y.times::<2, 3>(&y);
-        let poly = y_square.times::<2, 4>(&spread).plus(1.0, &v_square.times::<2, 4>(&left));
+        let from_y = y.times(&y).times_even(self.c, -self.k);
+        let poly = from_y.plus(1.0, &v_square.times_even(-self.e, -self.k));
         let size = y.bound(0);
         let magnitude = size * size * (self.c + self.k) + 2.0 * half * (self.e.abs() + self.k);
         (poly, magnitude)
@@ -164,5 +194,13 @@ impl Closure<4> for LegOne {
 
     fn unit(&self) -> f64 {
         self.scale
+    }
+
+    fn square(&self) -> f64 {
+        self.scale * self.scale
+    }
+
+    fn last_step(&self) -> f64 {
+        self.last_step
     }
 }

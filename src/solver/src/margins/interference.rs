@@ -3,91 +3,88 @@
 use crate::machine::Geometry;
 use crate::rods::{FAMILY, RODS, Rods};
 
-/// Pairs of rods as indices of the six. Rods 22 and 32 stand to each other as 21 and 31 do.
-const PAIRS: [(usize, usize); 14] = [
-    (0, 1),
-    (2, 3),
-    (4, 5),
-    (0, 2),
-    (0, 3),
-    (0, 4),
-    (0, 5),
-    (1, 2),
-    (1, 3),
-    (1, 4),
-    (1, 5),
-    (2, 4),
-    (2, 5),
-    (3, 4),
-];
-/// Of two rods whose directions differ by less than the square root of this, the parallel formula
-/// serves: the distance does not depend on where along them it is measured.
+/// Of two rods whose directions differ by less than the square root of this, any point of the one
+/// will do to start from: the distance does not depend on where along them it is measured.
 const PARALLEL: f64 = 1e-14;
+/// The nearest pair so far: square of the distance, and the rods as indices of the six.
+type Nearest = (f64, usize, usize);
 
 /// The least distance between two rods' axes as segments, mm, and the two rods' numbers.
 #[inline]
-pub(crate) fn nearest(g: &Geometry, rods: &Rods, x: [f64; 2], y: f64) -> (f64, [u8; 2]) {
-    let ends = rods.slider_ends(g, x, y);
-    let dots = Dots::new(rods);
-    let squares = PAIRS.map(|(i, j)| square_distance(&ends, rods, &dots, i, j));
-    let mut least = 0;
-    for (i, square) in squares.iter().enumerate() {
-        if *square < squares[least] {
-            least = i;
+pub(crate) fn nearest(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
+    let ends = rods.platform_ends(g);
+    let mut nearest = (f64::INFINITY, 0, 0);
+    // A leg's own rods first: they are usually the nearest, and the rest is then seen to be
+    // further apart at a glance. Rods 22 and 32 stand to each other as 21 and 31 do.
+    meet::<0, 1>(&mut nearest, &ends, rods);
+    for (leg, first) in [(2, 2), (3, 4)] {
+        let square = square_parallel(2.0 * g.parallelogram_half_width, &rods.vectors[leg]);
+        if square < nearest.0 {
+            nearest = (square, first, first + 1);
         }
     }
-    let (i, j) = PAIRS[least];
-    (squares[least].sqrt(), [RODS[i], RODS[j]])
-}
-
-/// Products of the rod vectors, which pairs of the same families share.
-struct Dots {
-    product: [[f64; 4]; 4],
-    inverse_length: [f64; 4],
-    /// 1 / (|a|²|b|² - (a·b)²), zero for parallel rods.
-    inverse_gram: [[f64; 4]; 4],
-}
-
-impl Dots {
-    #[inline]
-    fn new(rods: &Rods) -> Self {
-        let mut product = [[0.0; 4]; 4];
-        let mut inverse_gram = [[0.0; 4]; 4];
-        for i in 0..4 {
-            product[i][i] = dot(rods.vectors[i], rods.vectors[i]);
-        }
-        let inverse_length = std::array::from_fn(|i| 1.0 / product[i][i]);
-        for i in 0..4 {
-            for j in i + 1..4 {
-                let across = dot(rods.vectors[i], rods.vectors[j]);
-                let full = product[i][i] * product[j][j];
-                let gram = full - across * across;
-                product[i][j] = across;
-                inverse_gram[i][j] = if gram > PARALLEL * full { 1.0 / gram } else { 0.0 };
-            }
-        }
-        Self { product, inverse_length, inverse_gram }
-    }
-}
-
-/// Squared distance of two segments: the nearest points of the lines, then each clamped to its
-/// segment in turn (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.9).
-#[inline]
-fn square_distance(ends: &[[f64; 3]; 6], rods: &Rods, dots: &Dots, i: usize, j: usize) -> f64 {
-    let (fi, fj) = (FAMILY[i], FAMILY[j]);
-    let (a, b) = (rods.vectors[fi], rods.vectors[fj]);
-    let offset: [f64; 3] = std::array::from_fn(|axis| ends[i][axis] - ends[j][axis]);
-    let across = dots.product[fi][fj];
-    let (along_a, along_b) = (dot(a, offset), dot(b, offset));
-    let length_b = dots.product[fj][fj];
-    let s = ((across * along_b - along_a * length_b) * dots.inverse_gram[fi][fj]).clamp(0.0, 1.0);
-    let t = ((across * s + along_b) * dots.inverse_length[fj]).clamp(0.0, 1.0);
-    let s = ((across * t - along_a) * dots.inverse_length[fi]).clamp(0.0, 1.0);
-    let gap: [f64; 3] = std::array::from_fn(|axis| offset[axis] + a[axis] * s - b[axis] * t);
-    dot(gap, gap)
+    meet::<0, 2>(&mut nearest, &ends, rods);
+    meet::<0, 3>(&mut nearest, &ends, rods);
+    meet::<0, 4>(&mut nearest, &ends, rods);
+    meet::<0, 5>(&mut nearest, &ends, rods);
+    meet::<1, 2>(&mut nearest, &ends, rods);
+    meet::<1, 3>(&mut nearest, &ends, rods);
+    meet::<1, 4>(&mut nearest, &ends, rods);
+    meet::<1, 5>(&mut nearest, &ends, rods);
+    meet::<2, 4>(&mut nearest, &ends, rods);
+    meet::<2, 5>(&mut nearest, &ends, rods);
+    meet::<3, 4>(&mut nearest, &ends, rods);
+    let (square, i, j) = nearest;
+    (square.sqrt(), [RODS[i], RODS[j]])
 }
 
 #[inline]
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+fn meet<const I: usize, const J: usize>(nearest: &mut Nearest, ends: &[[f64; 3]; 6], rods: &Rods) {
+    let (a, b) = (&rods.vectors[FAMILY[I]], &rods.vectors[FAMILY[J]]);
+    let gap = difference(ends[I], ends[J]);
+    // The segments' projections on the gap's direction are at least this far apart, times |gap|.
+    let square_gap = dot(&gap, &gap);
+    let apart = square_gap - dot(a, &gap).max(0.0) + dot(b, &gap).min(0.0);
+    if apart > 0.0 && apart * apart >= nearest.0 * square_gap {
+        return;
+    }
+    let square = square_distance(&gap, a, b);
+    if square < nearest.0 {
+        *nearest = (square, I, J);
+    }
+}
+
+/// Squared distance of a parallelogram's two rods, `width` apart along x: a foot of the
+/// perpendicular where there is one, else an end.
+#[inline]
+fn square_parallel(width: f64, rod: &[f64; 3]) -> f64 {
+    let (along, square) = (width * rod[0], dot(rod, rod));
+    let t = (along / square).clamp(-1.0, 1.0);
+    width * width - t * (2.0 * along - t * square)
+}
+
+/// Squared distance of two segments that run back from their platform ends, which lie `gap`
+/// apart, along -a and -b: the nearest points of the lines, then each clamped to its segment in
+/// turn (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.9).
+fn square_distance(gap: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    let (along_a, along_b) = (dot(a, gap), dot(b, gap));
+    let (square_a, square_b, across) = (dot(a, a), dot(b, b), dot(a, b));
+    let gram = square_a * square_b - across * across;
+    let parallel = gram <= PARALLEL * square_a * square_b;
+    let s = if parallel { 0.0 } else { ((along_a * square_b - across * along_b) / gram).clamp(0.0, 1.0) };
+    let t = ((across * s - along_b) / square_b).clamp(0.0, 1.0);
+    let s = ((across * t + along_a) / square_a).clamp(0.0, 1.0);
+    let at = |axis: usize| gap[axis] - a[axis] * s + b[axis] * t;
+    let nearest = [at(0), at(1), at(2)];
+    dot(&nearest, &nearest)
+}
+
+#[inline]
+fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline]
+fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -88,7 +88,7 @@ impl<'a> Domain<'a> {
     fn rods(&self, column: &Column) -> Rods {
         let d = &self.machine.derived;
         let x = [column.x + d.e1, column.x + d.e2];
-        Rods::new(self.machine.geometry(), x, column.y, column.f, [column.c, column.s])
+        Rods::new(self.machine.geometry(), &d.inverse_lengths, x, column.y, column.f, [column.c, column.s])
     }
 
     #[inline]
@@ -107,10 +107,7 @@ impl<'a> Domain<'a> {
                 let (c, s) = (rods.c, rods.s);
                 self.chords[1] - chord(d.platform_axes[limit - 11], [x, c * y + s * z, c * z - s * y])
             }
-            15 => {
-                let x = [column.x + d.e1, column.x + d.e2];
-                interference::nearest(g, rods, x, column.y).0 - 2.0 * g.rod_radius
-            }
+            15 => interference::nearest(g, rods).0 - 2.0 * g.rod_radius,
             STROKES..TILT => self.stroke(limit - STROKES, column),
             _ => self.tilt(limit - TILT, column),
         }

@@ -1,0 +1,8 @@
+//! What users rely on, tested against outside truth.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod machines;
+mod oracle;
+mod reference;
+mod solver;
