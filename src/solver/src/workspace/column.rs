@@ -58,15 +58,7 @@ impl Column {
         let second = (g.L2 - x2) * (g.L2 + x2) - (y - p) * (y - p);
         let third = (g.L3 - x2) * (g.L3 + x2) - (y + p) * (y + p);
         let w = [angle.w1, signed_root(second), signed_root(third)];
-        Self {
-            x,
-            y,
-            c,
-            s,
-            square: [w[0] * w[0].abs(), second, third],
-            w,
-            f: [w[0], q + w[1], w[2] - q],
-        }
+        Self { x, y, c, s, square: [w[0] * w[0].abs(), second, third], w, f: [w[0], q + w[1], w[2] - q] }
     }
 
     /// alpha, rad.

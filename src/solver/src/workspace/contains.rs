@@ -52,9 +52,8 @@ fn member(machine: &Machine, request: &Request, point: Point) -> Membership {
         Kind::Tool => tool_working(machine, point, length).map(|posture| (posture, None)),
         Kind::Part => {
             let ([x, y, z], phi1, phi2) = (point, request.phi1, request.phi2);
-            part_working(machine, &PartPose { x, y, z, phi1, phi2 }, length).map(|posture| {
-                (posture, Some(table_angles(machine, posture.pose.alpha, phi1, phi2)))
-            })
+            part_working(machine, &PartPose { x, y, z, phi1, phi2 }, length)
+                .map(|posture| (posture, Some(table_angles(machine, posture.pose.alpha, phi1, phi2))))
         }
     };
     match answer {

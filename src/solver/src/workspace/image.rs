@@ -83,9 +83,7 @@ impl Image {
     pub(super) fn push(&self, column: &Column, z: f64, [dx, dy, dz]: Point, da: f64) -> Point {
         match self {
             Self::Platform => [dx, dy, dz],
-            Self::Tool { length } => {
-                [dx, dy - length * column.c * da, dz - length * column.s * da]
-            }
+            Self::Tool { length } => [dx, dy - length * column.c * da, dz - length * column.s * da],
             Self::Part { table, phi1, phi2: [c2, s2], .. } => {
                 let [c1, s1] = tilt(column, *phi1);
                 let height = z - table.da;

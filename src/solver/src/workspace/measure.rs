@@ -76,8 +76,7 @@ impl Measure {
         let [area_error, error] = integral.error;
         let jacobian = extremes.jacobian;
         let folded = jacobian.is_some_and(|[least, greatest]| least < 0.0 && greatest > 0.0);
-        let volume =
-            if folded { Volume::Folded } else { Volume::Value { value: signed.abs(), error } };
+        let volume = if folded { Volume::Folded } else { Volume::Value { value: signed.abs(), error } };
         Self { volume, area, area_error, jacobian, inclination: extremes.inclination }
     }
 }

@@ -19,8 +19,8 @@ use super::domain::Domain;
 use super::narrow::narrowed;
 use super::observer::Observer;
 use super::request::WorkspaceError;
-pub(super) use patch::{Rim, Triangle, Vertex};
 use patch::Patch;
+pub(super) use patch::{Rim, Triangle, Vertex};
 use refine::Refinement;
 use site::Site;
 

@@ -98,7 +98,8 @@ impl<'a> Line<'a> {
             at(y, after);
         } else {
             let step = 1e-9 * (b.y - a.y);
-            let (left, right) = (self.domain.column([self.x, y - step]), self.domain.column([self.x, y + step]));
+            let (left, right) =
+                (self.domain.column([self.x, y - step]), self.domain.column([self.x, y + step]));
             self.creases_between(a, &left, depth - 1, at);
             if self.sliders(&left) != self.sliders(&right) {
                 at(y, self.sliders(&right));

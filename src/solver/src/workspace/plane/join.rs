@@ -31,7 +31,8 @@ pub(super) fn join(
             numbers.push(found);
         }
         let place = |n: u32| numbers[n as usize];
-        triangles.extend(patch.triangles.into_iter().map(|t| Triangle { corners: t.corners.map(place), ..t }));
+        triangles
+            .extend(patch.triangles.into_iter().map(|t| Triangle { corners: t.corners.map(place), ..t }));
         rims.extend(patch.rims.into_iter().map(|rim| Rim { ends: rim.ends.map(place), ..rim }));
     }
     let mut plane = Plane { vertices, triangles, rims: outer(rims) };

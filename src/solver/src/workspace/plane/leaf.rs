@@ -149,7 +149,9 @@ impl<'a> Leaf<'a> {
         let mut rest = Piece::with_capacity(count);
         let mut parts = Vec::new();
         // Begin where the ring is not cut off.
-        let Some(start) = (0..count).find(|&i| !off(self, ring[i])) else { return (None, vec![ring.to_vec()]) };
+        let Some(start) = (0..count).find(|&i| !off(self, ring[i])) else {
+            return (None, vec![ring.to_vec()]);
+        };
         let mut run = Piece::new();
         for step in 1..=count {
             let (before, site) = (ring[(start + step - 1) % count], ring[(start + step) % count]);

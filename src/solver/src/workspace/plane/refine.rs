@@ -47,7 +47,11 @@ impl Refinement<'_> {
         if self.thin(corners) {
             return self.finish(corners, patch);
         }
-        let middles = [patch.middle(self.domain, a, b), patch.middle(self.domain, b, c), patch.middle(self.domain, c, a)];
+        let middles = [
+            patch.middle(self.domain, a, b),
+            patch.middle(self.domain, b, c),
+            patch.middle(self.domain, c, a),
+        ];
         let [ab, bc, ca] = [0, 1, 2].map(|i| self.edge(corners[i], &middles[i], corners[(i + 1) % 3]));
         let [m, n, o] = &middles;
         use Edge::{Halved, Kept};
@@ -112,7 +116,12 @@ impl Refinement<'_> {
     }
 
     /// The first two edges are halved.
-    fn three(&self, [a, b, c]: [&Site; 3], [m, n]: [&Site; 2], patch: &mut Patch) -> Result<(), WorkspaceError> {
+    fn three(
+        &self,
+        [a, b, c]: [&Site; 3],
+        [m, n]: [&Site; 2],
+        patch: &mut Patch,
+    ) -> Result<(), WorkspaceError> {
         self.triangle([m, b, n], patch)?;
         if length(a, n) <= length(m, c) {
             self.triangle([a, m, n], patch)?;

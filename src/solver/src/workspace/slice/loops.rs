@@ -79,8 +79,9 @@ fn nested(rings: Vec<Vec<[f64; 2]>>) -> Vec<Polygon> {
 /// Whether a point is inside a ring, by the sides that a ray from it crosses.
 fn surrounds(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let next = ring.iter().cycle().skip(1);
-    let crossed = ring.iter().zip(next).filter(|([ax, ay], [bx, by])| {
-        (*ay > y) != (*by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax)
-    });
+    let crossed = ring
+        .iter()
+        .zip(next)
+        .filter(|([ax, ay], [bx, by])| (*ay > y) != (*by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax));
     crossed.count() % 2 == 1
 }
