@@ -8,8 +8,8 @@ use verne_solver::workspace::Binding;
 
 use crate::wire::limit::{ConstraintName, ElementName};
 
-/// The share of white that each further element of a constraint has in its colour, and its most.
-const LIGHTER: [f64; 2] = [0.18, 0.6];
+/// The share of white in the colour of a constraint's last element; the first has none.
+const LIGHTEST: f64 = 0.7;
 
 /// A tag for each triangle, and what the tags mean: `stroke slider1.max`. Only what occurs has one, in a fixed order.
 pub(super) fn coloured(bindings: &[Binding]) -> (Vec<u8>, Vec<Swatch>) {
@@ -17,15 +17,20 @@ pub(super) fn coloured(bindings: &[Binding]) -> (Vec<u8>, Vec<Swatch>) {
     for &binding in bindings {
         names.entry(key(binding)).or_insert(0_u8);
     }
+    let mut elements = BTreeMap::new();
+    for (constraint, _) in names.keys() {
+        *elements.entry(*constraint).or_insert(0_u8) += 1;
+    }
     let mut palette = Vec::with_capacity(names.len());
-    let mut before: Option<Constraint> = None;
-    let mut step = 0.0;
+    let mut seen = BTreeMap::new();
     for (tag, ((constraint, element), number)) in (0..).zip(&mut names) {
         *number = tag;
-        step = if before == Some(*constraint) { step + 1.0 } else { 0.0 };
-        before = Some(*constraint);
+        let step = seen.entry(*constraint).or_insert(0_u8);
+        let steps = elements.get(constraint).map_or(1, |count| count.saturating_sub(1).max(1));
+        let white = LIGHTEST * f64::from(*step) / f64::from(steps);
+        *step += 1;
         let name = format!("{} {element}", ConstraintName::from(*constraint));
-        palette.push(Swatch { name, rgb: lighter(colour(*constraint), step) });
+        palette.push(Swatch { name, rgb: lighter(colour(*constraint), white) });
     }
     // A surface has long runs of one binding.
     let mut last = None;
@@ -44,11 +49,11 @@ fn key(binding: Binding) -> (Constraint, String) {
     (binding.constraint, ElementName::from(binding).to_string())
 }
 
-/// Hues that colour-blind people can tell apart (Okabe and Ito's), darker ones for what seldom limits.
+/// Hues that colour-blind people can tell apart (Okabe and Ito's, nearly), darker ones for what seldom limits.
 fn colour(constraint: Constraint) -> [u8; 3] {
     match constraint {
-        Constraint::Stroke => [0, 114, 178],
-        Constraint::SliderJoint => [230, 159, 0],
+        Constraint::Stroke => [0, 90, 158],
+        Constraint::SliderJoint => [222, 143, 5],
         Constraint::PlatformJoint => [0, 158, 115],
         Constraint::RodInterference => [204, 121, 167],
         Constraint::Tilt => [213, 94, 0],
@@ -61,7 +66,6 @@ fn colour(constraint: Constraint) -> [u8; 3] {
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a mean of two bytes is one")]
-fn lighter(rgb: [u8; 3], step: f64) -> [u8; 3] {
-    let white = (step * LIGHTER[0]).min(LIGHTER[1]);
+fn lighter(rgb: [u8; 3], white: f64) -> [u8; 3] {
     rgb.map(|channel| (f64::from(channel) * (1.0 - white) + 255.0 * white).round() as u8)
 }

@@ -31,14 +31,14 @@ pub(crate) fn write(slice: &SliceObject, title: &str) -> String {
     for line in &slice.contours {
         let mut along = String::new();
         path(&mut along, &line.points);
+        // Angles come back from radians: the last digits are rounding.
+        let alpha = (line.alpha * 1e6).round() / 1e6;
         let _ = writeln!(
             svg,
-            r##"<path d="{along}" fill="none" stroke="#d55e00"><title>alpha = {:.6} degrees</title></path>"##,
-            line.alpha
+            r##"<path d="{along}" fill="none" stroke="#d55e00"><title>alpha = {alpha}°</title></path>"##
         );
         if let Some(&[x, y]) = line.points.first().map(|point| &point.0) {
-            let _ =
-                writeln!(svg, r##"<text x="{x:.2}" y="{:.2}" fill="#d55e00">{:.4}°</text>"##, -y, line.alpha);
+            let _ = writeln!(svg, r##"<text x="{x:.2}" y="{:.2}" fill="#d55e00">{alpha}°</text>"##, -y);
         }
     }
     page.axes(&mut svg);
@@ -89,7 +89,8 @@ impl Page {
              <desc>mm; {seen}; area {:.3} mm²; {}</desc>\n\
              <rect x=\"{0:.4}\" y=\"{1:.4}\" width=\"{width:.4}\" height=\"{height:.4}\" fill=\"white\"/>\n\
              <g font-family=\"sans-serif\" font-size=\"{letters:.3}\" stroke-width=\"{:.3}\">\n\
-             <text x=\"{:.3}\" y=\"{:.3}\">{title}; {seen}</text>\n",
+             <text x=\"{5:.3}\" y=\"{6:.3}\">{title}</text>\n\
+             <text x=\"{5:.3}\" y=\"{7:.3}\">{seen}</text>\n",
             self.min[0],
             -self.max[1],
             slice.area,
@@ -97,6 +98,7 @@ impl Page {
             0.002 * self.size,
             self.min[0] + letters,
             1.5 * letters - self.max[1],
+            2.8 * letters - self.max[1],
         )
     }
 
@@ -108,7 +110,7 @@ impl Page {
         let _ = writeln!(
             svg,
             r##"<path d="M{left:.3} {:.3}V{:.3}H{:.3}" fill="none" stroke="#333333"/>"##,
-            2.0 * letters - self.max[1],
+            3.6 * letters - self.max[1],
             -bottom,
             self.max[0] - letters
         );
@@ -120,7 +122,7 @@ impl Page {
                 tick + letters - bottom
             );
         }
-        for y in ticks(bottom, self.max[1] - 3.0 * letters, step) {
+        for y in ticks(bottom, self.max[1] - 5.0 * letters, step) {
             let _ = writeln!(
                 svg,
                 r##"<path d="M{left:.3} {0}h{1:.3}" stroke="#333333"/><text x="{2:.3}" y="{3:.3}" text-anchor="end">{y}</text>"##,
@@ -136,7 +138,7 @@ impl Page {
             self.max[0] - letters,
             -bottom - 0.4 * letters,
             left + 0.4 * letters,
-            3.0 * letters - self.max[1]
+            4.4 * letters - self.max[1]
         );
     }
 }
