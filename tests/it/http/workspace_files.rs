@@ -66,7 +66,7 @@ async fn json_is_flat_and_watertight() {
     assert_eq!((&about["unit"], &about["frame"]), (&json!("mm"), &json!("part")));
     assert_eq!((&about["id"], &about["request"]), (&summary["id"], &summary["request"]));
     assert_eq!(about["machine"]["hash"], summary["machine"]["hash"]);
-    assert!(about["machine"]["description"].as_str().unwrap().contains("invented"));
+    assert!(about["machine"]["description"].as_str().unwrap().contains("Not Fatronik's"));
     let names: Vec<&str> = about["constraints"]
         .as_array()
         .unwrap()
@@ -120,6 +120,6 @@ async fn ply_says_what_it_is() {
     let end = reply.bytes.windows(11).position(|window| window == b"end_header\n").unwrap();
     let header = std::str::from_utf8(&reply.bytes[..end]).unwrap();
     assert!(header.contains(&format!("comment id {}", summary["id"].as_str().unwrap())), "{header}");
-    assert!(header.contains("invented"), "{header}");
+    assert!(header.contains("Not Fatronik's"), "{header}");
     assert!(header.contains(&format!("element face {}", summary["triangles"])), "{header}");
 }
