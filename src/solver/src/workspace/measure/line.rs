@@ -34,7 +34,7 @@ impl Extremes {
 }
 
 /// What a line's integrals are made of: the limits that end its intervals, and the sliders that
-/// bind z_lo and z_hi along each. Between lines of equal structure the integrals are smooth in x.
+/// bind `z_lo` and `z_hi` along each. Between lines of equal structure the integrals are smooth in x.
 pub(super) type Structure = Vec<([Option<usize>; 2], Vec<[usize; 2]>)>;
 
 /// A line and its feasible intervals, cut where another slider binds.
@@ -60,9 +60,9 @@ impl<'a> Line<'a> {
         found
     }
 
-    /// The sliders that bind z_lo and z_hi.
+    /// The sliders that bind `z_lo` and `z_hi`.
     fn sliders(&self, column: &Column) -> [usize; 2] {
-        [false, true].map(|upper| self.domain.binding_slider(self.domain.sheet(column, upper), upper))
+        [false, true].map(|upper| Domain::binding_slider(self.domain.sheet(column, upper), upper))
     }
 
     /// Calls `at` with each y between two columns at which another slider begins to bind, and the

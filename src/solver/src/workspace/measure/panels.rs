@@ -15,7 +15,7 @@ const RESOLUTION: f64 = 1e-9;
 const ACCURACY: f64 = 1e-7;
 /// Halvings of a panel.
 const DEPTH: u32 = 14;
-/// Part of the total aim that a panel below which no further work is worth the while may miss.
+/// Errors are given larger than they are estimated.
 const SAFETY: f64 = 2.0;
 
 /// Area and signed volume.
@@ -36,8 +36,8 @@ pub(super) fn integrate(
     }
     // What lies between a change and its computed place, at most the line's own integral wide.
     let misplaced = RESOLUTION * f64::from(u32::try_from(ends.len()).unwrap_or(u32::MAX));
-    for n in 0..2 {
-        total.error[n] = SAFETY * total.error[n] + misplaced * rough[n].abs() * RESOLUTION.sqrt();
+    for (error, rough) in total.error.iter_mut().zip(rough) {
+        *error = SAFETY * *error + misplaced * rough;
     }
     Ok((total, outer.extremes))
 }
@@ -67,8 +67,8 @@ impl Outer<'_> {
             let structure = line.structure();
             let mut extremes = Extremes::default();
             let value = line.integrals(&[f64::INFINITY; 2], &mut extremes).value;
-            for n in 0..2 {
-                rough[n] += step * value[n].abs();
+            for (rough, value) in rough.iter_mut().zip(value) {
+                *rough += step * value.abs();
             }
             if let Some((before, old)) = last {
                 self.change([before, x], [&old, &structure], RESOLUTION * (x1 - x0), &mut found)?;
