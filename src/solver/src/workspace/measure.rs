@@ -77,6 +77,6 @@ impl Measure {
         let jacobian = extremes.jacobian;
         let folded = jacobian.is_some_and(|[least, greatest]| least < 0.0 && greatest > 0.0);
         let volume = if folded { Volume::Folded } else { Volume::Value { value: signed.abs(), error } };
-        Self { volume, area, area_error, jacobian, inclination: extremes.inclination }
+        Self { volume, area, area_error, jacobian, inclination: extremes.sine.map(f64::asin) }
     }
 }

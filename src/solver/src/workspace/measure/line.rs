@@ -19,7 +19,8 @@ const ACCURACY: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Extremes {
     pub(super) jacobian: Option<[f64; 2]>,
-    pub(super) inclination: Option<f64>,
+    /// Greatest |sin alpha|.
+    pub(super) sine: Option<f64>,
 }
 
 impl Extremes {
@@ -28,8 +29,8 @@ impl Extremes {
             let [least, greatest] = self.jacobian.unwrap_or([det; 2]);
             self.jacobian = Some([least.min(det), greatest.max(det)]);
         }
-        let angle = column.alpha().abs();
-        self.inclination = Some(self.inclination.map_or(angle, |a| a.max(angle)));
+        let sine = column.s.abs();
+        self.sine = Some(self.sine.map_or(sine, |most| most.max(sine)));
     }
 }
 

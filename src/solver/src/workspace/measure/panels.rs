@@ -10,7 +10,7 @@ use super::line::{Extremes, Line, Structure};
 /// Lines first looked at.
 const LINES: u32 = 40;
 /// Width, as a part of the domain's, within which a change of structure is found.
-const RESOLUTION: f64 = 1e-9;
+const RESOLUTION: f64 = 1e-8;
 /// Aim of the relative error of each integral.
 const ACCURACY: f64 = 1e-7;
 /// Halvings of a panel.
@@ -34,8 +34,8 @@ pub(super) fn integrate(
         observer.progress(0.5 + 0.5 * (panel[0] - x0) / (x1 - x0));
         total.add(&outer.panel([panel[0], panel[1]], [0.0, 1.0], &rough, &allowed, DEPTH)?);
     }
-    // What lies between a change and its computed place, at most the line's own integral wide.
-    let misplaced = RESOLUTION * f64::from(u32::try_from(ends.len()).unwrap_or(u32::MAX));
+    // Between a change and its computed place a line may be twice as long as the mean one.
+    let misplaced = 2.0 * RESOLUTION * f64::from(u32::try_from(ends.len()).unwrap_or(u32::MAX));
     for (error, rough) in total.error.iter_mut().zip(rough) {
         *error = SAFETY * *error + misplaced * rough;
     }
@@ -75,6 +75,8 @@ impl Outer<'_> {
             }
             last = Some((x, structure));
         }
+        // Changes that cannot be told apart are one.
+        found.dedup_by(|b, a| *b - *a <= 2.0 * RESOLUTION * (x1 - x0));
         Ok((found, rough))
     }
 
