@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod cli;
+mod http;
 mod machines;
+mod openapi;
 mod oracle;
 mod reference;
 mod solver;

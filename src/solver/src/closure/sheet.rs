@@ -1,11 +1,10 @@
 //! Newton's method on the loop closure, and one sheet of it as a function of the angle.
 
 use super::{Closure, Root};
+use crate::residual::RESIDUAL_TOLERANCE;
 
 /// Newton steps until the last digit; convergence is quadratic, so few are ever used.
 const STEPS: usize = 12;
-/// Roundings of each term of the linear equation, generously.
-const ROUNDINGS: f64 = 8.0;
 /// Up to this angle the series of cos and sin below are exact in double precision.
 const SERIES: f64 = 0.15;
 
@@ -127,7 +126,7 @@ fn rotated(c: f64, s: f64, angle: f64) -> (f64, f64) {
 pub(super) struct OnSheet {
     pub(super) value: f64,
     pub(super) slope: f64,
-    /// What rounding may have done to the value.
+    /// Below this the angle is a solution as far as residuals tell.
     pub(super) noise: f64,
 }
 
@@ -137,8 +136,7 @@ pub(super) fn on_sheet<const M: usize, C: Closure<M>>(closure: &C, sheet: usize,
     let w = closure.sheets(c, s)?[sheet];
     let e = closure.equations(c, s, w);
     let slope = e.da[0] - e.dw[0] * e.da[1] / e.dw[1];
-    // The equation's two terms, one of them with w, cancel at a root; and w is itself rounded, by
-    // what the quadratic equation leaves of its digits.
-    let noise = ROUNDINGS * f64::EPSILON * e.dw[0].abs() * (w.abs() + closure.square() / e.dw[1].abs());
+    // Both equations are squares of lengths: their sizes are alike.
+    let noise = 2.0 * RESIDUAL_TOLERANCE * closure.square();
     slope.is_finite().then_some(OnSheet { value: e.f[0], slope, noise })
 }

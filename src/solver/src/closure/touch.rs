@@ -11,8 +11,6 @@ const EVEN: u8 = 16;
 const CLOSE: [f64; 6] = [1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
 /// Bisections of an interval: as many as a double has bits.
 const BISECTIONS: u8 = 60;
-/// Two roots closer than twice this cannot be told apart: the square root of the rounding.
-const RESOLUTION: f64 = 1e-7;
 
 /// Adds the roots at a touch: one on each of two sheets, or two, one merged or none on one of
 /// them. The sheets are smooth where the polynomial is all rounding, so looking at them in a few
@@ -80,38 +78,34 @@ fn bracketed<const M: usize, C: Closure<M>>(
 /// or turns back.
 fn tangent<const M: usize, C: Closure<M>>(closure: &C, sheet: usize, window: [f64; 2]) -> ArrayVec<Root, 2> {
     let mut roots = ArrayVec::new();
-    let Some((extremum, at, curvature)) = sheet_extremum(closure, sheet, window) else { return roots };
-    // The parabola value + curvature/2 δ² has its roots at ± reach, or misses by as much.
-    let square = -2.0 * at.value / curvature;
-    if square.abs() <= RESOLUTION * RESOLUTION || at.value.abs() <= at.noise {
+    let Some((extremum, at)) = sheet_extremum(closure, sheet, window) else { return roots };
+    let crossed = on_sheet(closure, sheet, window[0]).is_some_and(|end| end.value * at.value < 0.0);
+    if at.value.abs() <= at.noise {
         roots.extend(root_at(closure, sheet, extremum, true));
-    } else if square > 0.0 {
+    } else if crossed {
         roots.extend(bracketed(closure, sheet, [window[0], extremum]));
         roots.extend(bracketed(closure, sheet, [extremum, window[1]]));
     }
     roots
 }
 
-/// The extremum of a sheet in a window over which its slope changes sign, with the sheet there
-/// and its mean curvature.
+/// The extremum of a sheet in a window over which its slope changes sign, with the sheet there.
 fn sheet_extremum<const M: usize, C: Closure<M>>(
     closure: &C,
     sheet: usize,
-    window: [f64; 2],
-) -> Option<(f64, OnSheet, f64)> {
-    let [mut low, mut high] = window;
-    let (first, last) = (on_sheet(closure, sheet, low)?.slope, on_sheet(closure, sheet, high)?.slope);
+    [mut low, mut high]: [f64; 2],
+) -> Option<(f64, OnSheet)> {
+    let first = on_sheet(closure, sheet, low)?.slope;
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if (on_sheet(closure, sheet, middle)?.slope < 0.0) == (first < 0.0) {
-            low = middle
+            low = middle;
         } else {
-            high = middle
+            high = middle;
         }
     }
     let extremum = 0.5 * (low + high);
-    let curvature = (last - first) / (window[1] - window[0]);
-    Some((extremum, on_sheet(closure, sheet, extremum)?, curvature))
+    Some((extremum, on_sheet(closure, sheet, extremum)?))
 }
 
 /// Where the sheets themselves end in the window (w₊ = w₋), the angle does not parametrise the

@@ -10,7 +10,7 @@ use super::line::{Extremes, Line, Structure};
 /// Lines first looked at.
 const LINES: u32 = 40;
 /// Width, as a part of the domain's, within which a change of structure is found.
-const RESOLUTION: f64 = 1e-8;
+const RESOLUTION: f64 = 2e-9;
 /// Aim of the relative error of each integral.
 const ACCURACY: f64 = 1e-7;
 /// Halvings of a panel.

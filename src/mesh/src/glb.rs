@@ -1,0 +1,100 @@
+//! GLB, the binary glTF 2.0: for viewers. In metres and with Y up, as glTF demands.
+//!
+//! The vertices are split along the creases and interleaved, 32 bytes each: position, normal, colour, and the
+//! tag as the application's own attribute `_TAG`, an index into the `palette` that stands in the mesh's
+//! `extras`.
+
+mod document;
+mod layout;
+mod placement;
+
+use std::io::{self, BufWriter, Write};
+
+use gltf_json::Root;
+use serde_json::Value;
+
+use self::layout::{Layout, STRIDE};
+use self::placement::Placement;
+pub use self::placement::Up;
+use crate::shading::{ShadedVertex, Shading};
+use crate::{Bounds, Mesh};
+
+/// What a GLB holds besides the mesh.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// What a viewer's list of objects calls the mesh.
+    pub name: String,
+    /// Which way is up in the mesh's frame.
+    pub up: Up,
+    /// The bend, in radians, from which an edge is shown sharp. Edges between two tags always are.
+    pub crease: f64,
+    /// The scene's `extras`: whatever the caller has to say; left out if null.
+    pub extras: Value,
+}
+
+/// Writes the mesh as a GLB; an empty one as a scene without nodes, since glTF knows no empty buffers.
+pub fn write(mesh: &Mesh, options: &Options, out: impl Write) -> io::Result<()> {
+    let mut out = BufWriter::new(out);
+    match mesh.bounds() {
+        Some(bounds) => write_scene(mesh, bounds, options, &mut out)?,
+        None => write_head(&document::empty(options)?, None, &mut out)?,
+    }
+    out.flush()
+}
+
+fn write_scene(mesh: &Mesh, bounds: Bounds, options: &Options, out: &mut impl Write) -> io::Result<()> {
+    let placement = Placement::new(options.up, bounds);
+    let shading = Shading::of(mesh, options.crease);
+    let layout = Layout::new(shading.vertices.len(), shading.corners.len());
+    write_head(&document::of(mesh, options, &placement, &layout)?, Some(&layout), out)?;
+    let colours: Vec<[u8; 3]> = mesh.palette().iter().map(crate::Swatch::linear).collect();
+    for vertex in &shading.vertices {
+        out.write_all(&record(vertex, mesh, &placement, &colours))?;
+    }
+    for &corner in &shading.corners {
+        match u16::try_from(corner) {
+            Ok(corner) if layout.short_indices() => out.write_all(&corner.to_le_bytes())?,
+            _ => out.write_all(&corner.to_le_bytes())?,
+        }
+    }
+    out.write_all(&[0; 3][..layout.padding()])
+}
+
+/// One vertex as the accessors of the document describe it.
+fn record(vertex: &ShadedVertex, mesh: &Mesh, placement: &Placement, colours: &[[u8; 3]]) -> [u8; STRIDE] {
+    let position = placement.position(mesh.positions()[vertex.vertex as usize]);
+    let normal = placement.direction(vertex.normal);
+    let mut bytes = [0; STRIDE];
+    for (slot, number) in bytes[..24].chunks_exact_mut(4).zip(position.iter().chain(&normal)) {
+        slot.copy_from_slice(&number.to_le_bytes());
+    }
+    bytes[24..27].copy_from_slice(&colours[usize::from(vertex.tag)]);
+    bytes[27] = u8::MAX;
+    bytes[28] = vertex.tag;
+    bytes
+}
+
+/// The file's header, the JSON chunk, and the binary chunk's header if there is one.
+fn write_head(document: &Root, layout: Option<&Layout>, out: &mut impl Write) -> io::Result<()> {
+    let mut json = document.to_vec()?;
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let binary = layout.map(Layout::chunk);
+    let total = 12 + 8 + json.len() as u64 + binary.map_or(0, |length| 8 + length);
+    out.write_all(b"glTF")?;
+    out.write_all(&2_u32.to_le_bytes())?;
+    out.write_all(&length_field(total)?)?;
+    out.write_all(&length_field(json.len() as u64)?)?;
+    out.write_all(b"JSON")?;
+    out.write_all(&json)?;
+    if let Some(length) = binary {
+        out.write_all(&length_field(length)?)?;
+        out.write_all(b"BIN\0")?;
+    }
+    Ok(())
+}
+
+fn length_field(length: u64) -> io::Result<[u8; 4]> {
+    u32::try_from(length)
+        .map(u32::to_le_bytes)
+        .map_err(|_| io::Error::new(io::ErrorKind::FileTooLarge, "a GLB cannot be longer than 4 GiB"))
+}

@@ -1,0 +1,100 @@
+//! From the mesh's frame to glTF's.
+
+use crate::Bounds;
+use crate::vector::single;
+
+/// Which way is up in the mesh's frame. Both turns into glTF's frame are about x, and proper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Up {
+    /// z points up: (x, y, z) becomes (x, z, -y).
+    PositiveZ,
+    /// z points down: (x, y, z) becomes (x, -z, y).
+    NegativeZ,
+}
+
+impl Up {
+    fn turn(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        match self {
+            Self::PositiveZ => [x, z, -y],
+            Self::NegativeZ => [x, -z, y],
+        }
+    }
+}
+
+/// The frame of a GLB's vertices: metres, Y up, about the mesh's middle.
+///
+/// Single precision is finest near zero. So the node is moved to the middle, and the vertices are relative to
+/// it.
+pub(super) struct Placement {
+    up: Up,
+    /// The node's translation, m. On a grid, so that every reader adds back what was subtracted here.
+    pub(super) translation: [f32; 3],
+    /// The vertices' least and greatest coordinates.
+    pub(super) bounds: [[f32; 3]; 2],
+}
+
+impl Placement {
+    pub(super) fn new(up: Up, Bounds { min, max }: Bounds) -> Self {
+        let middle = up.turn(Bounds { min, max }.centre());
+        let translation = single(middle.map(|mm| (mm * METRES * GRID).round() / GRID));
+        let mut placement = Self { up, translation, bounds: [[0.0; 3]; 2] };
+        // The turn exchanges and negates axes only, and rounding keeps order: the box of the images is the
+        // image of the box, but for the order of its corners.
+        let (a, b) = (placement.position(min), placement.position(max));
+        placement.bounds = [
+            [a[0].min(b[0]), a[1].min(b[1]), a[2].min(b[2])],
+            [a[0].max(b[0]), a[1].max(b[1]), a[2].max(b[2])],
+        ];
+        placement
+    }
+
+    /// A vertex, in metres from the node.
+    pub(super) fn position(&self, point: [f64; 3]) -> [f32; 3] {
+        let turned = self.up.turn(point);
+        let [x, y, z] = self.translation.map(f64::from);
+        single([turned[0] * METRES - x, turned[1] * METRES - y, turned[2] * METRES - z])
+    }
+
+    /// A unit vector.
+    pub(super) fn direction(&self, unit: [f64; 3]) -> [f32; 3] {
+        single(self.up.turn(unit))
+    }
+}
+
+const METRES: f64 = 1e-3;
+
+/// Steps a metre in the node's translation. Sixty-fourths are exact as singles and in the few decimals that a
+/// single is written with; a thousandth is neither.
+const GRID: f64 = 64.0;
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use super::{Placement, Up};
+    use crate::Bounds;
+
+    #[test]
+    fn both_turns_keep_handedness_and_put_up_at_y() {
+        for (up, z) in [(Up::PositiveZ, 1.0), (Up::NegativeZ, -1.0)] {
+            let [i, j, k] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| up.turn(axis));
+            assert_eq!(crate::vector::cross(i, j), k);
+            assert_eq!(up.turn([0.0, 0.0, z]), [0.0, 1.0, 0.0]);
+        }
+    }
+
+    #[test]
+    fn the_node_and_the_vertex_add_up() {
+        let placement = Placement::new(
+            Up::NegativeZ,
+            Bounds { min: [-407.0, -540.5, 870.6], max: [392.0, 540.5, 1627.0] },
+        );
+        let vertex = placement.position([100.1, -200.2, 1500.3]);
+        let written = serde_json::to_string(&placement.translation).unwrap();
+        let read: [f64; 3] = serde_json::from_str(&written).unwrap();
+        assert_eq!(read, placement.translation.map(f64::from), "{written}");
+        for (axis, wanted) in [0.1001, -1.5003, -0.2002].into_iter().enumerate() {
+            let found = f64::from(vertex[axis]) + read[axis];
+            assert!((found - wanted).abs() < 2e-8, "{found} is not {wanted}");
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Binary STL, in millimetres: for slicers and CAD. It has neither vertices in common nor tags.
+
+use std::io::{self, BufWriter, Write};
+
+use crate::vector::single;
+use crate::{Mesh, facet};
+
+const HEADER: usize = 80;
+
+/// Writes the mesh as a binary STL. The header has room for some sixty bytes of the title.
+pub fn write(mesh: &Mesh, title: &str, out: impl Write) -> io::Result<()> {
+    let mut out = BufWriter::new(out);
+    out.write_all(&header(title))?;
+    let count = u32::try_from(mesh.triangles().len()).map_err(io::Error::other)?;
+    out.write_all(&count.to_le_bytes())?;
+    for triangle in mesh.triangles() {
+        let corners = mesh.corners(triangle);
+        // The format's custom for a triangle without a normal is zero.
+        let normal = facet::normal(corners).unwrap_or_default();
+        out.write_all(&record([normal, corners[0], corners[1], corners[2]]))?;
+    }
+    out.flush()
+}
+
+/// Starts with what no reader can take for the word "solid", by which it would know a text file.
+fn header(title: &str) -> [u8; HEADER] {
+    let text = format!("binary STL, mm; {title}");
+    let ascii = text.chars().map(|c| if c.is_ascii_graphic() { c } else { ' ' });
+    let mut header = [b' '; HEADER];
+    for (slot, character) in header.iter_mut().zip(ascii) {
+        // Only ASCII is left.
+        *slot = u8::try_from(character).unwrap_or(b' ');
+    }
+    header
+}
+
+/// Twelve numbers and two bytes that nobody agrees on, left zero.
+fn record(vectors: [[f64; 3]; 4]) -> [u8; 50] {
+    let mut bytes = [0; 50];
+    for (slot, &number) in bytes.chunks_exact_mut(4).zip(vectors.map(single).as_flattened()) {
+        slot.copy_from_slice(&number.to_le_bytes());
+    }
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::header;
+
+    #[test]
+    fn the_header_is_text_of_eighty_bytes_and_not_solid() {
+        let short = header("solid, \u{e9}t\u{e9}\n");
+        assert_eq!(short.trim_ascii_end(), b"binary STL, mm; solid,  t");
+        let long = header(&"x".repeat(200));
+        assert!(long.ends_with(b"xxx"));
+    }
+}

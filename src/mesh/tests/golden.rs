@@ -1,0 +1,167 @@
+//! Every format's bytes, kept in files and read back by readers that are not ours.
+//!
+//! A change of the bytes on purpose: run with `VERNE_BLESS=1`, look at the difference, commit the files.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+#[path = "support/solids.rs"]
+mod solids;
+
+use std::io::Cursor;
+use std::path::Path;
+
+use serde_json::{Value, json};
+use verne_mesh::glb::{Options, Up};
+use verne_mesh::{Mesh, glb, ply, stl};
+
+fn solids() -> [(&'static str, Mesh); 3] {
+    [("block", solids::block()), ("ball", solids::ball()), ("empty", solids::empty())]
+}
+
+fn note() -> Value {
+    json!({ "unit": "mm", "note": "golden" })
+}
+
+fn glb(mesh: &Mesh) -> Vec<u8> {
+    let options =
+        Options { name: "solid".to_owned(), up: Up::NegativeZ, crease: 60_f64.to_radians(), extras: note() };
+    let mut bytes = Vec::new();
+    glb::write(mesh, &options, &mut bytes).unwrap();
+    bytes
+}
+
+fn stl(mesh: &Mesh) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    stl::write(mesh, "golden", &mut bytes).unwrap();
+    bytes
+}
+
+fn ply(mesh: &Mesh) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    ply::write(mesh, "golden\nof two lines", &mut bytes).unwrap();
+    bytes
+}
+
+fn json(mesh: &Mesh) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    verne_mesh::json::write(mesh, &note(), &mut bytes).unwrap();
+    bytes
+}
+
+#[test]
+fn bytes_are_the_golden_ones() {
+    for (name, mesh) in solids() {
+        for (extension, bytes) in
+            [("glb", glb(&mesh)), ("stl", stl(&mesh)), ("ply", ply(&mesh)), ("json", json(&mesh))]
+        {
+            let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+                .join("tests/golden")
+                .join(name)
+                .with_extension(extension);
+            if std::env::var_os("VERNE_BLESS").is_some() {
+                std::fs::write(&file, &bytes).unwrap();
+            }
+            assert!(std::fs::read(&file).unwrap() == bytes, "{} is not what is written now", file.display());
+        }
+    }
+}
+
+#[test]
+fn gltf_reads_the_glb() {
+    let bytes = glb(&solids::block());
+    let gltf = gltf::Gltf::from_slice(&bytes).unwrap();
+    let scene = gltf.default_scene().unwrap();
+    assert_eq!(serde_json::from_str::<Value>(scene.extras().as_ref().unwrap().get()).unwrap(), note());
+    let node = scene.nodes().next().unwrap();
+    let ([dx, dy, dz], ..) = node.transform().decomposed();
+    let primitive = node.mesh().unwrap().primitives().next().unwrap();
+    let reader = primitive.reader(|_| gltf.blob.as_deref());
+    let place = |[x, y, z]: [f32; 3]| {
+        [f64::from(x) + f64::from(dx), f64::from(y) + f64::from(dy), f64::from(z) + f64::from(dz)]
+    };
+    let positions: Vec<[f64; 3]> = reader.read_positions().unwrap().map(place).collect();
+    // Six faces with four corners of their own: every edge of a box is a crease.
+    assert_eq!(positions.len(), 24);
+    let normals: Vec<[f32; 3]> = reader.read_normals().unwrap().collect();
+    let colours: Vec<[u8; 4]> = reader.read_colors(0).unwrap().into_rgba_u8().collect();
+    for ((position, normal), colour) in positions.iter().zip(&normals).zip(&colours) {
+        // The machine's z points down: what was least in z is on top.
+        let face = (normal[1].abs() == 1.0).then(|| if position[1] > -0.905 { 1.0 } else { -1.0 });
+        assert_eq!(face.unwrap_or(0.0), normal[1]);
+        assert_eq!(*colour == [183, 26, 5, 255], face.is_some());
+    }
+    let indices: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
+    let corner = |index: &u32| positions[*index as usize];
+    let sixfold: f64 = indices.chunks(3).map(|t| triple(corner(&t[0]), corner(&t[1]), corner(&t[2]))).sum();
+    assert!((sixfold / 6.0 - 6000e-9).abs() < 1e-11, "{sixfold}");
+}
+
+fn triple(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
+    a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+}
+
+#[test]
+fn gltf_reads_an_empty_scene() {
+    // Only the chunks: the reader wants a list of nodes, which glTF lets a scene leave out but not leave
+    // empty.
+    let bytes = glb(&solids::empty());
+    let chunks = gltf::Glb::from_slice(&bytes).unwrap();
+    assert!(chunks.bin.is_none());
+    let read: Value = serde_json::from_slice(&chunks.json).unwrap();
+    assert_eq!(read["scenes"], json!([{ "extras": note() }]));
+    assert_eq!((read["scene"].as_u64(), read.get("meshes"), read.get("buffers")), (Some(0), None, None));
+}
+
+#[test]
+fn the_ball_is_smooth_but_for_its_equator() {
+    let gltf = gltf::Gltf::from_slice(&glb(&solids::ball())).unwrap();
+    let primitive = gltf.meshes().next().unwrap().primitives().next().unwrap();
+    // Eighteen vertices, and the eight on the equator twice, where the tag changes.
+    assert_eq!(primitive.get(&gltf::Semantic::Normals).unwrap().count(), 26);
+}
+
+#[test]
+fn stl_io_reads_the_stl() {
+    let mesh = solids::ball();
+    let read = stl_io::read_stl(&mut Cursor::new(stl(&mesh))).unwrap();
+    assert_eq!((read.vertices.len(), read.faces.len()), (18, 32));
+    read.validate().unwrap();
+    assert_eq!(stl_io::read_stl(&mut Cursor::new(stl(&solids::empty()))).unwrap().faces.len(), 0);
+}
+
+#[test]
+fn ply_rs_reads_the_ply() {
+    use ply_rs_bw::ply::{DefaultElement, Property};
+    for (_, mesh) in solids() {
+        let parser = ply_rs_bw::parser::Parser::<DefaultElement>::new();
+        let read = parser.read_ply(&mut Cursor::new(ply(&mesh))).unwrap();
+        assert_eq!(read.header.comments[..3], ["unit mm", "golden", "of two lines"]);
+        let (vertices, faces) = (&read.payload["vertex"], &read.payload["face"]);
+        assert_eq!((vertices.len(), faces.len()), (mesh.positions().len(), mesh.triangles().len()));
+        for ((vertex, position), tag) in vertices.iter().zip(mesh.positions()).zip(mesh.vertex_tags()) {
+            let found = ["x", "y", "z"].map(|axis| vertex[axis].clone());
+            assert_eq!(found, position.map(Property::Double));
+            assert_eq!(vertex["tag"], Property::UChar(tag));
+        }
+        for ((face, triangle), tag) in faces.iter().zip(mesh.triangles()).zip(mesh.tags()) {
+            assert_eq!(face["vertex_indices"], Property::ListUInt(triangle.to_vec()));
+            assert_eq!(face["tag"], Property::UChar(*tag));
+        }
+    }
+}
+
+#[test]
+fn json_reads_back() {
+    let mesh = solids::block();
+    let read: Value = serde_json::from_slice(&json(&mesh)).unwrap();
+    assert_eq!(read["positions"], json!(mesh.positions().as_flattened()));
+    assert_eq!(read["indices"], json!(mesh.triangles().as_flattened()));
+    assert_eq!(read["tags"], json!(mesh.vertex_tags()));
+    assert_eq!(read["triangle_tags"], json!(mesh.tags()));
+    assert_eq!(read["palette"][1], json!({ "name": "end", "rgb": [220, 90, 40] }));
+    assert_eq!(read["extras"], note());
+    let empty: Value = serde_json::from_slice(&json(&solids::empty())).unwrap();
+    assert_eq!((&empty["positions"], &empty["indices"]), (&json!([]), &json!([])));
+}

@@ -1,0 +1,128 @@
+//! What both batches share: reading a row, judging it, and turning rows into columns.
+
+use arrayvec::ArrayVec;
+use serde_json::value::RawValue;
+use verne_solver::{DOMAIN, Machine, Margin, Margins, Posture, Refusal, TableAngles};
+
+use super::solutions::unheld;
+use crate::error::Error;
+use crate::faults::{Faults, LARGEST_ANGLE, is_angle, is_length};
+use crate::wire::batch::{Counts, Row, RowError, RowReport, Status};
+use crate::wire::limit::Limit;
+
+/// Rows that one task takes at least: enough to outweigh the cost of handing them over.
+pub(super) const CHUNK: usize = 64;
+
+/// About the bytes of an answered row.
+pub(super) const ROW_BYTES: usize = 192;
+
+/// How many bad rows are explained.
+const EXPLAINED: usize = 100;
+
+/// How one row fares.
+#[derive(Debug)]
+pub(super) enum Verdict {
+    Ok,
+    Unreachable(Margin),
+    Infeasible(Margin),
+    Invalid(String),
+}
+
+/// Reads a row: `shape` tells the numbers apart; the last two of five are angles in degrees.
+pub(super) fn read_row(text: &RawValue, lengths: &[usize], shape: &str) -> Result<Row, String> {
+    let expected = || format!("expected {shape}");
+    let inside = text.get().strip_prefix('[').and_then(|rest| rest.strip_suffix(']')).ok_or_else(expected)?;
+    let mut row: Row = ArrayVec::new();
+    let mut rest = Some(inside);
+    while let Some(text) = rest {
+        let i = row.len();
+        let item;
+        (item, rest) = first_item(text);
+        // The text is JSON already, so what parses here is a JSON number.
+        let number: f64 =
+            item.trim_ascii().parse().map_err(|_| format!("item {i} is not a number; expected {shape}"))?;
+        if i < 3 && !is_length(number) {
+            return Err(format!("item {i} must be within ±{DOMAIN:e} mm"));
+        }
+        if i >= 3 && !is_angle(number) {
+            return Err(format!("item {i} must be within ±{LARGEST_ANGLE} degrees"));
+        }
+        row.try_push(number).map_err(|_| expected())?;
+    }
+    if lengths.contains(&row.len()) { Ok(row) } else { Err(expected()) }
+}
+
+/// The text up to the first comma, and what follows it. Items are short: the standard library's search, made for long
+/// texts, takes longer.
+fn first_item(text: &str) -> (&str, Option<&str>) {
+    match text.bytes().position(|byte| byte == b',') {
+        Some(at) => (&text[..at], Some(&text[at + 1..])),
+        None => (text, None),
+    }
+}
+
+/// Judges a solved row by its margins.
+pub(super) fn judge(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Verdict {
+    let margins = Margins::of(machine, posture, table);
+    if margins.feasible() { Verdict::Ok } else { Verdict::Infeasible(margins.worst(machine)) }
+}
+
+/// Judges a row without solution.
+pub(super) fn refuse(machine: &Machine, refusal: Refusal) -> Verdict {
+    match refusal {
+        Refusal::Blocked(margin) => Verdict::Unreachable(margin),
+        Refusal::SelfMotion => Verdict::Unreachable(unheld(machine)),
+        Refusal::OutOfDomain => Verdict::Invalid("the numbers together are too large".to_owned()),
+    }
+}
+
+/// Turns verdicts into columns.
+pub(super) fn report(verdicts: impl ExactSizeIterator<Item = Verdict>) -> RowReport {
+    let rows = verdicts.len();
+    let mut report = RowReport {
+        status: Vec::with_capacity(rows),
+        constraint: Vec::with_capacity(rows),
+        margin: Vec::with_capacity(rows),
+        element: Vec::with_capacity(rows),
+        ..RowReport::default()
+    };
+    for (row, verdict) in verdicts.enumerate() {
+        let (status, margin) = match verdict {
+            Verdict::Ok => (Status::Ok, None),
+            Verdict::Unreachable(margin) => (Status::Unreachable, Some(margin)),
+            Verdict::Infeasible(margin) => (Status::Infeasible, Some(margin)),
+            Verdict::Invalid(detail) => {
+                if report.errors.len() < EXPLAINED {
+                    report.errors.push(RowError { row, detail });
+                }
+                (Status::Invalid, None)
+            }
+        };
+        count(&mut report.counts, status);
+        let limit = margin.map(Limit::from);
+        report.status.push(status);
+        report.constraint.push(limit.as_ref().map(|limit| limit.constraint));
+        report.margin.push(limit.as_ref().map(|limit| limit.value));
+        report.element.push(limit.map(|limit| limit.element));
+    }
+    report
+}
+
+fn count(counts: &mut Counts, status: Status) {
+    match status {
+        Status::Ok => counts.ok += 1,
+        Status::Unreachable => counts.unreachable += 1,
+        Status::Infeasible => counts.infeasible += 1,
+        Status::Invalid => counts.invalid += 1,
+    }
+}
+
+/// Checks what all rows share.
+pub(super) fn check_batch(tool_length: f64, rows: usize, limit: usize) -> Result<(), Error> {
+    if rows > limit {
+        return Err(Error::TooManyRows { rows, limit });
+    }
+    let mut faults = Faults::default();
+    faults.tool_length(tool_length);
+    faults.into_result()
+}

@@ -1,0 +1,64 @@
+//! `/fk`: where platform, tool and part are for given joints.
+
+use verne_solver::{TableAngles, forward, forward_working};
+
+use super::near;
+use super::solutions::{Findings, Found, Presentation};
+use crate::error::Error;
+use crate::faults::Faults;
+use crate::registry::Registry;
+use crate::wire::answer::Answer;
+use crate::wire::degrees::from_degrees;
+use crate::wire::request::{FkRequest, Wanted};
+
+/// Answers a forward question.
+pub(crate) fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answer, Error> {
+    let table = checked_table(request)?;
+    let published = machines.resolve(&request.machine)?;
+    let rho = request.joints.rho.0;
+    let complete = |posture| Found { posture, table, asked: None };
+    let mut findings = Findings::default();
+    match request.solutions {
+        Wanted::All => findings.add(forward(&published.machine, rho), complete),
+        Wanted::Working | Wanted::Feasible => {
+            findings.add_one(forward_working(&published.machine, rho), complete);
+        }
+    }
+    let presentation = Presentation {
+        published: &published,
+        tool_length: request.tool_length,
+        wanted: request.solutions,
+        near: request.near,
+        free: false,
+        joints: false,
+    };
+    presentation.answer(findings)
+}
+
+/// The table's angles, once every number of the request has been looked at.
+fn checked_table(request: &FkRequest) -> Result<Option<TableAngles>, Error> {
+    let mut faults = Faults::default();
+    let joints = &request.joints;
+    faults.lengths("/joints/rho", &joints.rho.0);
+    faults.angle("/joints/theta1", joints.theta1);
+    faults.angle("/joints/theta2", joints.theta2);
+    faults.tool_length(request.tool_length);
+    if let Some(near) = &request.near {
+        near::check(near, &mut faults);
+    }
+    let table = match (joints.theta1, joints.theta2) {
+        (Some(theta1), Some(theta2)) => {
+            Some(TableAngles { theta1: from_degrees(theta1), theta2: from_degrees(theta2) })
+        }
+        (None, None) => None,
+        (Some(_), None) => {
+            faults.add("/joints/theta2", "is required beside theta1");
+            None
+        }
+        (None, Some(_)) => {
+            faults.add("/joints/theta1", "is required beside theta2");
+            None
+        }
+    };
+    faults.into_result().map(|()| table)
+}

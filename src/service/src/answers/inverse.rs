@@ -1,0 +1,87 @@
+//! `/ik`: which joints bring the machine to a pose.
+
+use verne_solver::{
+    Machine, PartPose, Point, Posture, part, part_working, platform, platform_working, table_angles, tool,
+    tool_working,
+};
+
+use super::near;
+use super::orientation::{Orientations, no_orientation, orientations};
+use super::solutions::{Findings, Found, Presentation};
+use crate::error::Error;
+use crate::faults::Faults;
+use crate::registry::Registry;
+use crate::wire::answer::Answer;
+use crate::wire::request::{Frame, IkRequest, Wanted};
+
+/// Answers an inverse question.
+pub(crate) fn answer_ik(request: &IkRequest, machines: &Registry) -> Result<Answer, Error> {
+    let orientations = checked_orientations(request)?;
+    let published = machines.resolve(&request.machine)?;
+    let machine = &published.machine;
+    let point = [request.pose.x, request.pose.y, request.pose.z];
+    let findings = match request.frame {
+        Frame::Part => in_part(machine, request, point, &orientations),
+        Frame::Platform | Frame::Tool => in_base(machine, request, point),
+    };
+    let presentation = Presentation {
+        published: &published,
+        tool_length: request.tool_length,
+        wanted: request.solutions,
+        near: request.near,
+        free: orientations.free,
+        joints: true,
+    };
+    presentation.answer(findings)
+}
+
+/// The orientations asked for, once every number of the request has been looked at.
+fn checked_orientations(request: &IkRequest) -> Result<Orientations, Error> {
+    let mut faults = Faults::default();
+    let pose = &request.pose;
+    for (pointer, value) in [("/pose/x", pose.x), ("/pose/y", pose.y), ("/pose/z", pose.z)] {
+        faults.length(pointer, value);
+    }
+    faults.tool_length(request.tool_length);
+    if let Some(near) = &request.near {
+        near::check(near, &mut faults);
+    }
+    let orientations = if request.frame == Frame::Part {
+        orientations(pose, request.near.as_ref(), &mut faults)
+    } else {
+        no_orientation(pose, &mut faults);
+        Orientations::default()
+    };
+    faults.into_result().map(|()| orientations)
+}
+
+fn in_part(machine: &Machine, request: &IkRequest, [x, y, z]: Point, asked: &Orientations) -> Findings {
+    let mut findings = Findings::default();
+    for &[phi1, phi2] in &asked.each {
+        let target = PartPose { x, y, z, phi1, phi2 };
+        let complete = |posture: Posture| {
+            let table = table_angles(machine, posture.pose.alpha, phi1, phi2);
+            Found { posture, table: Some(table), asked: Some([phi1, phi2]) }
+        };
+        match request.solutions {
+            Wanted::All => findings.add(part(machine, &target, request.tool_length), complete),
+            Wanted::Working | Wanted::Feasible => {
+                findings.add_one(part_working(machine, &target, request.tool_length), complete);
+            }
+        }
+    }
+    findings
+}
+
+fn in_base(machine: &Machine, request: &IkRequest, point: Point) -> Findings {
+    let (all, length) = (request.solutions == Wanted::All, request.tool_length);
+    let complete = |posture| Found { posture, table: None, asked: None };
+    let mut findings = Findings::default();
+    match (request.frame == Frame::Tool, all) {
+        (true, true) => findings.add(tool(machine, point, length), complete),
+        (true, false) => findings.add_one(tool_working(machine, point, length), complete),
+        (false, true) => findings.add(platform(machine, point), complete),
+        (false, false) => findings.add_one(platform_working(machine, point), complete),
+    }
+    findings
+}

@@ -1,0 +1,86 @@
+//! The orientations (phi1, phi2) that a pose in the part frame asks for.
+
+use arrayvec::ArrayVec;
+use verne_solver::axis::{Preimages, preimages};
+
+use crate::faults::Faults;
+use crate::wire::degrees::from_degrees;
+use crate::wire::request::{Near, TargetPose};
+
+/// One orientation, or the two that share a tool axis; radians.
+#[derive(Debug, Default)]
+pub(super) struct Orientations {
+    /// `[phi1, phi2]`.
+    pub(super) each: ArrayVec<[f64; 2], 2>,
+    /// Whether phi2 is only one choice of many.
+    pub(super) free: bool,
+}
+
+impl Orientations {
+    fn one(phi1: f64, phi2: f64) -> Self {
+        Self { each: [[phi1, phi2]].into_iter().collect(), free: false }
+    }
+
+    /// The member of the family that keeps the table where it is, or at zero.
+    fn family(phi1: f64, near: Option<&Near>) -> Self {
+        let theta2 = match near {
+            Some(Near::Joints(joints)) => joints.theta2.unwrap_or(0.0),
+            _ => 0.0,
+        };
+        Self { free: true, ..Self::one(phi1, 0.0 - from_degrees(theta2)) }
+    }
+}
+
+/// Reads the orientation of a pose; faults where it says too little or too much.
+pub(super) fn orientations(pose: &TargetPose, near: Option<&Near>, faults: &mut Faults) -> Orientations {
+    faults.angle("/pose/phi1", pose.phi1);
+    faults.angle("/pose/phi2", pose.phi2);
+    match (pose.phi1, pose.phi2, pose.axis) {
+        (Some(phi1), Some(phi2), None) => Orientations::one(from_degrees(phi1), from_degrees(phi2)),
+        (Some(phi1), None, None) if phi1 % 180.0 == 0.0 => Orientations::family(from_degrees(phi1), near),
+        (Some(_), None, None) => {
+            faults
+                .add("/pose/phi2", "is required: phi2 is free only where phi1 is a multiple of 180 degrees");
+            Orientations::default()
+        }
+        (None, phi2, Some(axis)) => along_axis(axis.0, phi2, near, faults),
+        (Some(_), _, Some(_)) => {
+            faults.add("/pose/axis", "stands in place of phi1 and phi2: give it or them");
+            Orientations::default()
+        }
+        (None, _, None) => {
+            faults.add("/pose/phi1", "is required in frame part: give phi1 and phi2, or axis");
+            Orientations::default()
+        }
+    }
+}
+
+fn along_axis(axis: [f64; 3], phi2: Option<f64>, near: Option<&Near>, faults: &mut Faults) -> Orientations {
+    faults.lengths("/pose/axis", &axis);
+    match (preimages(axis), phi2) {
+        (None, _) => {
+            faults.add("/pose/axis", "must be a direction: three numbers, not all zero");
+            Orientations::default()
+        }
+        (Some(Preimages::Two(both)), None) => Orientations { each: both.into(), free: false },
+        (Some(Preimages::Two(_)), Some(_)) => {
+            faults
+                .add("/pose/phi2", "is settled by this axis: phi2 goes with axis only along the table's own");
+            Orientations::default()
+        }
+        (Some(Preimages::Free { phi1 }), Some(phi2)) => Orientations::one(phi1, from_degrees(phi2)),
+        (Some(Preimages::Free { phi1 }), None) => Orientations::family(phi1, near),
+    }
+}
+
+/// Faults for an orientation where the frame has none.
+pub(super) fn no_orientation(pose: &TargetPose, faults: &mut Faults) {
+    let given = [
+        ("/pose/phi1", pose.phi1.is_some()),
+        ("/pose/phi2", pose.phi2.is_some()),
+        ("/pose/axis", pose.axis.is_some()),
+    ];
+    for (pointer, _) in given.into_iter().filter(|(_, given)| *given) {
+        faults.add(pointer, "belongs to frame part: in platform and tool the orientation follows");
+    }
+}

@@ -1,0 +1,170 @@
+//! From postures to the answer: order, labels, margins, or why there is nothing.
+
+use std::cmp::Ordering;
+
+use verne_solver::{
+    Constraint, Element, Machine, Margin, Margins, PartPose, Posture, Postures, Refusal, TableAngles,
+    jacobian, part_pose, tool_point,
+};
+
+use super::near;
+use crate::error::{Error, Fault};
+use crate::registry::Published;
+use crate::wire::answer::{Answer, Free, ModeObject, PartObject, Reason, Solution};
+use crate::wire::degrees::to_degrees;
+use crate::wire::limit::Limit;
+use crate::wire::margins::MarginsObject;
+use crate::wire::numbers::Exactly;
+use crate::wire::request::{Joints, Near, Wanted};
+
+/// A posture with the table's part in it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    pub(super) posture: Posture,
+    /// Where the table takes part.
+    pub(super) table: Option<TableAngles>,
+    /// `[phi1, phi2]` as the question put them.
+    pub(super) asked: Option<[f64; 2]>,
+}
+
+/// What the solver found, over all orientations of a question.
+#[derive(Debug, Default)]
+pub(super) struct Findings {
+    pub(super) found: Vec<Found>,
+    /// The first refusal.
+    pub(super) refusal: Option<Refusal>,
+}
+
+impl Findings {
+    /// Adds all that one question to the solver found.
+    pub(super) fn add(&mut self, outcome: Result<Postures, Refusal>, complete: impl Fn(Posture) -> Found) {
+        match outcome {
+            Ok(postures) => self.found.extend(postures.into_iter().map(complete)),
+            Err(refusal) => self.refuse(refusal),
+        }
+    }
+
+    /// Adds the one posture that was wanted.
+    pub(super) fn add_one(&mut self, outcome: Result<Posture, Refusal>, complete: impl Fn(Posture) -> Found) {
+        match outcome {
+            Ok(posture) => self.found.push(complete(posture)),
+            Err(refusal) => self.refuse(refusal),
+        }
+    }
+
+    fn refuse(&mut self, refusal: Refusal) {
+        self.refusal.get_or_insert(refusal);
+    }
+}
+
+/// What is needed to put findings into an answer.
+#[derive(Debug)]
+pub(super) struct Presentation<'a> {
+    pub(super) published: &'a Published,
+    pub(super) tool_length: f64,
+    pub(super) wanted: Wanted,
+    pub(super) near: Option<Near>,
+    pub(super) free: bool,
+    /// Whether solutions carry their joints: /ik's do.
+    pub(super) joints: bool,
+}
+
+impl Presentation<'_> {
+    /// The answer.
+    pub(super) fn answer(&self, mut findings: Findings) -> Result<Answer, Error> {
+        findings.found.sort_by(order);
+        let mut kept = Vec::with_capacity(findings.found.len());
+        let mut violated = None;
+        for (i, found) in findings.found.iter().enumerate() {
+            let margins = Margins::of(self.machine(), &found.posture, found.table);
+            if self.wanted == Wanted::Feasible && !margins.feasible() {
+                violated.get_or_insert_with(|| margins.worst(self.machine()));
+            } else {
+                let equal_before = findings.found[..i].iter().filter(|other| same_label(found, other));
+                kept.push((found, self.solution(found, equal_before.count(), &margins)));
+            }
+        }
+        if let Some(near) = &self.near {
+            let radius = self.machine().data().geometry.R1;
+            let distance = |found| near::distance(near, radius, found);
+            kept.sort_by(|(a, _), (b, _)| distance(a).total_cmp(&distance(b)));
+        }
+        let (reason, constraint) =
+            if kept.is_empty() { self.why_nothing(violated, findings.refusal)? } else { (None, None) };
+        let solutions = kept.into_iter().map(|(_, solution)| solution).collect();
+        let free = if self.free { vec![Free::Phi2] } else { Vec::new() };
+        Ok(Answer { machine: self.published.id.clone(), solutions, free, reason, constraint })
+    }
+
+    fn machine(&self) -> &Machine {
+        &self.published.machine
+    }
+
+    fn solution(&self, found: &Found, index: usize, margins: &Margins) -> Solution {
+        let posture = &found.posture;
+        Solution {
+            joints: self.joints.then(|| Joints {
+                rho: Exactly(posture.rho),
+                theta1: found.table.map(|table| to_degrees(table.theta1)),
+                theta2: found.table.map(|table| to_degrees(table.theta2)),
+            }),
+            platform: posture.pose.into(),
+            tool: tool_point(&posture.pose, self.tool_length).into(),
+            part: found.table.map(|table| self.part(found, table)),
+            mode: ModeObject::new(posture, index),
+            working: posture.working,
+            merged: posture.merged,
+            feasible: margins.feasible(),
+            margins: MarginsObject::new(self.machine(), margins),
+            conditioning: jacobian::conditioning(self.machine(), posture).into(),
+            residual: posture.residual,
+        }
+    }
+
+    fn part(&self, found: &Found, table: TableAngles) -> PartObject {
+        let pose = part_pose(self.machine(), &found.posture.pose, table, self.tool_length);
+        match found.asked {
+            // The table may stand whole revolutions away; the caller knows the angles asked for.
+            Some([phi1, phi2]) => PartPose { phi1, phi2, ..pose }.into(),
+            None => pose.into(),
+        }
+    }
+
+    fn why_nothing(
+        &self,
+        violated: Option<Margin>,
+        refusal: Option<Refusal>,
+    ) -> Result<(Option<Reason>, Option<Limit>), Error> {
+        let (reason, margin) = match (violated, refusal) {
+            (Some(margin), _) => (Reason::Infeasible, margin),
+            (None, Some(Refusal::Blocked(margin))) => (Reason::Unreachable, margin),
+            (None, Some(Refusal::SelfMotion)) => (Reason::SelfMotion, unheld(self.machine())),
+            (None, Some(Refusal::OutOfDomain)) => {
+                return Err(Error::Fields(vec![Fault::new("", "the numbers together are too large")]));
+            }
+            (None, None) => return Err(Error::Internal),
+        };
+        Ok((Some(reason), Some(margin.into())))
+    }
+}
+
+/// The margin of a platform that the sliders do not hold: its conditioning is zero.
+pub(super) fn unheld(machine: &Machine) -> Margin {
+    let value = -machine.data().limits.parallel_margin;
+    Margin { constraint: Constraint::ParallelSingularity, element: Element::Platform, value }
+}
+
+/// Working first, then by alpha, then by rho. Indices count in this order, so the working
+/// solution's is the same whichever solutions are asked for.
+fn order(a: &Found, b: &Found) -> Ordering {
+    let (a, b) = (&a.posture, &b.posture);
+    let by_rho = || a.rho.iter().zip(&b.rho).map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne());
+    b.working
+        .cmp(&a.working)
+        .then(a.pose.alpha.total_cmp(&b.pose.alpha))
+        .then_with(|| by_rho().unwrap_or(Ordering::Equal))
+}
+
+fn same_label(a: &Found, b: &Found) -> bool {
+    a.posture.mode == b.posture.mode
+}

@@ -1,0 +1,57 @@
+//! The command line.
+
+mod question;
+
+use question::Question;
+
+use std::io::{Write, stderr};
+
+use clap::{Parser, Subcommand};
+use tracing_subscriber::EnvFilter;
+
+use crate::app;
+use crate::config::ServeConfig;
+
+/// Kinematics of the VERNE five-axis hybrid machine's architecture: every solution, over HTTP and here.
+///
+/// Without a command: serve. Lengths in mm, angles in degrees; z points down. The built-in machine `verne` has
+/// invented dimensions that reproduce the counts printed in arXiv:0707.3507; they are not Fatronik's.
+#[derive(Debug, Parser)]
+#[command(name = "verne", version, args_conflicts_with_subcommands = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    serve: ServeConfig,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Serve over HTTP.
+    Serve(ServeConfig),
+    #[command(flatten)]
+    Ask(Question),
+}
+
+impl Cli {
+    /// Serves, or writes the answer to `out`: with line breaks for people, or without. The error is for people.
+    pub fn run(self, out: &mut impl Write, pretty: bool) -> Result<(), String> {
+        match self.command.unwrap_or(Command::Serve(self.serve)) {
+            Command::Serve(config) => serve(&config),
+            Command::Ask(question) => {
+                let answer = question.answer(pretty)?;
+                writeln!(out, "{answer}").map_err(|error| format!("cannot write the answer: {error}"))
+            }
+        }
+    }
+}
+
+fn serve(config: &ServeConfig) -> Result<(), String> {
+    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("info"));
+    tracing_subscriber::fmt().with_env_filter(filter).with_writer(stderr).init();
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .enable_all()
+        .build()
+        .map_err(|error| format!("cannot start: {error}"))?;
+    runtime.block_on(app::serve(config)).map_err(|error| error.to_string())
+}

@@ -1,0 +1,81 @@
+//! What can be wrong with a question, without a word of HTTP. `problem` alone knows statuses.
+
+use std::fmt;
+
+/// One bad field: where it is and what would be accepted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Fault {
+    /// JSON Pointer into the body; `/query/<name>` for a query parameter.
+    pub pointer: String,
+    /// What is wrong, and what would be accepted.
+    pub detail: String,
+}
+
+impl Fault {
+    /// A fault of one field.
+    pub(crate) fn new(pointer: impl Into<String>, detail: impl Into<String>) -> Self {
+        Self { pointer: pointer.into(), detail: detail.into() }
+    }
+}
+
+/// Why a request gets no answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Error {
+    /// The body is not JSON; the parser's words.
+    Syntax(String),
+    /// Well-formed, but these fields cannot be used.
+    Fields(Vec<Fault>),
+    /// The body is declared as something other than JSON, or as nothing.
+    NotJson(Option<String>),
+    /// The body has more bytes than this.
+    BodyTooLarge(usize),
+    /// The body broke off.
+    BodyLost(String),
+    /// More rows in a batch than are answered at once.
+    TooManyRows {
+        /// Rows asked for.
+        rows: usize,
+        /// Rows allowed.
+        limit: usize,
+    },
+    /// No machine is published under this name.
+    NoSuchMachine(String),
+    /// Nothing lives at this path.
+    NoSuchPath,
+    /// The answer took longer than the time allowed.
+    TimedOut,
+    /// The path is right, the method is not.
+    MethodNotAllowed,
+    /// A defect of the service itself.
+    Internal,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Syntax(reason) => write!(f, "The body is not JSON: {reason}."),
+            Self::Fields(faults) if faults.len() == 1 => write!(f, "One field cannot be used; see errors."),
+            Self::Fields(faults) => write!(f, "{} fields cannot be used; see errors.", faults.len()),
+            Self::NotJson(None) => write!(f, "Send the body with Content-Type: application/json."),
+            Self::NotJson(Some(found)) => {
+                write!(f, "Send the body with Content-Type: application/json, not {found}.")
+            }
+            Self::BodyTooLarge(limit) => write!(f, "The body has more than the {limit} bytes allowed here."),
+            Self::BodyLost(reason) => write!(f, "The body could not be read: {reason}."),
+            Self::TooManyRows { rows, limit } => {
+                write!(f, "The batch has {rows} rows; at most {limit} are answered at once.")
+            }
+            Self::NoSuchMachine(name) => {
+                write!(f, "No machine is published as {name:?}; GET /machines lists them.")
+            }
+            Self::NoSuchPath => write!(f, "Nothing lives at this path; GET /openapi.json lists what does."),
+            Self::TimedOut => write!(f, "The answer took longer than the time allowed."),
+            Self::MethodNotAllowed => {
+                write!(f, "This path takes other methods; the header Allow names them.")
+            }
+            Self::Internal => write!(f, "A defect of the service; its log holds this x-request-id."),
+        }
+    }
+}
+
+impl std::error::Error for Error {}

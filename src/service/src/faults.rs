@@ -1,0 +1,64 @@
+//! Collects every bad field of a request, so that one answer names them all.
+
+use verne_solver::DOMAIN;
+
+use crate::error::{Error, Fault};
+
+/// Largest angle accepted, degrees.
+pub(crate) const LARGEST_ANGLE: f64 = 36_000.0;
+
+/// The bad fields found so far.
+#[derive(Debug, Default)]
+pub(crate) struct Faults(Vec<Fault>);
+
+impl Faults {
+    /// Adds a fault.
+    pub(crate) fn add(&mut self, pointer: impl Into<String>, detail: impl Into<String>) {
+        self.0.push(Fault::new(pointer, detail));
+    }
+
+    /// A length in mm, of any sign.
+    pub(crate) fn length(&mut self, pointer: &str, value: f64) {
+        if !is_length(value) {
+            self.add(pointer, format!("must be a finite number within ±{DOMAIN:e} mm"));
+        }
+    }
+
+    /// An angle in degrees, where there is one.
+    pub(crate) fn angle(&mut self, pointer: &str, value: Option<f64>) {
+        if value.is_some_and(|value| !is_angle(value)) {
+            self.add(pointer, format!("must be a finite number within ±{LARGEST_ANGLE} degrees"));
+        }
+    }
+
+    /// Several lengths of one field.
+    pub(crate) fn lengths(&mut self, pointer: &str, values: &[f64]) {
+        for (i, &value) in values.iter().enumerate() {
+            if !is_length(value) {
+                self.length(&format!("{pointer}/{i}"), value);
+            }
+        }
+    }
+
+    /// The length of the tool, from P to its tip.
+    pub(crate) fn tool_length(&mut self, value: f64) {
+        if !(0.0..=DOMAIN).contains(&value) {
+            self.add("/tool_length", format!("must be a number from 0 to {DOMAIN:e} mm"));
+        }
+    }
+
+    /// Ends the collection: an error if anything was found.
+    pub(crate) fn into_result(self) -> Result<(), Error> {
+        if self.0.is_empty() { Ok(()) } else { Err(Error::Fields(self.0)) }
+    }
+}
+
+/// Whether a number can be a length in a question.
+pub(crate) fn is_length(value: f64) -> bool {
+    value.abs() <= DOMAIN
+}
+
+/// Whether a number can be an angle in a question.
+pub(crate) fn is_angle(degrees: f64) -> bool {
+    degrees.abs() <= LARGEST_ANGLE
+}

@@ -1,0 +1,6 @@
+//! One function for each operation: HTTP in, a typed answer out.
+
+pub(crate) mod batch;
+pub(crate) mod kinematics;
+pub(crate) mod machines;
+pub(crate) mod service;

@@ -1,0 +1,44 @@
+//! `/fk/batch` and `/ik/batch`.
+
+use axum::extract::State;
+use axum::http::header::{CONTENT_TYPE, HeaderName};
+
+use crate::answers::{answer_fk_batch, answer_ik_batch};
+use crate::error::Error;
+use crate::extract::Batch;
+use crate::openapi::problems::BatchProblems;
+use crate::state::Shared;
+use crate::wire::batch::{FkBatchAnswer, FkBatchRequest, IkBatchAnswer, IkBatchRequest};
+use crate::workers::on_workers;
+
+type JsonBytes = ([(HeaderName, &'static str); 1], Vec<u8>);
+
+fn json(body: Vec<u8>) -> JsonBytes {
+    ([(CONTENT_TYPE, "application/json")], body)
+}
+
+/// Forward kinematics of many rows
+///
+/// The working mode of each row, in order. A row that cannot be read, has no solution or breaks a limit says so in
+/// its own place and spoils no other.
+#[utoipa::path(
+    post, path = "/fk/batch", operation_id = "fk_batch", tag = "kinematics",
+    request_body(content = FkBatchRequest, description = "The rows of joints."),
+    responses((status = 200, description = "One entry for each row.", body = FkBatchAnswer), BatchProblems)
+)]
+pub(crate) async fn fk_batch(State(state): State<Shared>, Batch(body): Batch) -> Result<JsonBytes, Error> {
+    on_workers(move || answer_fk_batch(&body, &state)).await.map(json)
+}
+
+/// Inverse kinematics of many rows
+///
+/// The working mode of each row, in order. A row that cannot be read, has no solution or breaks a limit says so in
+/// its own place and spoils no other.
+#[utoipa::path(
+    post, path = "/ik/batch", operation_id = "ik_batch", tag = "kinematics",
+    request_body(content = IkBatchRequest, description = "The rows of poses."),
+    responses((status = 200, description = "One entry for each row.", body = IkBatchAnswer), BatchProblems)
+)]
+pub(crate) async fn ik_batch(State(state): State<Shared>, Batch(body): Batch) -> Result<JsonBytes, Error> {
+    on_workers(move || answer_ik_batch(&body, &state)).await.map(json)
+}

@@ -1,0 +1,94 @@
+//! `/fk` and `/ik`.
+
+use axum::extract::State;
+use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, HeaderName};
+
+use crate::answers::{answer_fk, answer_ik};
+use crate::error::Error;
+use crate::extract::{Params, Single};
+use crate::openapi::problems::{BodyProblems, QueryProblems};
+use crate::state::Shared;
+use crate::wire::answer::Answer;
+use crate::wire::json::write_json;
+use crate::wire::query::{FkQuery, IkQuery, point_into_query};
+use crate::wire::request::{FkRequest, IkRequest};
+
+/// An answer depends on its URL and on the published machines, which change only with a restart.
+const CACHEABLE: (HeaderName, &str) = (CACHE_CONTROL, "public, max-age=300");
+
+const JSON: (HeaderName, &str) = (CONTENT_TYPE, "application/json");
+
+/// About the bytes of a solution.
+const SOLUTION_BYTES: usize = 2048;
+
+type Written<const HEADERS: usize> = ([(HeaderName, &'static str); HEADERS], Vec<u8>);
+
+fn write(answer: &Answer) -> Result<Vec<u8>, Error> {
+    write_json(answer, SOLUTION_BYTES * answer.solutions.len().max(1))
+}
+
+/// Forward kinematics
+///
+/// Where platform, tool and part are for given slider positions: every assembly mode, the working one, or only what
+/// breaks no limit. theta1 and theta2 add the pose in the table frame.
+#[utoipa::path(
+    get, path = "/fk", operation_id = "fk", tag = "kinematics", params(FkQuery),
+    responses((status = 200, description = "The solutions, or why there are none.", body = Answer), QueryProblems)
+)]
+pub(crate) async fn get_fk(
+    State(state): State<Shared>,
+    Params(query): Params<FkQuery>,
+) -> Result<Written<2>, Error> {
+    let answer = query.into_request().and_then(|request| answer_fk(&request, &state.machines));
+    let text = answer.and_then(|answer| write(&answer)).map_err(point_into_query)?;
+    Ok(([JSON, CACHEABLE], text))
+}
+
+/// Forward kinematics, with a machine of one's own
+///
+/// The question of GET /fk as JSON; `machine` may be a whole machine.
+#[utoipa::path(
+    post, path = "/fk", operation_id = "fk_post", tag = "kinematics",
+    request_body(content = FkRequest, description = "The joints, and what is wanted."),
+    responses((status = 200, description = "The solutions, or why there are none.", body = Answer), BodyProblems)
+)]
+pub(crate) async fn post_fk(
+    State(state): State<Shared>,
+    Single(request): Single<FkRequest>,
+) -> Result<Written<1>, Error> {
+    let answer = answer_fk(&request, &state.machines)?;
+    Ok(([JSON], write(&answer)?))
+}
+
+/// Inverse kinematics
+///
+/// Which joints bring platform, tool or part to a pose: every solution (up to sixteen for the platform, up to 24 for
+/// the part), the working one, or only what breaks no limit.
+#[utoipa::path(
+    get, path = "/ik", operation_id = "ik", tag = "kinematics", params(IkQuery),
+    responses((status = 200, description = "The solutions, or why there are none.", body = Answer), QueryProblems)
+)]
+pub(crate) async fn get_ik(
+    State(state): State<Shared>,
+    Params(query): Params<IkQuery>,
+) -> Result<Written<2>, Error> {
+    let answer = query.into_request().and_then(|request| answer_ik(&request, &state.machines));
+    let text = answer.and_then(|answer| write(&answer)).map_err(point_into_query)?;
+    Ok(([JSON, CACHEABLE], text))
+}
+
+/// Inverse kinematics, with a machine of one's own
+///
+/// The question of GET /ik as JSON; `machine` may be a whole machine.
+#[utoipa::path(
+    post, path = "/ik", operation_id = "ik_post", tag = "kinematics",
+    request_body(content = IkRequest, description = "The pose, and what is wanted."),
+    responses((status = 200, description = "The solutions, or why there are none.", body = Answer), BodyProblems)
+)]
+pub(crate) async fn post_ik(
+    State(state): State<Shared>,
+    Single(request): Single<IkRequest>,
+) -> Result<Written<1>, Error> {
+    let answer = answer_ik(&request, &state.machines)?;
+    Ok(([JSON], write(&answer)?))
+}

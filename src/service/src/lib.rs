@@ -1,0 +1,21 @@
+//! The verne service: kinematics of the VERNE machine's architecture over HTTP and on the command line.
+//!
+//! Dependencies point one way: main → cli → app → router → handlers → answers → wire, state, error.
+
+mod answers;
+pub mod app;
+pub mod cli;
+pub mod config;
+mod error;
+mod extract;
+mod faults;
+mod handlers;
+mod layers;
+mod machine_hash;
+mod openapi;
+mod problem;
+mod registry;
+mod router;
+mod state;
+mod wire;
+mod workers;

@@ -1,0 +1,18 @@
+//! `verne`: the service and its command line.
+
+use std::io::{IsTerminal, Write, stderr, stdout};
+use std::process::ExitCode;
+
+use clap::Parser;
+use verne_service::cli::Cli;
+
+fn main() -> ExitCode {
+    match Cli::parse().run(&mut stdout(), stdout().is_terminal()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            // Nothing is left to tell where not even this can be written.
+            drop(writeln!(stderr(), "error: {message}"));
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! The OpenAPI document: what the handlers say, completed with examples that the solver answers.
+
+mod examples;
+mod inlined;
+pub(crate) mod machine_schema;
+pub(crate) mod problems;
+
+use serde_json::{Value, json};
+use utoipa::OpenApi;
+
+use crate::problem::Problem;
+
+/// What the document says beside its routes.
+#[derive(OpenApi)]
+#[openapi(
+    info(
+        title = "verne",
+        description = "Kinematics of the VERNE five-axis hybrid machine's architecture (arXiv:0707.3507): every forward \
+            and inverse solution, labelled, with signed margins to every limit.\n\n\
+            **Units**: lengths in mm, angles in degrees; z points down in the base frame. Field names are the paper's.\n\n\
+            **Machines**: named, or whole in the request. The built-in machine `verne` has invented, round dimensions \
+            that reproduce the counts printed in the paper; they are not Fatronik's, which the paper does not give. \
+            Every answer carries the machine's hash: BLAKE3 of geometry, table and limits, so that two answers can be \
+            compared.\n\n\
+            **No solution is not an error**: 200 with empty `solutions`, `reason` and the `constraint` that prevents \
+            one.\n\n\
+            **Order**: the working solution first, then by alpha, then by rho; with `near`, by distance from it: the \
+            root of the sum of squares of lengths in mm and of angles as arcs of radius R1.\n\n\
+            **Failures** are `application/problem+json` (RFC 9457) with a stable `code`, all of them: `bad_json`, \
+            `bad_request`, `invalid_request`, `machine_not_found`, `not_found`, `method_not_allowed`, `body_too_large`, \
+            `too_many_rows`, `unsupported_media_type`, `timed_out`, `internal`. Bad fields are listed in `errors` with \
+            a JSON Pointer into the body, or `/query/<name>`. Unknown and repeated fields are refused."
+    ),
+    servers((url = "/", description = "This service.")),
+    tags(
+        (name = "kinematics", description = "From joints to poses and back."),
+        (name = "machines", description = "Machines that requests may name."),
+        (name = "service", description = "The service itself.")
+    ),
+    components(schemas(Problem))
+)]
+pub(crate) struct Document;
+
+/// The document as JSON, with an example of each request and the answer it gets.
+pub(crate) fn complete(api: &utoipa::openapi::OpenApi) -> Value {
+    let mut document = json!(api);
+    for example in examples::examples() {
+        example.write_into(&mut document);
+    }
+    inlined::join_descriptions(&mut document);
+    document
+}

@@ -1,0 +1,140 @@
+//! An example of each operation: the request here, the answer from the solver.
+
+use axum::body::Bytes;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use crate::answers::{answer_fk, answer_fk_batch, answer_ik, answer_ik_batch};
+use crate::error::Error;
+use crate::handlers::machines;
+use crate::openapi::machine_schema::machine_schema;
+use crate::registry::Registry;
+use crate::state::{RequestLimits, State};
+use crate::wire::catalogue::Health;
+use crate::wire::parse::{parse_body, parse_query};
+use crate::wire::query::{FkQuery, IkQuery};
+
+/// How an example asks.
+enum Asked {
+    /// Values of path and query parameters.
+    Parameters(Value),
+    /// A body.
+    Body(Value),
+}
+
+/// A question that the tests send, and the answer it gets.
+pub(super) struct Example {
+    method: &'static str,
+    path: &'static str,
+    asked: Asked,
+    answer: Value,
+}
+
+impl Example {
+    /// Writes question and answer into their operation.
+    pub(super) fn write_into(self, document: &mut Value) {
+        let Some(operation) = document["paths"][self.path].get_mut(self.method) else { return };
+        match self.asked {
+            Asked::Body(body) => operation["requestBody"]["content"]["application/json"]["example"] = body,
+            Asked::Parameters(values) => {
+                let parameters = operation.get_mut("parameters").and_then(Value::as_array_mut);
+                for parameter in parameters.into_iter().flatten() {
+                    if let Some(value) = parameter["name"].as_str().and_then(|name| values.get(name)) {
+                        parameter["example"] = value.clone();
+                    }
+                }
+            }
+        }
+        operation["responses"]["200"]["content"]["application/json"]["example"] = self.answer;
+    }
+}
+
+/// An example of each operation but the document's own.
+pub(super) fn examples() -> Vec<Example> {
+    let state = State {
+        machines: Registry::default(),
+        limits: RequestLimits { body_bytes: usize::MAX, rows: usize::MAX },
+        openapi: Bytes::new(),
+    };
+    let mut examples = of_the_service(&state.machines);
+    examples.extend(of_queries(&state.machines));
+    examples.extend(of_bodies(&state));
+    examples
+}
+
+fn of_the_service(registry: &Registry) -> Vec<Example> {
+    let get = |path, asked, answer| Example { method: "get", path, asked: Asked::Parameters(asked), answer };
+    let health = json!(Health { status: "ok" });
+    vec![
+        get("/livez", json!({}), health.clone()),
+        get("/readyz", json!({}), health),
+        get("/machines", json!({}), json!(machines::list(registry))),
+        get("/machines/schema", json!({}), machine_schema()),
+        get("/machines/{name}", json!({"name": "verne"}), answered(machines::show(registry, "verne"))),
+    ]
+}
+
+fn of_queries(registry: &Registry) -> Vec<Example> {
+    let get = |path, asked, answer| Example { method: "get", path, asked: Asked::Parameters(asked), answer };
+    let fk = parse_query::<FkQuery>("rho=674,685,250").and_then(FkQuery::into_request);
+    let ik = parse_query::<IkQuery>("frame=platform&x=-240&y=-86&z=1000").and_then(IkQuery::into_request);
+    vec![
+        get(
+            "/fk",
+            json!({"rho": [674, 685, 250]}),
+            answered(fk.and_then(|request| answer_fk(&request, registry))),
+        ),
+        get(
+            "/ik",
+            json!({"frame": "platform", "x": -240, "y": -86, "z": 1000}),
+            answered(ik.and_then(|request| answer_ik(&request, registry))),
+        ),
+    ]
+}
+
+fn of_bodies(state: &State) -> Vec<Example> {
+    let registry = &state.machines;
+    vec![
+        post(
+            "/fk",
+            json!({"machine": "verne", "joints": {"rho": [674, 685, 250], "theta1": 0, "theta2": 0},
+                   "tool_length": 50, "solutions": "working"}),
+            |body| {
+                parse_body(body).and_then(|request| answer_fk(&request, registry)).map(|answer| json!(answer))
+            },
+        ),
+        post(
+            "/ik",
+            json!({"machine": "verne", "frame": "part",
+                   "pose": {"x": 100, "y": 50, "z": 150, "axis": [0.0, -0.5, 0.866_025_403_784_438_6]},
+                   "tool_length": 50, "solutions": "feasible"}),
+            |body| {
+                parse_body(body).and_then(|request| answer_ik(&request, registry)).map(|answer| json!(answer))
+            },
+        ),
+        post(
+            "/fk/batch",
+            json!({"joints": [[674, 685, 250], [400, 400, 400, 10, 90], null, [0, 0, 5000]], "tool_length": 50}),
+            |body| answer_fk_batch(body, state).and_then(|answer| parse_body(&answer)),
+        ),
+        post(
+            "/ik/batch",
+            json!({"frame": "part", "tool_length": 50,
+                   "poses": [[100, 50, 150, 0, 0], [100, 50, 150, 30, 90], [0, 0, 900, 0, 0], [1, 2], [5000, 0, 0, 0, 0]]}),
+            |body| answer_ik_batch(body, state).and_then(|answer| parse_body(&answer)),
+        ),
+    ]
+}
+
+fn post(path: &'static str, body: Value, answer: impl Fn(&[u8]) -> Result<Value, Error>) -> Example {
+    let answer = answered(answer(body.to_string().as_bytes()));
+    Example { method: "post", path, asked: Asked::Body(body), answer }
+}
+
+/// The answer as JSON; a question that fails shows its failure, which the tests take for stale.
+fn answered(answer: Result<impl Serialize, Error>) -> Value {
+    match answer {
+        Ok(answer) => json!(answer),
+        Err(error) => Value::Object(Map::from_iter([("error".to_owned(), error.to_string().into())])),
+    }
+}

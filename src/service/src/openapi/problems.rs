@@ -1,0 +1,105 @@
+//! The failures that operations document.
+
+use std::collections::BTreeMap;
+
+use serde_json::json;
+use utoipa::IntoResponses;
+use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder};
+
+use crate::error::{Error, Fault};
+use crate::problem::{PROBLEM_JSON, Problem};
+
+type Responses = BTreeMap<String, RefOr<Response>>;
+
+/// Failures of every operation.
+pub(crate) struct ServiceProblems;
+
+/// Failures of a question in the query string.
+pub(crate) struct QueryProblems;
+
+/// Failures of a question in the body.
+pub(crate) struct BodyProblems;
+
+/// Failures of a batch.
+pub(crate) struct BatchProblems;
+
+/// Failures of asking for a machine by name.
+pub(crate) struct MachineProblems;
+
+impl IntoResponses for ServiceProblems {
+    fn responses() -> Responses {
+        [
+            documented("A defect of the service (`internal`).", Error::Internal),
+            documented("The answer took too long (`timed_out`).", Error::TimedOut),
+        ]
+        .into()
+    }
+}
+
+impl IntoResponses for QueryProblems {
+    fn responses() -> Responses {
+        let fault = Fault::new("/query/x", "must be a finite number within ±1e7 mm");
+        with(
+            ServiceProblems::responses(),
+            [documented("A parameter cannot be used (`invalid_request`).", Error::Fields(vec![fault]))],
+        )
+    }
+}
+
+impl IntoResponses for BodyProblems {
+    fn responses() -> Responses {
+        with(
+            of_bodies(),
+            [documented("The body is too large (`body_too_large`).", Error::BodyTooLarge(65_536))],
+        )
+    }
+}
+
+impl IntoResponses for BatchProblems {
+    fn responses() -> Responses {
+        let error = Error::TooManyRows { rows: 200_000, limit: 100_000 };
+        let description = "The body or the batch is too large (`body_too_large`, `too_many_rows`).";
+        with(of_bodies(), [documented(description, error)])
+    }
+}
+
+impl IntoResponses for MachineProblems {
+    fn responses() -> Responses {
+        let error = Error::NoSuchMachine("nautilus".to_owned());
+        with(
+            ServiceProblems::responses(),
+            [documented("No machine has this name (`machine_not_found`).", error)],
+        )
+    }
+}
+
+fn of_bodies() -> Responses {
+    let fault =
+        Fault::new("/machine/limits/stroke/0", "must be [min, max] with min < max, both within ±1000000 mm");
+    with(
+        ServiceProblems::responses(),
+        [
+            documented(
+                "The body is not JSON (`bad_json`) or broke off (`bad_request`).",
+                Error::Syntax("EOF while parsing a value at line 1 column 0".to_owned()),
+            ),
+            documented("The body is not declared as JSON (`unsupported_media_type`).", Error::NotJson(None)),
+            documented("A field cannot be used (`invalid_request`).", Error::Fields(vec![fault])),
+        ],
+    )
+}
+
+fn with(mut responses: Responses, more: impl IntoIterator<Item = (String, RefOr<Response>)>) -> Responses {
+    responses.extend(more);
+    responses
+}
+
+fn documented(description: &str, error: Error) -> (String, RefOr<Response>) {
+    let problem = Problem::from(error);
+    let content = ContentBuilder::new()
+        .schema(Some(Ref::from_schema_name("Problem")))
+        .example(Some(json!(problem)))
+        .build();
+    let response = ResponseBuilder::new().description(description).content(PROBLEM_JSON, content).build();
+    (problem.status().to_string(), response.into())
+}

@@ -1,0 +1,133 @@
+//! The one map from errors to HTTP: status, stable `code`, and the problem document (RFC 9457).
+
+use axum::BoxError;
+use axum::body::{Body, Bytes, HttpBody};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use crate::error::{Error, Fault};
+
+/// Media type of every failure.
+pub(crate) const PROBLEM_JSON: &str = "application/problem+json";
+
+/// A failure, as RFC 9457 writes it.
+#[derive(Debug, Serialize, ToSchema)]
+pub(crate) struct Problem {
+    /// Always `about:blank`: `code` tells failures apart.
+    #[serde(rename = "type")]
+    #[schema(example = "about:blank")]
+    kind: &'static str,
+    /// The status in words.
+    title: String,
+    /// The HTTP status.
+    status: u16,
+    /// Stable name of the failure, for programs.
+    code: &'static str,
+    /// What happened, for people.
+    detail: String,
+    /// The fields that cannot be used.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    errors: Vec<FieldProblem>,
+}
+
+/// One bad field.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = FieldProblem)]
+struct FieldProblem {
+    /// JSON Pointer into the body, such as `/machine/limits/stroke/0`; `/query/<name>` for a query parameter.
+    pointer: String,
+    /// What is wrong, and what would be accepted.
+    detail: String,
+}
+
+impl From<Fault> for FieldProblem {
+    fn from(Fault { pointer, detail }: Fault) -> Self {
+        Self { pointer, detail }
+    }
+}
+
+fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
+    match error {
+        Error::Syntax(_) => (StatusCode::BAD_REQUEST, "bad_json"),
+        Error::BodyLost(_) => (StatusCode::BAD_REQUEST, "bad_request"),
+        Error::Fields(_) => (StatusCode::UNPROCESSABLE_ENTITY, "invalid_request"),
+        Error::NotJson(_) => (StatusCode::UNSUPPORTED_MEDIA_TYPE, "unsupported_media_type"),
+        Error::BodyTooLarge(_) => (StatusCode::PAYLOAD_TOO_LARGE, "body_too_large"),
+        Error::TooManyRows { .. } => (StatusCode::PAYLOAD_TOO_LARGE, "too_many_rows"),
+        Error::NoSuchMachine(_) => (StatusCode::NOT_FOUND, "machine_not_found"),
+        Error::NoSuchPath => (StatusCode::NOT_FOUND, "not_found"),
+        Error::MethodNotAllowed => (StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed"),
+        Error::TimedOut => (StatusCode::SERVICE_UNAVAILABLE, "timed_out"),
+        Error::Internal => (StatusCode::INTERNAL_SERVER_ERROR, "internal"),
+    }
+}
+
+impl Problem {
+    /// The HTTP status.
+    pub(crate) fn status(&self) -> u16 {
+        self.status
+    }
+}
+
+/// The error behind a bare status that the framework answered by itself.
+fn error_behind(status: StatusCode) -> Error {
+    match status {
+        StatusCode::METHOD_NOT_ALLOWED => Error::MethodNotAllowed,
+        StatusCode::NOT_FOUND => Error::NoSuchPath,
+        StatusCode::SERVICE_UNAVAILABLE => Error::TimedOut,
+        StatusCode::INTERNAL_SERVER_ERROR => Error::Internal,
+        _ => Error::BodyLost(status.to_string()),
+    }
+}
+
+impl From<Error> for Problem {
+    fn from(error: Error) -> Self {
+        let (status, code) = status_and_code(&error);
+        let title = status.canonical_reason().unwrap_or("Error").to_owned();
+        let detail = error.to_string();
+        let errors = match error {
+            Error::Fields(faults) => faults.into_iter().map(FieldProblem::from).collect(),
+            _ => Vec::new(),
+        };
+        Self { kind: "about:blank", title, status: status.as_u16(), code, detail, errors }
+    }
+}
+
+impl IntoResponse for Problem {
+    fn into_response(self) -> Response {
+        let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let body = serde_json::to_vec(&self).unwrap_or_default();
+        (status, [(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON))], body).into_response()
+    }
+}
+
+impl IntoResponse for Error {
+    fn into_response(self) -> Response {
+        Problem::from(self).into_response()
+    }
+}
+
+/// Gives a problem document to every failure that the framework answered without one (a method
+/// that is not allowed, a time-out, a panic); headers such as Allow stay.
+pub(crate) fn give_every_failure_a_document<B>(response: axum::http::Response<B>) -> Response
+where
+    B: HttpBody<Data = Bytes> + Send + 'static,
+    B::Error: Into<BoxError>,
+{
+    let status = response.status();
+    if !(status.is_client_error() || status.is_server_error()) || is_problem(response.headers()) {
+        return response.map(Body::new);
+    }
+    let (mut parts, _) = response.into_parts();
+    let (document, body) = error_behind(status).into_response().into_parts();
+    parts.headers.remove(header::CONTENT_LENGTH);
+    parts.headers.extend(document.headers);
+    parts.status = document.status;
+    Response::from_parts(parts, body)
+}
+
+fn is_problem(headers: &HeaderMap) -> bool {
+    headers.get(header::CONTENT_TYPE).is_some_and(|found| found == PROBLEM_JSON)
+}

@@ -1,0 +1,25 @@
+//! The one list of routes: the router and the OpenAPI document are both made from it.
+
+use utoipa::OpenApi;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use crate::handlers::{batch, kinematics, machines, service};
+use crate::openapi::Document;
+use crate::state::Shared;
+
+/// Every route with its documentation.
+pub(crate) fn routes() -> OpenApiRouter<Shared> {
+    OpenApiRouter::with_openapi(Document::openapi())
+        .routes(routes!(kinematics::get_fk, kinematics::post_fk))
+        .routes(routes!(kinematics::get_ik, kinematics::post_ik))
+        .routes(routes!(batch::fk_batch))
+        .routes(routes!(batch::ik_batch))
+        .routes(routes!(machines::get_machines))
+        .routes(routes!(machines::get_machine_schema))
+        .routes(routes!(machines::get_machine))
+        .routes(routes!(service::get_openapi))
+        .routes(routes!(service::get_livez))
+        .routes(routes!(service::get_readyz))
+        .fallback(service::nothing_here)
+}

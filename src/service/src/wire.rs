@@ -1,0 +1,16 @@
+//! The contract's JSON: requests, answers, and the units between them and the solver.
+
+pub(crate) mod answer;
+pub(crate) mod batch;
+pub(crate) mod catalogue;
+pub(crate) mod degrees;
+pub(crate) mod json;
+pub(crate) mod limit;
+pub(crate) mod machine;
+pub(crate) mod machine_ref;
+pub(crate) mod margins;
+pub(crate) mod numbers;
+pub(crate) mod object;
+pub(crate) mod parse;
+pub(crate) mod query;
+pub(crate) mod request;

@@ -1,0 +1,12 @@
+//! Typed answers to JSON text.
+
+use serde::Serialize;
+
+use crate::error::Error;
+
+/// Writes an answer into a buffer of about its size: growing one from nothing moves every byte twice.
+pub(crate) fn write_json(answer: &impl Serialize, expected_bytes: usize) -> Result<Vec<u8>, Error> {
+    let mut text = Vec::with_capacity(expected_bytes);
+    serde_json::to_writer(&mut text, answer).map_err(|_| Error::Internal)?;
+    Ok(text)
+}

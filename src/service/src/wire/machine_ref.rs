@@ -1,0 +1,54 @@
+//! The machine of a request: a name, or the whole object.
+
+use std::fmt;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use utoipa::ToSchema;
+
+use super::machine::MachineObject;
+
+/// Name of the built-in reference machine, which a request means when it names none.
+pub(crate) const REFERENCE: &str = "verne";
+
+/// The machine that a question is about.
+#[derive(Clone, Debug, ToSchema)]
+#[serde(untagged)]
+pub(crate) enum MachineRef {
+    /// The name of a published machine; GET /machines lists them.
+    Name(String),
+    /// A machine of one's own.
+    Whole(Box<MachineObject>),
+}
+
+impl Default for MachineRef {
+    fn default() -> Self {
+        Self::Name(REFERENCE.to_owned())
+    }
+}
+
+impl<'de> Deserialize<'de> for MachineRef {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NameOrObject)
+    }
+}
+
+/// Decides by the JSON type, so that what is wrong inside an object keeps its pointer.
+struct NameOrObject;
+
+impl<'de> Visitor<'de> for NameOrObject {
+    type Value = MachineRef;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the name of a machine or a machine object")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<MachineRef, E> {
+        Ok(MachineRef::Name(name.to_owned()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, fields: A) -> Result<MachineRef, A::Error> {
+        MachineObject::deserialize(MapAccessDeserializer::new(fields)).map(Box::new).map(MachineRef::Whole)
+    }
+}

@@ -1,0 +1,91 @@
+//! Signed margins and the conditioning of a solution, as JSON.
+
+use serde::Serialize;
+use utoipa::ToSchema;
+use verne_solver::{Machine, Margins, jacobian};
+
+use super::degrees::to_degrees;
+use super::limit::Limit;
+use super::numbers::{Exactly, Pair, PairPerSlider, PerRod, Triple};
+
+/// Margins of every constraint: positive inside, zero on the limit, negative outside. Arrays of six are the rods
+/// 11, 12, 21, 22, 31, 32.
+#[derive(Clone, Debug, Serialize, ToSchema)]
+#[schema(as = Margins)]
+pub(crate) struct MarginsObject {
+    /// `[rho - min, max - rho]` of each slider, mm.
+    #[schema(inline)]
+    stroke: PairPerSlider,
+    /// What each leg's length leaves for its drop along z, mm; a signed root.
+    #[schema(inline)]
+    leg_length: Triple,
+    /// Cosine between rod and guideway, less `serial_margin`.
+    #[schema(inline)]
+    serial_singularity: PerRod,
+    /// Parallel conditioning in the sign it has at home, less `parallel_margin`.
+    parallel_singularity: f64,
+    /// `slider_cone` less the rod's angle from the cone's axis, degrees.
+    #[schema(inline)]
+    slider_joint: PerRod,
+    /// `platform_cone` less the rod's angle from the cone's axis, degrees.
+    #[schema(inline)]
+    platform_joint: PerRod,
+    /// R1 cos alpha - r1, mm.
+    rod_crossing: f64,
+    /// Least distance between the axes of two rods, less twice `rod_radius`, mm.
+    rod_interference: f64,
+    /// `[theta1 - min, max - theta1]`, degrees; where the table's angles are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(inline, nullable = false)]
+    tilt: Option<Pair>,
+    /// `[theta2 - min, max - theta2]`, degrees; where the table's angles are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(inline, nullable = false)]
+    rotary: Option<Pair>,
+    /// The worst: the least margin as a fraction of its constraint's own range.
+    worst: Limit,
+}
+
+impl MarginsObject {
+    /// The margins in the wire's units.
+    pub(crate) fn new(machine: &Machine, margins: &Margins) -> Self {
+        let range = |margins: [f64; 2]| Exactly(margins.map(to_degrees));
+        Self {
+            stroke: Exactly(margins.stroke.map(Exactly)),
+            leg_length: Exactly(margins.leg_length),
+            serial_singularity: per_rod(margins.serial_singularity),
+            parallel_singularity: margins.parallel_singularity,
+            slider_joint: per_rod(margins.slider_joint.map(to_degrees)),
+            platform_joint: per_rod(margins.platform_joint.map(to_degrees)),
+            rod_crossing: margins.rod_crossing,
+            rod_interference: margins.rod_interference,
+            tilt: margins.tilt.map(range),
+            rotary: margins.rotary.map(range),
+            worst: margins.worst(machine).into(),
+        }
+    }
+}
+
+/// How a solution stands to singularities.
+#[derive(Clone, Debug, Serialize, ToSchema)]
+#[schema(as = Conditioning)]
+pub(crate) struct ConditioningObject {
+    /// Determinant of the dimensionless parallel matrix; zero at a parallel singularity.
+    det: f64,
+    /// Its condition number in the 2-norm; null where it is singular.
+    condition_number: Option<f64>,
+    /// Cosine between each rod and its guideway, for the rods 11, 12, 21, 22, 31, 32; zero at a serial singularity.
+    #[schema(inline)]
+    serial: PerRod,
+}
+
+impl From<jacobian::Conditioning> for ConditioningObject {
+    fn from(found: jacobian::Conditioning) -> Self {
+        Self { det: found.det, condition_number: found.condition_number, serial: per_rod(found.serial) }
+    }
+}
+
+/// The two rods of a parallelogram are parallel: what holds for one holds for the other.
+fn per_rod([r11, r12, leg2, leg3]: [f64; 4]) -> PerRod {
+    Exactly([r11, r12, leg2, leg2, leg3, leg3])
+}

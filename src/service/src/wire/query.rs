@@ -1,0 +1,174 @@
+//! The same questions in a query string and on the command line: one list of parameters for both.
+
+use clap::Args;
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+use super::machine_ref::{MachineRef, REFERENCE};
+use super::numbers::{ListedJoints, ListedPose, ListedTriple};
+use super::request::{FkRequest, Frame, IkRequest, Joints, Near, NearPose, TargetPose, Wanted};
+use crate::error::{Error, Fault};
+
+fn reference() -> String {
+    REFERENCE.to_owned()
+}
+
+/// Parameters of GET /fk.
+#[derive(Debug, Deserialize, IntoParams, Args)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct FkQuery {
+    /// The machine's name (on the command line also the path of a machine object).
+    #[serde(default = "reference")]
+    #[arg(long, default_value = REFERENCE)]
+    #[param(default = "verne")]
+    pub machine: String,
+    /// The three sliders, mm.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(inline, style = Form, explode = false)]
+    pub rho: ListedTriple,
+    /// Tilting angle of the table, degrees; together with theta2.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = -36000, maximum = 36000, nullable = false)]
+    pub theta1: Option<f64>,
+    /// Rotary angle of the table, degrees; together with theta1.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = -36000, maximum = 36000, nullable = false)]
+    pub theta2: Option<f64>,
+    /// Distance from P to the tool's tip, mm.
+    #[serde(default)]
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    #[param(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_length: f64,
+    /// Which solutions to answer.
+    #[serde(default)]
+    #[arg(long, default_value = "working")]
+    pub solutions: Wanted,
+    /// Sorts by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(inline, style = Form, explode = false, nullable = false)]
+    pub near_joints: Option<ListedJoints>,
+    /// Sorts by distance from this platform pose: x,y,z or x,y,z,alpha.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(inline, style = Form, explode = false, nullable = false)]
+    pub near_pose: Option<ListedPose>,
+}
+
+/// Parameters of GET /ik.
+#[derive(Debug, Deserialize, IntoParams, Args)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct IkQuery {
+    /// The machine's name (on the command line also the path of a machine object).
+    #[serde(default = "reference")]
+    #[arg(long, default_value = REFERENCE)]
+    #[param(default = "verne")]
+    pub machine: String,
+    /// What x, y, z and the orientation describe.
+    #[serde(default)]
+    #[arg(long, default_value = "part")]
+    pub frame: Frame,
+    /// mm.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = -1e7, maximum = 1e7)]
+    pub x: f64,
+    /// mm.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = -1e7, maximum = 1e7)]
+    pub y: f64,
+    /// mm; down in the base frame, up from the table in the part frame.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = -1e7, maximum = 1e7)]
+    pub z: f64,
+    /// Inclination of the tool, degrees; only in `part`.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = -36000, maximum = 36000, nullable = false)]
+    pub phi1: Option<f64>,
+    /// Azimuth of the tool, degrees; only in `part`. Where the tool stands along the table's own axis it may be
+    /// left out, also beside `axis`: see `free` in the answer.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = -36000, maximum = 36000, nullable = false)]
+    pub phi2: Option<f64>,
+    /// Tool axis i,j,k in the table frame, from tip to holder; only in `part`, instead of phi1 and phi2.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(inline, style = Form, explode = false, nullable = false)]
+    pub axis: Option<ListedTriple>,
+    /// Distance from P to the tool's tip, mm.
+    #[serde(default)]
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    #[param(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_length: f64,
+    /// Which solutions to answer.
+    #[serde(default)]
+    #[arg(long, default_value = "working")]
+    pub solutions: Wanted,
+    /// Sorts by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(inline, style = Form, explode = false, nullable = false)]
+    pub near_joints: Option<ListedJoints>,
+    /// Sorts by distance from this platform pose: x,y,z or x,y,z,alpha.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(inline, style = Form, explode = false, nullable = false)]
+    pub near_pose: Option<ListedPose>,
+}
+
+impl FkQuery {
+    /// The question as POST would put it.
+    pub(crate) fn into_request(self) -> Result<FkRequest, Error> {
+        Ok(FkRequest {
+            near: near(self.near_joints, self.near_pose)?,
+            machine: MachineRef::Name(self.machine),
+            joints: Joints { rho: self.rho.first_three(), theta1: self.theta1, theta2: self.theta2 },
+            tool_length: self.tool_length,
+            solutions: self.solutions,
+        })
+    }
+}
+
+impl IkQuery {
+    /// The question as POST would put it.
+    pub(crate) fn into_request(self) -> Result<IkRequest, Error> {
+        let axis = self.axis.map(|axis| axis.first_three());
+        Ok(IkRequest {
+            near: near(self.near_joints, self.near_pose)?,
+            machine: MachineRef::Name(self.machine),
+            frame: self.frame,
+            pose: TargetPose { x: self.x, y: self.y, z: self.z, phi1: self.phi1, phi2: self.phi2, axis },
+            tool_length: self.tool_length,
+            solutions: self.solutions,
+        })
+    }
+}
+
+fn near(joints: Option<ListedJoints>, pose: Option<ListedPose>) -> Result<Option<Near>, Error> {
+    match (joints, pose) {
+        (None, None) => Ok(None),
+        (Some(joints), None) => {
+            let (rho, theta1, theta2) = (joints.first_three(), joints.get(3), joints.get(4));
+            Ok(Some(Near::Joints(Joints { rho, theta1, theta2 })))
+        }
+        (None, Some(pose)) => {
+            let (position, alpha) = (pose.first_three(), pose.get(3));
+            let [x, y, z] = position.0;
+            Ok(Some(Near::Pose(NearPose { x, y, z, alpha })))
+        }
+        (Some(_), Some(_)) => {
+            Err(Error::Fields(vec![Fault::new("/near", "takes near_joints or near_pose, not both")]))
+        }
+    }
+}
+
+/// Turns the pointers of a question's body into those of its query.
+pub(crate) fn point_into_query(error: Error) -> Error {
+    let Error::Fields(faults) = error else { return error };
+    let moved = faults.into_iter().map(|fault| {
+        let name = match fault.pointer.strip_prefix("/near") {
+            Some(inside) if ["/x", "/y", "/z", "/alpha"].contains(&inside) => "/near_pose",
+            Some("") => "/near_pose",
+            Some(_) => "/near_joints",
+            None => fault.pointer.trim_start_matches("/pose").trim_start_matches("/joints"),
+        };
+        Fault::new(format!("/query{name}"), fault.detail)
+    });
+    Error::Fields(moved.collect())
+}

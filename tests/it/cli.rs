@@ -1,0 +1,67 @@
+//! The command line, as its users type it.
+
+use clap::Parser;
+use serde_json::Value;
+use verne_service::cli::Cli;
+
+use crate::http::get;
+
+fn verne(line: &str) -> Result<String, String> {
+    let words = std::iter::once("verne").chain(line.split_whitespace());
+    let mut out = Vec::new();
+    Cli::try_parse_from(words).map_err(|error| error.to_string())?.run(&mut out, false)?;
+    Ok(String::from_utf8(out).unwrap())
+}
+
+fn json(line: &str) -> Value {
+    serde_json::from_str(&verne(line).unwrap()).unwrap()
+}
+
+#[tokio::test]
+async fn answers_are_those_of_http() {
+    for (line, uri) in [
+        ("fk --rho 674,685,250 --solutions all", "/fk?rho=674,685,250&solutions=all"),
+        ("fk --rho=674,685,250 --theta1 -10 --theta2 -20.5", "/fk?rho=674,685,250&theta1=-10&theta2=-20.5"),
+        (
+            "ik --frame platform --x -240 --y -86 --z 1000 --solutions all",
+            "/ik?frame=platform&x=-240&y=-86&z=1000&solutions=all",
+        ),
+        (
+            "ik --x -100 --y 50 --z 150 --axis -0.1,-0.5,0.8 --tool-length 50 --near-joints -1,2,3",
+            "/ik?x=-100&y=50&z=150&axis=-0.1,-0.5,0.8&tool_length=50&near_joints=-1,2,3",
+        ),
+    ] {
+        assert_eq!(json(line), get(uri).await.json, "{line}");
+    }
+}
+
+#[test]
+fn a_machine_may_be_a_file() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/reference/machine-verne.json");
+    let by_file = json(&format!("fk --rho 674,685,250 --machine {file}"));
+    assert_eq!(by_file, json("fk --rho 674,685,250"));
+}
+
+#[test]
+fn errors_name_the_flag() {
+    for (line, expected) in [
+        ("fk --rho 1,2", "expected 3 numbers"),
+        ("fk --rho 1,2,nan", "--rho 2:"),
+        ("fk --rho 1,2,3 --tool-length -5", "--tool-length:"),
+        ("ik --x 1 --y 2 --z 3", "--phi1:"),
+        ("ik --frame platform --x 1 --y 2 --z 3 --machine nautilus", "--machine:"),
+        ("fk --rho 1,2,3 --machine ./nowhere.json", "./nowhere.json"),
+        ("fk --rho 1,2,3 --near-joints 1,2,3 --near-pose 1,2,3", "--near"),
+    ] {
+        let error = verne(line).unwrap_err();
+        assert!(error.contains(expected), "{line}: {error}");
+    }
+}
+
+#[test]
+fn serving_is_the_default() {
+    let without_command = Cli::try_parse_from(["verne", "--listen", "127.0.0.1:0"]);
+    assert!(without_command.is_ok());
+    assert!(Cli::try_parse_from(["verne", "serve", "--machines", "somewhere"]).is_ok());
+    assert!(Cli::try_parse_from(["verne", "serve", "--listen", "nowhere"]).is_err());
+}

@@ -1,0 +1,106 @@
+//! The service through HTTP: requests go through the whole router, layers included.
+
+mod bad_input;
+mod batch;
+mod kinematics;
+mod machines;
+mod part_frame;
+mod transport;
+
+use std::path::PathBuf;
+
+use axum::Router;
+use axum::body::Body;
+use axum::http::{HeaderMap, Method, Request, StatusCode, header};
+use http_body_util::BodyExt;
+use serde_json::Value;
+use tower::ServiceExt;
+use verne_service::config::ServeConfig;
+
+/// An answer, its body parsed where it is JSON.
+#[derive(Debug)]
+pub(crate) struct Reply {
+    pub(crate) status: StatusCode,
+    pub(crate) headers: HeaderMap,
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) json: Value,
+}
+
+/// The default settings, with machines of a directory if there is one.
+pub(crate) fn config(machines: Option<PathBuf>) -> ServeConfig {
+    ServeConfig {
+        listen: ([127, 0, 0, 1], 0).into(),
+        machines,
+        max_body_bytes: 1024 * 1024,
+        max_rows: 2_000,
+        timeout: 30,
+    }
+}
+
+/// The service.
+pub(crate) fn service() -> Router {
+    verne_service::app::service(&config(None)).unwrap()
+}
+
+/// Sends a request to a fresh service.
+pub(crate) async fn send(request: Request<Body>) -> Reply {
+    send_to(service(), request).await
+}
+
+/// Sends a request.
+pub(crate) async fn send_to(service: Router, request: Request<Body>) -> Reply {
+    let (parts, body) = service.oneshot(request).await.unwrap().into_parts();
+    let bytes = body.collect().await.unwrap().to_bytes().to_vec();
+    let json = serde_json::from_slice(&bytes).unwrap_or(Value::Null);
+    Reply { status: parts.status, headers: parts.headers, bytes, json }
+}
+
+/// GET.
+pub(crate) async fn get(uri: &str) -> Reply {
+    send(Request::get(uri).body(Body::empty()).unwrap()).await
+}
+
+/// POST of a JSON text, which may be no JSON at all.
+pub(crate) async fn post(uri: &str, body: impl ToString) -> Reply {
+    send(json_request(Method::POST, uri, body)).await
+}
+
+/// A request with a JSON body.
+#[allow(clippy::needless_pass_by_value, reason = "callers build the body in place")]
+pub(crate) fn json_request(method: Method, uri: &str, body: impl ToString) -> Request<Body> {
+    Request::builder()
+        .method(method)
+        .uri(uri)
+        .header(header::CONTENT_TYPE, "application/json")
+        .body(Body::from(body.to_string()))
+        .unwrap()
+}
+
+impl Reply {
+    /// The solutions of a 200.
+    pub(crate) fn solutions(&self) -> &Vec<Value> {
+        assert_eq!(self.status, StatusCode::OK, "{}", self.json);
+        self.json["solutions"].as_array().unwrap()
+    }
+
+    /// Asserts a problem document with this status and code.
+    #[track_caller]
+    pub(crate) fn assert_problem(&self, status: u16, code: &str) {
+        assert_eq!(self.status.as_u16(), status, "{}", self.json);
+        assert_eq!(self.headers[header::CONTENT_TYPE], "application/problem+json");
+        assert_eq!(self.json["code"], code, "{}", self.json);
+        assert_eq!(self.json["status"], status);
+        assert_eq!(self.json["type"], "about:blank");
+        assert!(self.json["detail"].as_str().is_some_and(|detail| !detail.is_empty()));
+    }
+
+    /// Asserts a 422 whose only bad field is this one.
+    #[track_caller]
+    pub(crate) fn assert_bad_field(&self, pointer: &str) {
+        self.assert_problem(422, "invalid_request");
+        let errors = self.json["errors"].as_array().unwrap();
+        assert_eq!(errors.len(), 1, "{}", self.json);
+        assert_eq!(errors[0]["pointer"], pointer, "{}", self.json);
+        assert!(errors[0]["detail"].as_str().is_some_and(|detail| !detail.is_empty()));
+    }
+}

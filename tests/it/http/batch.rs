@@ -1,0 +1,106 @@
+//! Batches: order, isolation of bad rows, limits.
+
+use axum::http::StatusCode;
+use serde_json::{Value, json};
+
+use super::{get, post};
+
+#[tokio::test]
+async fn rows_are_answered_in_order_as_single_questions_are() {
+    let poses: Vec<_> =
+        (0..500).map(|i| [f64::from(i) - 250.0, 100.0 - f64::from(i % 200), 1100.0]).collect();
+    let reply = post("/ik/batch", json!({"frame": "platform", "poses": poses})).await;
+    assert_eq!(reply.status, StatusCode::OK);
+    let joints = reply.json["joints"].as_array().unwrap();
+    assert_eq!(joints.len(), poses.len());
+    for i in [0, 123, 499] {
+        let [x, y, z] = poses[i];
+        let single = get(&format!("/ik?frame=platform&x={x}&y={y}&z={z}")).await;
+        assert_eq!(single.solutions()[0]["joints"]["rho"], joints[i]);
+    }
+    let counts = reply.json["counts"].as_object().unwrap();
+    assert_eq!(counts.values().map(|count| count.as_u64().unwrap()).sum::<u64>(), 500);
+}
+
+/// Rows as text, for what `Value` cannot hold, with the status that each gets.
+const ROWS: [(&str, &str); 13] = [
+    ("[100, 50, 150, 0, 0]", "ok"),
+    ("null", "invalid"),
+    ("[]", "invalid"),
+    ("[100, 50, 150, 0]", "invalid"),
+    ("[100, 50, 150, 0, 0, 0]", "invalid"),
+    ("[100, null, 150, 0, 0]", "invalid"),
+    ("[100, \"50\", 150, 0, 0]", "invalid"),
+    ("[100, 1e999, 150, 0, 0]", "invalid"),
+    ("[100, [50, 150], 0, 0]", "invalid"),
+    ("{\"x\": 1}", "invalid"),
+    ("\"[100, 50, 150, 0, 0]\"", "invalid"),
+    ("[3e6, 50, 150, 0, 0]", "unreachable"),
+    ("[ 100 ,\n 50.0, 1.5e2, 0, 0 ]", "ok"),
+];
+
+#[tokio::test]
+async fn a_bad_row_spoils_no_other() {
+    let rows: Vec<_> = ROWS.iter().map(|(row, _)| *row).collect();
+    let body = format!("{{\"tool_length\": 50, \"poses\": [{}]}}", rows.join(", "));
+    let reply = post("/ik/batch", body).await;
+    let expected: Vec<_> = ROWS.iter().map(|(_, status)| *status).collect();
+    assert_eq!(reply.json["status"], json!(expected), "{}", reply.json);
+    let joints = reply.json["joints"].as_array().unwrap();
+    assert_eq!(joints[0], joints[12]);
+    assert_eq!(joints[0].as_array().unwrap().len(), 5);
+    assert!(joints[1..12].iter().all(Value::is_null));
+    assert_eq!(reply.json["counts"], json!({"ok": 2, "unreachable": 1, "infeasible": 0, "invalid": 10}));
+    let explained: Vec<_> =
+        reply.json["errors"].as_array().unwrap().iter().map(|e| e["row"].clone()).collect();
+    assert_eq!(json!(explained), json!([1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
+    assert_eq!(reply.json["constraint"][11], "leg_length");
+}
+
+#[tokio::test]
+async fn an_infeasible_row_says_against_which_limit_and_by_how_much() {
+    let reply = post("/ik/batch", json!({"frame": "platform", "poses": [[0, 0, 700], [0, 0, 1200]]})).await;
+    assert_eq!(reply.json["status"], json!(["infeasible", "ok"]));
+    assert!(reply.json["joints"][0].is_array(), "joints that break a limit are answered");
+    let single = get("/ik?frame=platform&x=0&y=0&z=700").await;
+    let worst = &single.solutions()[0]["margins"]["worst"];
+    assert_eq!(reply.json["constraint"], json!([worst["constraint"], null]));
+    assert_eq!(reply.json["margin"], json!([worst["value"], null]));
+    assert_eq!(reply.json["element"], json!([worst["element"], null]));
+}
+
+#[tokio::test]
+async fn forward_rows_have_a_part_where_they_have_a_table() {
+    let joints = json!([[674, 685, 250], [674, 685, 250, 10, 20], [674, 685], [0, 0, 9000]]);
+    let reply = post("/fk/batch", json!({"joints": joints, "tool_length": 50})).await;
+    assert_eq!(reply.json["status"][2], "invalid");
+    assert_eq!(reply.json["status"][3], "unreachable");
+    assert_eq!(reply.json["poses"][0], reply.json["poses"][1]);
+    assert!(reply.json["parts"][0].is_null());
+    let single = get("/fk?rho=674,685,250&theta1=10&theta2=20&tool_length=50").await;
+    let part = &single.solutions()[0]["part"];
+    let row = json!([part["x"], part["y"], part["z"], part["phi1"], part["phi2"]]);
+    assert_eq!(reply.json["parts"][1], row);
+}
+
+#[tokio::test]
+async fn a_batch_that_is_too_long_is_refused_with_the_limit() {
+    let poses = vec![[0.0, 0.0, 1200.0]; 2_001];
+    let reply = post("/ik/batch", json!({"frame": "platform", "poses": poses})).await;
+    reply.assert_problem(413, "too_many_rows");
+    assert!(reply.json["detail"].as_str().unwrap().contains("2000"));
+    let reply = post("/fk/batch", " ".repeat(1024 * 1024 + 1)).await;
+    reply.assert_problem(413, "body_too_large");
+    assert!(reply.json["detail"].as_str().unwrap().contains("1048576"));
+}
+
+#[tokio::test]
+async fn what_all_rows_share_is_checked_as_elsewhere() {
+    post("/ik/batch", "{\"poses\": 3}").await.assert_bad_field("/poses");
+    post("/ik/batch", "{}").await.assert_bad_field("/poses");
+    post("/ik/batch", "{\"poses\": [], \"tool_length\": -1}").await.assert_bad_field("/tool_length");
+    post("/fk/batch", "{\"joints\": [], \"machine\": \"nautilus\"}").await.assert_bad_field("/machine");
+    post("/fk/batch", "{\"joints\": [[1,2,3}").await.assert_problem(400, "bad_json");
+    let empty = post("/ik/batch", "{\"poses\": []}").await;
+    assert_eq!(empty.json["joints"], json!([]));
+}

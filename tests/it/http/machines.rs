@@ -1,0 +1,104 @@
+//! Machines: published, described, sent along, read from a directory.
+
+use std::path::{Path, PathBuf};
+
+use axum::body::Body;
+use axum::http::Request;
+use serde_json::{Value, json};
+
+use super::{config, get, post, send_to};
+
+const REFERENCE: &str = include_str!("../../reference/machine-verne.json");
+
+#[tokio::test]
+async fn the_built_in_machine_is_the_reference_and_says_that_it_is_invented() {
+    let reply = get("/machines/verne").await;
+    let reference: Value = serde_json::from_str(REFERENCE).unwrap();
+    assert_eq!(as_floats(&reply.json["definition"]), as_floats(&reference));
+    let list = get("/machines").await;
+    assert_eq!(list.json["machines"][0]["hash"], reply.json["machine"]["hash"]);
+    assert!(list.json["machines"][0]["description"].as_str().unwrap().contains("Not Fatronik's"));
+}
+
+#[tokio::test]
+async fn a_machine_sent_along_is_answered_for() {
+    let named = get("/fk?rho=674,685,250").await;
+    let mut machine: Value = serde_json::from_str(REFERENCE).unwrap();
+    let body = json!({"machine": machine, "joints": {"rho": [674, 685, 250]}});
+    assert_eq!(post("/fk", body).await.json, named.json);
+
+    machine["name"] = json!("other");
+    machine["description"] = json!("the same numbers");
+    let body = json!({"machine": machine, "joints": {"rho": [674, 685, 250]}});
+    let renamed = post("/fk", body).await.json;
+    assert_eq!(renamed["machine"]["name"], "other");
+    assert_eq!(renamed["machine"]["hash"], named.json["machine"]["hash"], "the hash is of the numbers");
+
+    machine["limits"]["slider_cone"] = json!(20);
+    machine["limits"]["slider_axes"] = json!([[0, 0, 1], [0, 0, 1], [0, 0, 1], [0, 0, 1]]);
+    let body = json!({"machine": machine, "joints": {"rho": [674, 685, 250]}});
+    let tighter = post("/fk", body).await.json;
+    assert_ne!(tighter["machine"]["hash"], named.json["machine"]["hash"]);
+    assert_eq!(tighter["solutions"][0]["feasible"], false);
+}
+
+#[tokio::test]
+async fn the_schema_describes_the_machine() {
+    let schema = get("/machines/schema").await.json;
+    assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+    assert_eq!(schema["required"], json!(["name", "geometry", "table", "limits"]));
+    assert_eq!(schema["additionalProperties"], false);
+    let stroke = &schema["properties"]["limits"]["properties"]["stroke"];
+    assert_eq!((&stroke["type"], &stroke["minItems"]), (&json!("array"), &json!(3)));
+    assert!(!schema.to_string().contains("$ref"), "it stands on its own");
+}
+
+#[tokio::test]
+async fn a_directory_of_machines_is_published() {
+    let directory = scratch("published");
+    let tight = REFERENCE.replace("\"verne\"", "\"tight\"").replace("[0, 750]", "[100, 400]");
+    std::fs::write(directory.join("tight.json"), tight).unwrap();
+    std::fs::write(directory.join("notes.txt"), "not a machine").unwrap();
+    let service = verne_service::app::service(&config(Some(directory))).unwrap();
+    let request = Request::get("/fk?rho=674,685,250&machine=tight").body(Body::empty()).unwrap();
+    let reply = send_to(service, request).await;
+    assert_eq!(reply.json["machine"]["name"], "tight");
+    assert_eq!(reply.solutions()[0]["feasible"], false);
+}
+
+#[test]
+fn a_bad_machine_file_is_an_error_that_names_file_and_field() {
+    for (name, text, expected) in [
+        ("range", REFERENCE.replace("\"verne\"", "\"x\"").replace("[-90, 90]", "[90, -90]"), "/limits/tilt"),
+        ("missing", REFERENCE.replace("\"dt\"", "\"dd\""), "/table/dd"),
+        ("taken", REFERENCE.to_owned(), "already published"),
+        ("schema", REFERENCE.replace("\"verne\"", "\"schema\""), "/name"),
+        ("syntax", "{".to_owned(), "not JSON"),
+    ] {
+        let directory = scratch(name);
+        std::fs::write(directory.join("bad.json"), text).unwrap();
+        let error = verne_service::app::service(&config(Some(directory))).unwrap_err().to_string();
+        assert!(error.contains("bad.json") && error.contains(expected), "{error}");
+    }
+    let error = verne_service::app::service(&config(Some("/no/such/directory".into()))).unwrap_err();
+    assert!(error.to_string().contains("/no/such/directory"));
+}
+
+fn scratch(name: &str) -> PathBuf {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("machines").join(name);
+    drop(std::fs::remove_dir_all(&directory));
+    std::fs::create_dir_all(&directory).unwrap();
+    directory
+}
+
+/// Integers and floats alike.
+fn as_floats(value: &Value) -> Value {
+    match value {
+        Value::Number(number) => json!(number.as_f64()),
+        Value::Array(items) => items.iter().map(as_floats).collect(),
+        Value::Object(members) => {
+            members.iter().map(|(name, value)| (name.clone(), as_floats(value))).collect()
+        }
+        other => other.clone(),
+    }
+}

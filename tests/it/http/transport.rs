@@ -1,0 +1,75 @@
+//! Around the answers: compression, CORS, ids, probes, the docs page, stopping.
+
+use axum::body::Body;
+use axum::http::{Method, Request, StatusCode, header};
+
+use super::{get, send};
+
+const QUESTION: &str = "/ik?frame=platform&x=-240&y=-86&z=1000&solutions=all";
+
+#[tokio::test]
+async fn answers_are_compressed_on_request() {
+    let plain = get(QUESTION).await;
+    assert!(!plain.headers.contains_key(header::CONTENT_ENCODING));
+    for encoding in ["gzip", "br", "zstd"] {
+        let request =
+            Request::get(QUESTION).header(header::ACCEPT_ENCODING, encoding).body(Body::empty()).unwrap();
+        let reply = send(request).await;
+        assert_eq!(reply.headers[header::CONTENT_ENCODING], encoding);
+        assert!(reply.bytes.len() * 2 < plain.bytes.len(), "{encoding}: {}", reply.bytes.len());
+    }
+}
+
+#[tokio::test]
+async fn any_page_may_ask() {
+    let preflight = Request::builder()
+        .method(Method::OPTIONS)
+        .uri("/ik")
+        .header(header::ORIGIN, "https://example.org")
+        .header(header::ACCESS_CONTROL_REQUEST_METHOD, "POST")
+        .header(header::ACCESS_CONTROL_REQUEST_HEADERS, "content-type")
+        .body(Body::empty())
+        .unwrap();
+    let reply = send(preflight).await;
+    assert_eq!(reply.status, StatusCode::OK);
+    assert_eq!(reply.headers[header::ACCESS_CONTROL_ALLOW_ORIGIN], "*");
+    assert!(reply.headers.contains_key(header::ACCESS_CONTROL_ALLOW_METHODS));
+    for uri in [QUESTION, "/nowhere", "/fk?rho=x"] {
+        assert_eq!(get(uri).await.headers[header::ACCESS_CONTROL_ALLOW_ORIGIN], "*", "failures too");
+    }
+}
+
+#[tokio::test]
+async fn every_request_has_an_id() {
+    let ids = [get(QUESTION).await, get("/nowhere").await].map(|reply| reply.headers["x-request-id"].clone());
+    assert_ne!(ids[0], ids[1]);
+    let mine = Request::get(QUESTION).header("x-request-id", "mine").body(Body::empty()).unwrap();
+    assert_eq!(send(mine).await.headers["x-request-id"], "mine");
+}
+
+#[tokio::test]
+async fn queries_may_be_cached() {
+    assert!(get(QUESTION).await.headers[header::CACHE_CONTROL].to_str().unwrap().contains("max-age"));
+    assert!(!get("/fk?rho=x").await.headers.contains_key(header::CACHE_CONTROL));
+}
+
+#[tokio::test]
+async fn head_answers_without_a_body() {
+    let head = Request::head(QUESTION).body(Body::empty()).unwrap();
+    let reply = send(head).await;
+    assert_eq!((reply.status, reply.bytes.len()), (StatusCode::OK, 0));
+}
+
+#[tokio::test]
+async fn probes_and_docs_answer() {
+    for probe in ["/livez", "/readyz"] {
+        assert_eq!(get(probe).await.json["status"], "ok");
+    }
+    let page = get("/docs/").await;
+    assert_eq!(page.status, StatusCode::OK);
+    assert!(page.headers[header::CONTENT_TYPE].to_str().unwrap().starts_with("text/html"));
+    let text = String::from_utf8(page.bytes).unwrap();
+    assert!(!text.contains("https://"), "the page loads nothing from elsewhere");
+    let script = get("/docs/swagger-initializer.js").await;
+    assert!(String::from_utf8(script.bytes).unwrap().contains("/openapi.json"));
+}

@@ -1,0 +1,81 @@
+//! The OpenAPI document: committed as generated, and true.
+
+use axum::body::Body;
+use axum::http::{Method, Request};
+use serde_json::Value;
+
+use crate::http::{Reply, get, json_request, send};
+
+const COMMITTED: &str = include_str!("../../openapi/openapi.json");
+
+#[tokio::test]
+async fn the_committed_document_is_the_generated_one() {
+    let committed: Value = serde_json::from_str(COMMITTED).unwrap();
+    let generated = get("/openapi.json").await.json;
+    let difference = difference("", &generated, &committed);
+    assert_eq!(
+        difference, None,
+        "openapi/openapi.json is stale; renew it: cargo run --release -- openapi > openapi/openapi.json"
+    );
+}
+
+#[tokio::test]
+async fn every_example_gets_its_documented_answer() {
+    let document = get("/openapi.json").await.json;
+    let mut sent = 0;
+    for (path, operations) in document["paths"].as_object().unwrap() {
+        for (method, operation) in operations.as_object().unwrap() {
+            assert!(
+                operation["summary"].is_string() && operation["description"].is_string(),
+                "{method} {path}"
+            );
+            if path == "/openapi.json" {
+                continue;
+            }
+            let reply = send_example(path, method, operation).await;
+            assert_eq!(reply.status, 200, "{method} {path}: {}", reply.json);
+            let documented = &operation["responses"]["200"]["content"]["application/json"]["example"];
+            assert_eq!(difference("", &reply.json, documented), None, "{method} {path}");
+            sent += 1;
+        }
+    }
+    assert_eq!(sent, 11);
+}
+
+async fn send_example(path: &str, method: &str, operation: &Value) -> Reply {
+    if method == "post" {
+        let body = &operation["requestBody"]["content"]["application/json"]["example"];
+        return send(json_request(Method::POST, path, body)).await;
+    }
+    let mut uri = path.to_owned();
+    let mut separator = '?';
+    for parameter in operation["parameters"].as_array().into_iter().flatten() {
+        let Some(example) = parameter.get("example") else { continue };
+        let name = parameter["name"].as_str().unwrap();
+        let text = example.to_string().replace(['"', '[', ']'], "");
+        if parameter["in"] == "path" {
+            uri = uri.replace(&format!("{{{name}}}"), &text);
+        } else {
+            uri = format!("{uri}{separator}{name}={text}");
+            separator = '&';
+        }
+    }
+    send(Request::get(uri).body(Body::empty()).unwrap()).await
+}
+
+/// Where two documents differ. Numbers may differ by rounding: sines are not the same everywhere.
+fn difference(at: &str, a: &Value, b: &Value) -> Option<String> {
+    match (a, b) {
+        (Value::Number(a), Value::Number(b)) => {
+            let (a, b) = (a.as_f64().unwrap(), b.as_f64().unwrap());
+            ((a - b).abs() > 1e-9 * a.abs().max(1.0)).then(|| format!("{at}: {a} and {b}"))
+        }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+            a.iter().zip(b).enumerate().find_map(|(i, (a, b))| difference(&format!("{at}/{i}"), a, b))
+        }
+        (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
+            a.iter().find_map(|(name, value)| difference(&format!("{at}/{name}"), value, &b[name]))
+        }
+        _ => (a != b).then(|| format!("{at}: {a} and {b}")),
+    }
+}
