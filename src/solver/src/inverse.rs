@@ -1,6 +1,6 @@
 //! Inverse kinematics: from a position of platform, tool or part to the sliders (section III.C).
 
-mod first_leg;
+pub(crate) mod first_leg;
 mod legs;
 mod obstacle;
 mod part;

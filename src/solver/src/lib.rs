@@ -124,6 +124,7 @@ mod posture;
 mod residual;
 mod rods;
 mod table;
+pub mod workspace;
 
 pub use forward::{forward, forward_working};
 pub use inverse::{part, part_working, platform, platform_working, tool, tool_working};

@@ -25,11 +25,11 @@ const LARGE: f64 = 0.01;
 /// One angle of leg I with its slider above (s1 = +1); the mirror image (c, -s, -w1) is the
 /// solution with the slider below.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LegAngle {
-    pub(super) c: f64,
-    pub(super) s: f64,
-    pub(super) w1: f64,
-    pub(super) merged: bool,
+pub(crate) struct LegAngle {
+    pub(crate) c: f64,
+    pub(crate) s: f64,
+    pub(crate) w1: f64,
+    pub(crate) merged: bool,
 }
 
 /// g/R1² as a cubic in t, t = 1 - c (`k` positive) or t = 1 + c (`k` negative).
@@ -38,7 +38,7 @@ struct Cubic([f64; 4]);
 
 /// Leg I at given x and y.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FirstLeg<'a> {
+pub(crate) struct FirstLeg<'a> {
     machine: &'a Machine,
     y: f64,
     e: f64,
@@ -46,7 +46,7 @@ pub(super) struct FirstLeg<'a> {
 
 impl<'a> FirstLeg<'a> {
     #[inline]
-    pub(super) fn new(machine: &'a Machine, x: f64, y: f64) -> Self {
+    pub(crate) fn new(machine: &'a Machine, x: f64, y: f64) -> Self {
         let x1 = x + machine.derived.e1;
         let l1 = machine.geometry().L1;
         Self { machine, y, e: (l1 - x1) * (l1 + x1) - machine.derived.c }
@@ -54,7 +54,7 @@ impl<'a> FirstLeg<'a> {
 
     /// The angle nearest to zero, where the working mode usually is.
     #[inline]
-    pub(super) fn nearest(&self) -> Option<LegAngle> {
+    pub(crate) fn nearest(&self) -> Option<LegAngle> {
         let cubic = self.cubic(1.0);
         let t = cubic.newton(cubic.guess()).or_else(|| cubic.newton(0.0))?;
         Some(self.angle(1.0 - t, t, false))
@@ -62,7 +62,7 @@ impl<'a> FirstLeg<'a> {
 
     /// Both angles; one if they have merged; none if the leg does not reach.
     #[inline]
-    pub(super) fn both(&self) -> ArrayVec<LegAngle, 2> {
+    pub(crate) fn both(&self) -> ArrayVec<LegAngle, 2> {
         let (k, right_side) = (self.machine.derived.k, self.cubic(1.0));
         let inflection = 1.0 - self.e / (3.0 * k);
         let right = right_side.newton(right_side.guess()).or_else(|| right_side.newton(0.0));
@@ -89,6 +89,25 @@ impl<'a> FirstLeg<'a> {
         let slack = 2.0 * RESIDUAL_TOLERANCE * l1 * l1;
         let inside = t > 0.0 && t < 2.0 && cubic.value(t) >= -slack * t * (2.0 - t);
         inside.then(|| self.angle(1.0 - t, t, true))
+    }
+
+    /// The angle at which the leg misses least, where it does not reach.
+    #[cold]
+    pub(crate) fn closest(&self) -> LegAngle {
+        let t = self.best();
+        self.angle(1.0 - t, t, true)
+    }
+
+    /// How well the leg reaches: (15) at its greatest over R1² L1², negative out of reach.
+    #[inline]
+    pub(crate) fn slack(&self) -> f64 {
+        let l1 = self.machine.geometry().L1;
+        self.cubic(1.0).value(self.best()) / (l1 * l1)
+    }
+
+    #[inline]
+    fn best(&self) -> f64 {
+        self.cubic(1.0).maximum().unwrap_or(2.0).clamp(0.0, 2.0)
     }
 
     #[inline]

@@ -1,0 +1,28 @@
+//! The workspace of the working mode: volumes, surfaces, slices and membership.
+//!
+//! All guideways are parallel to z, so alpha and every constraint but the strokes depend on (x, y)
+//! alone, and the workspace is a set of vertical columns over a plane domain: nothing is sampled
+//! in three dimensions. The domain's boundary is found by root-finding on the constraints.
+
+mod column;
+mod contains;
+mod domain;
+mod image;
+mod measure;
+mod narrow;
+mod observer;
+mod path;
+mod plane;
+mod quadrature;
+mod request;
+mod root;
+mod slice;
+mod surface;
+
+pub use contains::{Membership, contains};
+pub use domain::Binding;
+pub use measure::{Measure, Volume, measure};
+pub use observer::{Observer, Unobserved};
+pub use request::{Kind, Request, WorkspaceError};
+pub use slice::{Contour, Polygon, Slice, slice};
+pub use surface::{Surface, surface};

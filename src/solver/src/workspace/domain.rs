@@ -1,0 +1,231 @@
+//! The plane domain: every limit as a function of (x, y), zero on the limit and positive inside.
+
+use std::f64::consts::{PI, TAU};
+
+use super::column::Column;
+use super::image::Image;
+use super::request::{Kind, Request};
+use crate::inverse::first_leg::FirstLeg;
+use crate::jacobian::{determinant, matrix};
+use crate::limit::{Constraint, Element};
+use crate::machine::Machine;
+use crate::margins::interference;
+use crate::rods::Rods;
+use crate::table::table_angles;
+
+/// Number of limits.
+pub(super) const LIMITS: usize = 24;
+/// First of the limits that stem from the strokes, and their number.
+pub(super) const STROKES: usize = 16;
+/// First of the two limits that stem from the table.
+pub(super) const TILT: usize = 22;
+/// Pairs of sliders (i, j): `z_hi` of slider i over `z_lo` of slider j.
+const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
+const RODS: [u8; 4] = [11, 12, 21, 31];
+
+/// What limits a piece of the workspace's boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Binding {
+    /// The constraint.
+    pub constraint: Constraint,
+    /// The part of the machine it belongs to.
+    pub element: Element,
+}
+
+/// All limits' values at a point.
+pub(super) type Values = [f64; LIMITS];
+
+/// One request's domain: where columns exist, or where they meet a plane of the image's frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Domain<'a> {
+    pub(super) machine: &'a Machine,
+    pub(super) image: Image,
+    /// The plane, for a slice.
+    height: Option<f64>,
+    /// Squared chords of the cones' half-angles at the sliders and at the platform.
+    chords: [f64; 2],
+    /// Middle and half of the tilting range, moved by phi1 so that it holds for alpha.
+    tilt: Option<[f64; 2]>,
+    /// The rotary angle, which is constant, is out of its range.
+    pub(super) empty: bool,
+}
+
+impl<'a> Domain<'a> {
+    pub(super) fn new(machine: &'a Machine, request: &Request, height: Option<f64>) -> Self {
+        let limits = machine.limits();
+        let chord = |angle: f64| 4.0 * (0.5 * angle).sin().powi(2);
+        let part = request.kind == Kind::Part;
+        let [low, high] = limits.tilt;
+        let half = 0.5 * (high - low);
+        let theta2 = table_angles(machine, 0.0, request.phi1, request.phi2).theta2;
+        Self {
+            machine,
+            image: Image::new(machine, request),
+            height,
+            chords: [chord(limits.slider_cone), chord(limits.platform_cone)],
+            tilt: (part && half < PI).then_some([low + half + request.phi1, half]),
+            empty: part && !(limits.rotary[0]..=limits.rotary[1]).contains(&theta2),
+        }
+    }
+
+    #[inline]
+    pub(super) fn column(&self, at: [f64; 2]) -> Column {
+        Column::at(self.machine, at)
+    }
+
+    /// All limits at a column.
+    pub(super) fn values(&self, column: &Column) -> Values {
+        let rods = self.rods(column);
+        std::array::from_fn(|limit| self.with_rods(limit, column, &rods))
+    }
+
+    /// One limit at a column.
+    pub(super) fn value(&self, limit: usize, column: &Column) -> f64 {
+        self.with_rods(limit, column, &self.rods(column))
+    }
+
+    #[inline]
+    fn rods(&self, column: &Column) -> Rods {
+        let d = &self.machine.derived;
+        let x = [column.x + d.e1, column.x + d.e2];
+        Rods::new(self.machine.geometry(), &d.inverse_lengths, x, column.y, column.f, [column.c, column.s])
+    }
+
+    #[inline]
+    fn with_rods(&self, limit: usize, column: &Column, rods: &Rods) -> f64 {
+        let (g, d, limits) = (self.machine.geometry(), &self.machine.derived, self.machine.limits());
+        match limit {
+            0 => FirstLeg::new(self.machine, column.x, column.y).slack(),
+            1 => g.R1 * column.c - g.r1,
+            2 | 3 => rods.vectors[limit - 2][2] - limits.serial_margin * g.L1,
+            4 => column.square[1] - (limits.serial_margin * g.L2).powi(2),
+            5 => column.square[2] - (limits.serial_margin * g.L3).powi(2),
+            6 => determinant(&matrix(g, rods)) * d.home_det.signum() - limits.parallel_margin,
+            7..=10 => self.chords[0] - chord(d.slider_axes[limit - 7], rods.directions[limit - 7]),
+            11..=14 => {
+                let [x, y, z] = rods.directions[limit - 11];
+                let (c, s) = (rods.c, rods.s);
+                self.chords[1] - chord(d.platform_axes[limit - 11], [x, c * y + s * z, c * z - s * y])
+            }
+            15 => interference::nearest(g, rods).0 - 2.0 * g.rod_radius,
+            STROKES..TILT => self.stroke(limit - STROKES, column),
+            _ => self.tilt(limit - TILT, column),
+        }
+    }
+
+    /// Of columns, that their highest end over slider i lies over their lowest over slider j; of a
+    /// slice, the ends of the strokes themselves.
+    #[inline]
+    fn stroke(&self, number: usize, column: &Column) -> f64 {
+        let stroke = &self.machine.limits().stroke;
+        match self.height {
+            None => {
+                let (i, j) = PAIRS[number];
+                (stroke[i][1] + column.f[i]) - (stroke[j][0] + column.f[j])
+            }
+            Some(height) => {
+                let (slider, end) = (number / 2, number % 2);
+                let rho = self.image.z_at(column, height) - column.f[slider];
+                let over = rho - stroke[slider][end];
+                if end == 0 { over } else { -over }
+            }
+        }
+    }
+
+    /// How far theta1 is above its least value, or below its greatest.
+    fn tilt(&self, end: usize, column: &Column) -> f64 {
+        let Some([middle, half]) = self.tilt else { return half_turn() };
+        let off = column.alpha() - middle;
+        let off = off - TAU * (off / TAU).round();
+        if end == 0 { half + off } else { half - off }
+    }
+
+    /// The lowest z of each slider's stroke at this column; their maximum is `z_lo`.
+    #[inline]
+    pub(super) fn lows(&self, column: &Column) -> [f64; 3] {
+        let stroke = &self.machine.limits().stroke;
+        std::array::from_fn(|i| stroke[i][0] + column.f[i])
+    }
+
+    /// The highest z of each slider's stroke at this column; their minimum is `z_hi`.
+    #[inline]
+    pub(super) fn highs(&self, column: &Column) -> [f64; 3] {
+        let stroke = &self.machine.limits().stroke;
+        std::array::from_fn(|i| stroke[i][1] + column.f[i])
+    }
+
+    /// One sheet's height at each slider's end of stroke.
+    #[inline]
+    pub(super) fn sheet(&self, column: &Column, upper: bool) -> [f64; 3] {
+        if upper { self.highs(column) } else { self.lows(column) }
+    }
+
+    /// The slider whose end of stroke is the sheet; the first of equal ones.
+    #[inline]
+    pub(super) fn binding_slider([a, b, c]: [f64; 3], upper: bool) -> usize {
+        let before = |a: f64, b: f64| if upper { a < b } else { a > b };
+        let (first, height) = if before(b, a) { (1, b) } else { (0, a) };
+        if before(c, height) { 2 } else { first }
+    }
+
+    /// `z_lo` and `z_hi`, or twice the height at which a slice meets the column.
+    #[inline]
+    pub(super) fn ends(&self, column: &Column) -> [f64; 2] {
+        if let Some(height) = self.height {
+            return [self.image.z_at(column, height); 2];
+        }
+        let ([a, b, c], [d, e, f]) = (self.lows(column), self.highs(column));
+        [a.max(b).max(c), d.min(e).min(f)]
+    }
+
+    /// Whether columns are cut by one plane and have no extent.
+    #[inline]
+    pub(super) fn flat(&self) -> bool {
+        self.height.is_some()
+    }
+
+    /// A rectangle, `[least, greatest]`, that holds the domain: no leg reaches beyond it.
+    pub(super) fn rectangle(&self) -> [[f64; 2]; 2] {
+        let (g, d) = (self.machine.geometry(), &self.machine.derived);
+        let second = g.L2.min(g.L3);
+        let least = (-d.e1 - g.L1).max(-d.e2 - second);
+        let greatest = (g.L1 - d.e1).min(second - d.e2);
+        // |y - p| ≤ L2 and |y + p| ≤ L3: their sum bounds y. Leg I: y² ≤ L1² - (R1 - r1)².
+        let half = g.L1.min(0.5 * (g.L2 + g.L3));
+        [[least, -half], [greatest, half]]
+    }
+}
+
+/// A limit that is never met.
+const fn half_turn() -> f64 {
+    PI
+}
+
+#[inline]
+fn chord(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum()
+}
+
+/// The binding constraint of a limit; strokes as in a slice.
+pub(super) fn binding(limit: u8) -> Binding {
+    let limit = usize::from(limit);
+    let number = limit.saturating_sub(STROKES);
+    let slider = u8::try_from(number / 2 + 1).unwrap_or(1);
+    let (constraint, element) = match limit {
+        0 => (Constraint::LegLength, Element::Leg(1)),
+        1 => (Constraint::RodCrossing, Element::Leg(1)),
+        2..=5 => (Constraint::SerialSingularity, Element::Rod(RODS[limit - 2])),
+        6 => (Constraint::ParallelSingularity, Element::Platform),
+        7..=10 => (Constraint::SliderJoint, Element::Rod(RODS[limit - 7])),
+        11..=14 => (Constraint::PlatformJoint, Element::Rod(RODS[limit - 11])),
+        15 => (Constraint::RodInterference, Element::Platform),
+        STROKES..TILT => (Constraint::Stroke, Element::Stroke { slider, high: number % 2 == 1 }),
+        _ => (Constraint::Tilt, Element::Range { high: limit > TILT }),
+    };
+    Binding { constraint, element }
+}
+
+/// A sheet's binding constraint: the end of a slider's stroke, sliders counted from 0.
+pub(super) fn stroke_binding(slider: u8, high: bool) -> Binding {
+    Binding { constraint: Constraint::Stroke, element: Element::Stroke { slider: slider + 1, high } }
+}

@@ -1,0 +1,82 @@
+//! Volume and area by integration over the plane domain.
+//!
+//! V = ∬ (`z_hi` - `z_lo`)(j0 + j1 (`z_hi` + `z_lo`)/2), where j0 + j1 z is the Jacobian determinant of the
+//! kind's map. The inner integral runs over the exactly found intervals of a line x = const, cut
+//! where another slider begins to bind; the outer one over panels between the x at which the
+//! line's structure changes. There the inner integral goes like a square root, which the
+//! substitution x = x0 + (x1 - x0)(3 t² - 2 t³) makes smooth.
+
+mod line;
+mod panels;
+
+use super::domain::Domain;
+use super::observer::{Observer, go_on};
+use super::quadrature::Integral;
+use super::request::{Request, WorkspaceError};
+use crate::machine::Machine;
+
+/// The volume of a workspace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Volume {
+    /// The volume, and a bound of its error, mm³.
+    Value {
+        /// mm³.
+        value: f64,
+        /// mm³; the true volume lies within `value ± error`.
+        error: f64,
+    },
+    /// The map folds: its Jacobian determinant has both signs on the workspace, some positions are
+    /// reached from two platform positions, and the integral is not the volume of the set.
+    Folded,
+}
+
+/// Volume and area of a workspace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measure {
+    /// The volume.
+    pub volume: Volume,
+    /// Area of the plane domain over which columns exist, mm².
+    pub area: f64,
+    /// Bound of the area's error, mm².
+    pub area_error: f64,
+    /// Least and greatest Jacobian determinant met; `None` for an empty workspace. Of both signs:
+    /// the map folds.
+    pub jacobian: Option<[f64; 2]>,
+    /// Greatest |alpha| met, rad; `None` for an empty workspace.
+    pub inclination: Option<f64>,
+}
+
+/// Volume and area of the workspace, with bounds of their errors: relative 1e-6 or better.
+///
+/// The tolerance of the request is without effect: it belongs to surfaces and slices.
+pub fn measure(
+    machine: &Machine,
+    request: &Request,
+    observer: &dyn Observer,
+) -> Result<Measure, WorkspaceError> {
+    request.check()?;
+    go_on(observer)?;
+    let domain = Domain::new(machine, request, None);
+    if domain.empty {
+        return Ok(Measure::of(&Integral::ZERO, &line::Extremes::default()));
+    }
+    let (integral, extremes) = panels::integrate(&domain, observer)?;
+    observer.progress(1.0);
+    Ok(Measure::of(&integral, &extremes))
+}
+
+impl Measure {
+    /// Whether the map folds.
+    pub fn folded(&self) -> bool {
+        self.volume == Volume::Folded
+    }
+
+    fn of(integral: &Integral<2>, extremes: &line::Extremes) -> Self {
+        let [area, signed] = integral.value;
+        let [area_error, error] = integral.error;
+        let jacobian = extremes.jacobian;
+        let folded = jacobian.is_some_and(|[least, greatest]| least < 0.0 && greatest > 0.0);
+        let volume = if folded { Volume::Folded } else { Volume::Value { value: signed.abs(), error } };
+        Self { volume, area, area_error, jacobian, inclination: extremes.sine.map(f64::asin) }
+    }
+}

@@ -1,0 +1,158 @@
+//! A line x = const: its structure and its integrals.
+
+use std::convert::Infallible;
+
+use super::super::column::Column;
+use super::super::domain::Domain;
+use super::super::path::{End, Path};
+use super::super::quadrature::{Integral, rule};
+use super::super::root;
+
+/// Segments of a line whose limits are looked at: odd, so that the symmetry plane is not an end.
+const PIECES: u32 = 13;
+/// Halvings of an interval whose integrand is not smooth.
+const DEPTH: u32 = 12;
+/// Part of the domain's area, or volume, per width, to which a line is integrated.
+const ACCURACY: f64 = 1e-9;
+
+/// Extremes over all columns looked at.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Extremes {
+    pub(super) jacobian: Option<[f64; 2]>,
+    /// Greatest |sin alpha|.
+    pub(super) sine: Option<f64>,
+}
+
+impl Extremes {
+    fn meet(&mut self, column: &Column, determinants: [f64; 2]) {
+        for det in determinants {
+            let [least, greatest] = self.jacobian.unwrap_or([det; 2]);
+            self.jacobian = Some([least.min(det), greatest.max(det)]);
+        }
+        let sine = column.s.abs();
+        self.sine = Some(self.sine.map_or(sine, |most| most.max(sine)));
+    }
+}
+
+/// What a line's integrals are made of: the limits that end its intervals, and the sliders that
+/// bind `z_lo` and `z_hi` along each. Between lines of equal structure the integrals are smooth in x.
+pub(super) type Structure = Vec<([Option<usize>; 2], Vec<[usize; 2]>)>;
+
+/// A line and its feasible intervals, cut where another slider binds.
+pub(super) struct Line<'a> {
+    domain: &'a Domain<'a>,
+    x: f64,
+    intervals: Vec<[End; 2]>,
+}
+
+impl<'a> Line<'a> {
+    pub(super) fn new(domain: &'a Domain<'a>, x: f64, range: [f64; 2]) -> Self {
+        let path = Path { domain, at: |y: f64| [x, y] };
+        Self { domain, x, intervals: path.intervals(range, PIECES) }
+    }
+
+    pub(super) fn structure(&self) -> Structure {
+        let mut found = Structure::new();
+        for [low, high] in &self.intervals {
+            let mut sliders = vec![self.sliders(&low.column)];
+            self.creases(&low.column, &high.column, &mut |_, after| sliders.push(after));
+            found.push(([low.limit, high.limit], sliders));
+        }
+        found
+    }
+
+    /// The sliders that bind `z_lo` and `z_hi`.
+    fn sliders(&self, column: &Column) -> [usize; 2] {
+        [false, true].map(|upper| Domain::binding_slider(self.domain.sheet(column, upper), upper))
+    }
+
+    /// Calls `at` with each y between two columns at which another slider begins to bind, and the
+    /// sliders that bind beyond.
+    fn creases(&self, a: &Column, b: &Column, at: &mut dyn FnMut(f64, [usize; 2])) {
+        let middle = self.domain.column([self.x, 0.5 * (a.y + b.y)]);
+        for [from, to] in [[a, &middle], [&middle, b]] {
+            self.creases_between(from, to, 3, at);
+        }
+    }
+
+    fn creases_between(&self, a: &Column, b: &Column, depth: u32, at: &mut dyn FnMut(f64, [usize; 2])) {
+        let (before, after) = (self.sliders(a), self.sliders(b));
+        if before == after {
+            return;
+        }
+        let sheet = usize::from(before[0] == after[0]);
+        let (i, j) = (before[sheet], after[sheet]);
+        let lead = |column: &Column| {
+            let heights = self.domain.sheet(column, sheet == 1);
+            heights[i] - heights[j]
+        };
+        let part = root::zero(lead(a), lead(b), 1e-12, |part| {
+            lead(&self.domain.column([self.x, a.y + part * (b.y - a.y)]))
+        });
+        let y = a.y + part * (b.y - a.y);
+        // Where the other sheet, or the third slider, changes as well, both sides have their own.
+        let crease = self.domain.column([self.x, y]);
+        let there = self.sliders(&crease);
+        let other = 1 - sheet;
+        let single = before[other] == after[other] && (there[sheet] == i || there[sheet] == j);
+        if single || depth == 0 || y <= a.y || y >= b.y {
+            at(y, after);
+        } else {
+            let step = 1e-9 * (b.y - a.y);
+            let (left, right) =
+                (self.domain.column([self.x, y - step]), self.domain.column([self.x, y + step]));
+            self.creases_between(a, &left, depth - 1, at);
+            if self.sliders(&left) != self.sliders(&right) {
+                at(y, self.sliders(&right));
+            }
+            self.creases_between(&right, b, depth - 1, at);
+        }
+    }
+
+    /// Length of the line's intervals, and the integral of their columns' volume.
+    pub(super) fn integrals(&self, allowed: &[f64; 2], extremes: &mut Extremes) -> Integral<2> {
+        let mut total = Integral::ZERO;
+        for [low, high] in &self.intervals {
+            let mut from = low.t;
+            let mut cuts = Vec::new();
+            self.creases(&low.column, &high.column, &mut |y, _| cuts.push(y));
+            for end in [low, high] {
+                self.integrand(&end.column, extremes);
+            }
+            cuts.push(high.t);
+            for to in cuts {
+                if to > from {
+                    let share = allowed.map(|a| a * ACCURACY);
+                    total.add(&self.integral([from, to], &share, DEPTH, extremes));
+                }
+                from = from.max(to);
+            }
+        }
+        total
+    }
+
+    fn integral(&self, range: [f64; 2], allowed: &[f64; 2], depth: u32, seen: &mut Extremes) -> Integral<2> {
+        let Ok(whole) = rule::<2, Infallible>(range, |y| {
+            let column = self.domain.column([self.x, y]);
+            let value = [1.0, self.integrand(&column, seen)];
+            Ok(Integral { value, error: [0.0; 2] })
+        });
+        if depth == 0 || whole.within(allowed) {
+            return whole;
+        }
+        let middle = 0.5 * (range[0] + range[1]);
+        let allowed = allowed.map(|a| 0.5 * a);
+        let mut total = self.integral([range[0], middle], &allowed, depth - 1, seen);
+        total.add(&self.integral([middle, range[1]], &allowed, depth - 1, seen));
+        total
+    }
+
+    /// ∫ of the Jacobian determinant along a column.
+    fn integrand(&self, column: &Column, extremes: &mut Extremes) -> f64 {
+        let [low, high] = self.domain.ends(column);
+        let [_, ay] = column.angle_rates(self.domain.machine);
+        let [j0, j1] = self.domain.image.determinant(column, ay);
+        extremes.meet(column, [j0 + j1 * low, j0 + j1 * high]);
+        (high - low) * (j0 + j1 * 0.5 * (low + high))
+    }
+}

@@ -1,0 +1,90 @@
+//! The squares' patches made one.
+
+use super::super::domain::Domain;
+use super::super::request::WorkspaceError;
+use super::patch::{Patch, Rim, Set, Table, Triangle, Vertex, key};
+use super::site::Site;
+use super::{Lattice, Plane};
+
+pub(super) fn join(
+    domain: &Domain<'_>,
+    lattice: &Lattice,
+    patches: Vec<Patch>,
+) -> Result<Plane, WorkspaceError> {
+    let total: usize = patches.iter().map(|patch| patch.vertices.len()).sum();
+    // Two sheets' vertices, and those that are added, must be numbered by 32 bits.
+    if u32::try_from(total.saturating_mul(4)).is_err() {
+        return Err(WorkspaceError::TooFine);
+    }
+    let mut vertices: Vec<Vertex> = Vec::with_capacity(total);
+    let (mut triangles, mut rims) = (Vec::new(), Vec::new());
+    let mut shared = Table::default();
+    for patch in patches {
+        let mut numbers = Vec::with_capacity(patch.vertices.len());
+        for vertex in patch.vertices {
+            let next = number(vertices.len());
+            let found =
+                if lattice.shared(vertex.at) { *shared.entry(key(vertex.at)).or_insert(next) } else { next };
+            if found == next {
+                vertices.push(vertex);
+            }
+            numbers.push(found);
+        }
+        let place = |n: u32| numbers[n as usize];
+        triangles
+            .extend(patch.triangles.into_iter().map(|t| Triangle { corners: t.corners.map(place), ..t }));
+        rims.extend(patch.rims.into_iter().map(|rim| Rim { ends: rim.ends.map(place), ..rim }));
+    }
+    let mut plane = Plane { vertices, triangles, rims: outer(rims) };
+    plane.part_sheets(domain);
+    Ok(plane)
+}
+
+fn number(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}
+
+/// The sides that have the domain on their left only.
+fn outer(rims: Vec<Rim>) -> Vec<Rim> {
+    let directed: Set<[u32; 2]> = rims.iter().map(|rim| rim.ends).collect();
+    rims.into_iter().filter(|Rim { ends: [a, b], .. }| !directed.contains(&[*b, *a])).collect()
+}
+
+impl Plane {
+    /// An inner edge between two points at which the sheets meet would belong to both sheets: it
+    /// is halved, and its middle is a vertex of each.
+    fn part_sheets(&mut self, domain: &Domain<'_>) {
+        let rims: Set<[u32; 2]> = self.rims.iter().map(|rim| rim.ends).collect();
+        let mut middles: Table<[u32; 2], u32> = Table::default();
+        let mut numbers: Vec<usize> = (0..self.triangles.len()).collect();
+        // A triangle may have several such edges: its parts are looked at again.
+        while let Some(which) = numbers.pop() {
+            let corners = self.triangles[which].corners;
+            let side = (0..3).find(|&i| {
+                let ends = [corners[i], corners[(i + 1) % 3]];
+                ends.iter().all(|&end| self.vertices[end as usize].pinched) && !rims.contains(&ends)
+            });
+            let Some(i) = side else { continue };
+            let [a, b, c] = [0, 1, 2].map(|n| corners[(i + n) % 3]);
+            let middle = if let Some(&middle) = middles.get(&[a.min(b), a.max(b)]) {
+                middle
+            } else {
+                let middle = number(self.vertices.len());
+                self.vertices.push(self.between(domain, a, b));
+                middles.insert([a.min(b), a.max(b)], middle);
+                middle
+            };
+            let sliders = self.triangles[which].sliders;
+            self.triangles[which].corners = [a, middle, c];
+            self.triangles.push(Triangle { corners: [middle, b, c], sliders });
+            numbers.extend([which, self.triangles.len() - 1]);
+        }
+    }
+
+    fn between(&self, domain: &Domain<'_>, a: u32, b: u32) -> Vertex {
+        let (a, b) = (self.vertices[a.min(b) as usize].at, self.vertices[a.max(b) as usize].at);
+        let at = [0, 1].map(|axis| 0.5 * (a[axis] + b[axis]));
+        let site = Site::new(domain, at);
+        Vertex { at, ends: site.ends(domain), pinched: false }
+    }
+}

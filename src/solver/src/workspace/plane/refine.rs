@@ -1,0 +1,196 @@
+//! Adaptive triangles: each is halved until it is simple and flat enough.
+//!
+//! Whether an edge is halved depends on that edge alone, so that the two triangles at it agree
+//! without knowing of each other, and parts of the plane can be worked on in any order.
+
+use super::super::domain::{Domain, LIMITS};
+use super::super::observer::{Observer, go_on};
+use super::super::path::{Shape, control, shape};
+use super::super::request::WorkspaceError;
+use super::leaf::Leaf;
+use super::patch::Patch;
+use super::site::Site;
+use crate::pose::Point;
+
+/// Part of the tolerance that an edge's midpoint may be off; inside a triangle whose edges are all
+/// off by as much, a paraboloid is off by 4/3 of it.
+const FLAT: f64 = 0.7;
+/// Shortest edge halved because a limit may vanish twice on it, and because a sheet is curved, in
+/// units of the tolerance.
+const SHORTEST: [f64; 2] = [1.0, 0.02];
+
+/// Part of the tolerance by which a curve may cross an edge and come back.
+const SHALLOW: f64 = 0.25;
+/// Step beside an edge that shows a limit's gradient, in units of the edge.
+const STEP: f64 = 1e-4;
+
+/// Width of a triangle that is not refined any more, in units of the tolerance.
+const THIN: f64 = 0.01;
+
+/// What becomes of an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Edge {
+    Kept,
+    Halved,
+}
+
+use Edge::{Halved, Kept};
+
+pub(super) struct Refinement<'a> {
+    pub(super) domain: &'a Domain<'a>,
+    pub(super) tolerance: f64,
+    pub(super) observer: &'a dyn Observer,
+}
+
+impl Refinement<'_> {
+    /// Cuts the triangle, counter-clockwise, into pieces that go into the patch.
+    pub(super) fn triangle(&self, corners: [&Site; 3], patch: &mut Patch) -> Result<(), WorkspaceError> {
+        let [a, b, c] = corners;
+        if self.thin(corners) {
+            return self.finish(corners, patch);
+        }
+        let middles = [
+            patch.middle(self.domain, a, b),
+            patch.middle(self.domain, b, c),
+            patch.middle(self.domain, c, a),
+        ];
+        let [ab, bc, ca] = [0, 1, 2].map(|i| self.edge(corners[i], &middles[i], corners[(i + 1) % 3]));
+        let [m, n, o] = &middles;
+        match (ab, bc, ca) {
+            (Kept, Kept, Kept) => {
+                go_on(self.observer)?;
+                Leaf::new(self.domain, self.tolerance, corners).cut_into(patch);
+                Ok(())
+            }
+            (Halved, Kept, Kept) => self.two([a, b, c], m, patch),
+            (Kept, Halved, Kept) => self.two([b, c, a], n, patch),
+            (Kept, Kept, Halved) => self.two([c, a, b], o, patch),
+            (Halved, Halved, Kept) => self.three([a, b, c], [m, n], patch),
+            (Kept, Halved, Halved) => self.three([b, c, a], [n, o], patch),
+            (Halved, Kept, Halved) => self.three([c, a, b], [o, m], patch),
+            (Halved, Halved, Halved) => {
+                for part in [[a, m, o], [m, b, n], [o, n, c], [m, n, o]] {
+                    self.triangle(part, patch)?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// Whether a triangle has no width left to halve: beside a point where a limit jumps, outside
+    /// the domain, one of its edges may be kept however often the other two are halved.
+    fn thin(&self, [a, b, c]: [&Site; 3]) -> bool {
+        let ([ax, ay], [bx, by], [cx, cy]) = (a.at(), b.at(), c.at());
+        let area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+        let longest = length(a, b).max(length(b, c)).max(length(c, a));
+        area.is_nan() || area <= THIN * self.tolerance * longest
+    }
+
+    /// Cuts a triangle as it is, with the points that its neighbours will have on its edges.
+    fn finish(&self, corners: [&Site; 3], patch: &mut Patch) -> Result<(), WorkspaceError> {
+        go_on(self.observer)?;
+        let points = [0, 1, 2].map(|i| {
+            let mut points = Vec::new();
+            self.divisions(corners[i], corners[(i + 1) % 3], &mut points);
+            points
+        });
+        Leaf::with_points(self.domain, self.tolerance, corners, points).cut_into(patch);
+        Ok(())
+    }
+
+    /// All points at which an edge is halved, in order.
+    fn divisions(&self, a: &Site, b: &Site, points: &mut Vec<Site>) {
+        let ([ax, ay], [bx, by]) = (a.at(), b.at());
+        let middle = Site::new(self.domain, [0.5 * (ax + bx), 0.5 * (ay + by)]);
+        if self.edge(a, &middle, b) == Edge::Halved {
+            self.divisions(a, &middle, points);
+            points.push(middle.clone());
+            self.divisions(&middle, b, points);
+        }
+    }
+
+    /// The first edge is halved.
+    fn two(&self, [a, b, c]: [&Site; 3], m: &Site, patch: &mut Patch) -> Result<(), WorkspaceError> {
+        self.triangle([a, m, c], patch)?;
+        self.triangle([m, b, c], patch)
+    }
+
+    /// The first two edges are halved.
+    fn three(
+        &self,
+        [a, b, c]: [&Site; 3],
+        [m, n]: [&Site; 2],
+        patch: &mut Patch,
+    ) -> Result<(), WorkspaceError> {
+        self.triangle([m, b, n], patch)?;
+        if length(a, n) <= length(m, c) {
+            self.triangle([a, m, n], patch)?;
+            self.triangle([a, n, c], patch)
+        } else {
+            self.triangle([a, m, c], patch)?;
+            self.triangle([m, n, c], patch)
+        }
+    }
+
+    fn edge(&self, a: &Site, middle: &Site, b: &Site) -> Edge {
+        let mut doubtful = 0_u32;
+        for limit in 0..LIMITS {
+            match shape(a.values[limit], middle.values[limit], b.values[limit]) {
+                Shape::Outside => return Edge::Kept,
+                Shape::Simple => {}
+                Shape::Doubtful => doubtful |= 1 << limit,
+            }
+        }
+        let length = length(a, b) / self.tolerance;
+        let crossed = |limit: usize| doubtful & (1 << limit) != 0 && self.crossed(limit, [a, middle, b]);
+        let halved = length > SHORTEST[0] && (0..LIMITS).any(crossed)
+            || length > SHORTEST[1] && !self.domain.flat() && self.curved([a, middle, b]);
+        if halved { Edge::Halved } else { Edge::Kept }
+    }
+
+    /// Whether a limit's curve may cross an edge twice, or close on itself beside it, by more than
+    /// can be neglected. Its depth beyond the edge is the parabola's over the limit's gradient.
+    fn crossed(&self, limit: usize, [a, middle, b]: [&Site; 3]) -> bool {
+        let values = [a, middle, b].map(|site| site.values[limit]);
+        let depth = 0.5 * control(values).abs();
+        let (length, [ax, ay], [bx, by], [x, y]) = (length(a, b), a.at(), b.at(), middle.at());
+        let beside = [x - STEP * (by - ay), y + STEP * (bx - ax)];
+        let across = (self.domain.value(limit, &self.domain.column(beside)) - values[1]) / STEP;
+        let gradient = across.hypot(values[2] - values[0]) / length;
+        depth > SHALLOW * self.tolerance * gradient
+    }
+
+    /// Whether a sheet leaves the edge by more than is allowed. A sheet is judged by every slider
+    /// that binds it on the edge: at a crease the edge will be cut.
+    fn curved(&self, sites: [&Site; 3]) -> bool {
+        let columns = sites.map(|site| &site.column);
+        let rates = columns[1].angle_rates(self.domain.machine);
+        let slopes = columns[1].drop_rates(self.domain.machine, rates);
+        [true, false].into_iter().any(|upper| {
+            let sheets = columns.map(|column| self.domain.sheet(column, upper));
+            let binding = sheets.map(|heights| Domain::binding_slider(heights, upper));
+            (0..3).filter(|slider| binding.contains(slider)).any(|slider| {
+                let z = sheets.map(|heights| heights[slider]);
+                let image = |i: usize| self.domain.image.point(columns[i], z[i]);
+                let (a, m, b) = (image(0), image(1), image(2));
+                let off = [0, 1, 2].map(|i| m[i] - 0.5 * (a[i] + b[i]));
+                let push = |step: Point, turn: f64| self.domain.image.push(columns[1], z[1], step, turn);
+                let [dx, dy] = slopes[slider];
+                let normal = cross(push([1.0, 0.0, dx], rates[0]), push([0.0, 1.0, dy], rates[1]));
+                dot(off, normal).abs() > FLAT * self.tolerance * dot(normal, normal).sqrt()
+            })
+        })
+    }
+}
+
+fn length(a: &Site, b: &Site) -> f64 {
+    (a.column.x - b.column.x).hypot(a.column.y - b.column.y)
+}
+
+fn cross(a: Point, b: Point) -> Point {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

@@ -1,0 +1,81 @@
+//! A point of the plane with everything known about it.
+
+use super::super::column::Column;
+use super::super::domain::{Domain, LIMITS, STROKES, TILT};
+use crate::pose::Point;
+
+/// Curves that may cut the plane: the limits, then the creases of the two sheets.
+pub(super) const CURVES: usize = LIMITS + 4;
+/// First of the creases, two for each sheet: slider 1 against the others, then 2 against 3.
+pub(super) const CREASES: usize = LIMITS;
+
+/// A point, its column and the value of every curve's function there.
+#[derive(Clone, Debug)]
+pub(super) struct Site {
+    pub(super) column: Column,
+    pub(super) values: [f64; CURVES],
+    /// Edges of the triangle being cut on which the point lies, a bit each.
+    pub(super) border: u8,
+}
+
+impl Site {
+    pub(super) fn new(domain: &Domain<'_>, at: [f64; 2]) -> Self {
+        let column = domain.column(at);
+        let mut values = [0.0; CURVES];
+        values[..LIMITS].copy_from_slice(&domain.values(&column));
+        values[CREASES..].copy_from_slice(&creases(domain, &column));
+        Self { column, values, border: 0 }
+    }
+
+    #[inline]
+    pub(super) fn at(&self) -> [f64; 2] {
+        [self.column.x, self.column.y]
+    }
+
+    /// The curves on which the point lies, a bit each.
+    pub(super) fn on(&self) -> u32 {
+        (0..CURVES).filter(|&curve| self.values[curve] == 0.0).fold(0, |on, curve| on | 1 << curve)
+    }
+
+    /// Whether the sheets meet here.
+    pub(super) fn pinched(&self) -> bool {
+        self.values[STROKES..TILT].contains(&0.0)
+    }
+
+    /// The lower and the upper end of the column, as positions of the image.
+    pub(super) fn ends(&self, domain: &Domain<'_>) -> [Point; 2] {
+        let [low, high] = domain.ends(&self.column);
+        let [low, high] = if self.pinched() { [0.5 * (low + high); 2] } else { [low, high] };
+        [domain.image.point(&self.column, low), domain.image.point(&self.column, high)]
+    }
+
+    /// The same for a point that is known to lie on a curve.
+    pub(super) fn ends_on(domain: &Domain<'_>, at: [f64; 2], curve: usize) -> [Point; 2] {
+        let column = domain.column(at);
+        let [low, high] = domain.ends(&column);
+        let meet = (STROKES..TILT).contains(&curve);
+        let [low, high] = if meet { [0.5 * (low + high); 2] } else { [low, high] };
+        [domain.image.point(&column, low), domain.image.point(&column, high)]
+    }
+
+    /// A total order of points.
+    pub(super) fn precedes(&self, other: &Self) -> bool {
+        let ([a, b], [c, d]) = (self.at(), other.at());
+        a.total_cmp(&c).then(b.total_cmp(&d)).is_lt()
+    }
+}
+
+/// One curve's function at a column.
+pub(super) fn value(domain: &Domain<'_>, curve: usize, column: &Column) -> f64 {
+    if curve < LIMITS { domain.value(curve, column) } else { creases(domain, column)[curve - CREASES] }
+}
+
+/// The lower sheet is slider 1's where the first is positive, else slider 2's where the second is;
+/// the upper sheet likewise.
+fn creases(domain: &Domain<'_>, column: &Column) -> [f64; 4] {
+    if domain.flat() {
+        return [1.0; 4];
+    }
+    let ([a, b, c], [d, e, f]) = (domain.lows(column), domain.highs(column));
+    [a - b.max(c), b - c, e.min(f) - d, f - e]
+}

@@ -1,0 +1,138 @@
+//! The boundary surface of a workspace: two sheets over the plane domain and the walls between.
+
+mod tidy;
+
+use super::domain::{Binding, Domain, binding, stroke_binding};
+use super::observer::{Observer, go_on};
+use super::plane::{Plane, Rim};
+use super::request::{Request, WorkspaceError};
+use crate::machine::Machine;
+use crate::pose::Point;
+
+/// A closed surface of triangles, oriented outwards; empty for an empty workspace.
+///
+/// Every edge belongs to two triangles, which run along it in opposite directions. Where the
+/// slider or the constraint that binds changes, the change is an edge.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// Positions in the frame of the request's kind, mm.
+    pub positions: Vec<Point>,
+    /// Numbers of the corners, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// What limits the workspace there, for each triangle.
+    pub bindings: Vec<Binding>,
+}
+
+/// The boundary surface, within the request's tolerance of the true one, both ways.
+///
+/// Where the request's map folds (see [`super::Measure::folded`]), the surface is the image of the
+/// platform workspace's boundary and passes through itself.
+pub fn surface(
+    machine: &Machine,
+    request: &Request,
+    observer: &dyn Observer,
+) -> Result<Surface, WorkspaceError> {
+    request.check()?;
+    go_on(observer)?;
+    let domain = Domain::new(machine, request, None);
+    let plane = Plane::trace(&domain, request.tolerance, observer)?;
+    go_on(observer)?;
+    let mut surface = Surface::over(&plane);
+    tidy::contract(&mut surface, request.tolerance);
+    if surface.volume() < 0.0 {
+        // The map turns the workspace inside out.
+        for triangle in &mut surface.triangles {
+            triangle.swap(1, 2);
+        }
+    }
+    observer.progress(1.0);
+    Ok(surface)
+}
+
+impl Surface {
+    /// Volume enclosed, mm³.
+    pub fn volume(&self) -> f64 {
+        let Some(&[ox, oy, oz]) = self.positions.first() else { return 0.0 };
+        let six: f64 = self
+            .triangles
+            .iter()
+            .map(|triangle| {
+                let [a, b, c] = triangle.map(|corner| {
+                    let [x, y, z] = self.positions[corner as usize];
+                    [x - ox, y - oy, z - oz]
+                });
+                a[0] * (b[1] * c[2] - b[2] * c[1])
+                    + a[1] * (b[2] * c[0] - b[0] * c[2])
+                    + a[2] * (b[0] * c[1] - b[1] * c[0])
+            })
+            .sum();
+        six / 6.0
+    }
+
+    /// Least and greatest coordinates, mm; `None` if the surface is empty.
+    pub fn bounds(&self) -> Option<[Point; 2]> {
+        let first = *self.positions.first()?;
+        Some(self.positions.iter().fold([first; 2], |[least, greatest], position| {
+            [
+                [0, 1, 2].map(|i| f64::min(least[i], position[i])),
+                [0, 1, 2].map(|i| f64::max(greatest[i], position[i])),
+            ]
+        }))
+    }
+
+    fn over(plane: &Plane) -> Self {
+        let mut surface = Self::default();
+        let count = 2 * plane.triangles.len() + 2 * plane.rims.len();
+        surface.triangles.reserve_exact(count);
+        surface.bindings.reserve_exact(count);
+        let sheets = surface.vertices(plane);
+        for triangle in &plane.triangles {
+            let [a, b, c] = triangle.corners.map(|corner| sheets[corner as usize]);
+            surface.add([a[0], c[0], b[0]], stroke_binding(triangle.sliders[0], false));
+            surface.add([a[1], b[1], c[1]], stroke_binding(triangle.sliders[1], true));
+        }
+        for rim in &plane.rims {
+            surface.wall(plane, rim, rim.ends.map(|end| sheets[end as usize]));
+        }
+        surface
+    }
+
+    /// Numbers of each plane vertex's lower and upper position.
+    fn vertices(&mut self, plane: &Plane) -> Vec<[u32; 2]> {
+        self.positions.reserve_exact(2 * plane.vertices.len());
+        plane
+            .vertices
+            .iter()
+            .map(|vertex| {
+                let low = u32::try_from(self.positions.len()).unwrap_or(u32::MAX);
+                self.positions.push(vertex.ends[0]);
+                if vertex.pinched {
+                    return [low; 2];
+                }
+                self.positions.push(vertex.ends[1]);
+                [low, low + 1]
+            })
+            .collect()
+    }
+
+    /// The wall over a side, by the shorter of its diagonals.
+    fn wall(&mut self, plane: &Plane, rim: &Rim, [a, b]: [[u32; 2]; 2]) {
+        let limit = binding(rim.limit);
+        let ends = rim.ends.map(|end| plane.vertices[end as usize].ends);
+        let length = |p: Point, q: Point| (0..3).map(|i| (p[i] - q[i]).powi(2)).sum::<f64>();
+        if a[0] == a[1] || b[0] == b[1] || length(ends[0][0], ends[1][1]) <= length(ends[1][0], ends[0][1]) {
+            self.add([a[0], b[0], b[1]], limit);
+            self.add([a[0], b[1], a[1]], limit);
+        } else {
+            self.add([a[0], b[0], a[1]], limit);
+            self.add([b[0], b[1], a[1]], limit);
+        }
+    }
+
+    fn add(&mut self, [a, b, c]: [u32; 3], binding: Binding) {
+        if a != b && b != c && c != a {
+            self.triangles.push([a, b, c]);
+            self.bindings.push(binding);
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! The workspace against outside truth: published figures, brute-force columns, its own margins.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
+#![allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "counts are small")]
+
+#[path = "workspace/brute.rs"]
+mod brute;
+#[path = "workspace/machines.rs"]
+mod machines;
+#[path = "workspace/measure.rs"]
+mod measure;
+#[path = "workspace/membership.rs"]
+mod membership;
+#[path = "workspace/slices.rs"]
+mod slices;
+#[path = "workspace/surface.rs"]
+mod surface;

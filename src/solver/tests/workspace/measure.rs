@@ -1,0 +1,83 @@
+//! Volumes and areas.
+
+use verne_solver::Machine;
+use verne_solver::workspace::{Kind, Measure, Request, Unobserved, Volume, measure};
+
+use crate::brute;
+use crate::machines::{changed, others, request};
+
+fn measured(machine: &Machine, request: &Request) -> Measure {
+    measure(machine, request, &Unobserved).unwrap()
+}
+
+fn volume(measure: &Measure) -> (f64, f64) {
+    match measure.volume {
+        Volume::Value { value, error } => (value, error),
+        Volume::Folded => panic!("folded"),
+    }
+}
+
+/// Figures of a lattice of 2400² columns, to the digits that it holds.
+#[test]
+fn reference_figures() {
+    let machine = Machine::verne();
+    let cases = [
+        (Kind::Platform, 0.0, 0.0, 2.336_92e8),
+        (Kind::Tool, 50.0, 0.0, 2.443_25e8),
+        (Kind::Tool, 150.0, 0.0, 2.655_91e8),
+        (Kind::Tool, 300.0, 0.0, 2.974_90e8),
+        (Kind::Part, 50.0, 0.0, 3.004_44e8),
+        (Kind::Part, 50.0, 30.0, 3.004_44e8),
+        (Kind::Part, 300.0, -30.0, 3.004_44e8),
+        (Kind::Part, 50.0, 60.0, 2.994_85e8),
+    ];
+    for (kind, length, phi1, expected) in cases {
+        let answer = measured(&machine, &request(kind, length, phi1, 1.0));
+        let (value, error) = volume(&answer);
+        assert!((value - expected).abs() <= 2e-6 * expected, "{kind:?} {length} {phi1}: {value}");
+        assert!(error <= 1e-6 * value && answer.area_error <= 1e-6 * answer.area);
+    }
+    let part = measured(&machine, &request(Kind::Part, 50.0, 0.0, 1.0));
+    assert!((part.area - 657_677.0).abs() < 10.0, "{}", part.area);
+    assert!((part.inclination.unwrap().to_degrees() - 34.6).abs() < 0.05);
+    assert!((part.jacobian.unwrap()[0] - 0.895).abs() < 1e-3);
+}
+
+#[test]
+fn brute_force_agrees() {
+    for (name, machine) in others() {
+        let answer = measured(&machine, &request(Kind::Platform, 0.0, 0.0, 1.0));
+        let (value, error) = volume(&answer);
+        assert!(error <= 1e-6 * value && answer.area_error <= 1e-6 * answer.area, "{name}");
+        let surface =
+            verne_solver::workspace::surface(&machine, &request(Kind::Platform, 0.0, 0.0, 1.0), &Unobserved)
+                .unwrap();
+        let [low, high] = surface.bounds().unwrap();
+        let rectangle = [[low[0] - 3.0, low[1] - 3.0], [high[0] + 3.0, high[1] + 3.0]];
+        let [area, brute] = brute::area_and_volume(&machine, rectangle, 700);
+        // Such a lattice is off by about its cells' area times the root of the cells cut.
+        assert!((answer.area - area).abs() < 2e-4 * area, "{name}: {} against {area}", answer.area);
+        assert!((value - brute).abs() < 2e-4 * brute, "{name}: {value} against {brute}");
+    }
+}
+
+/// Where the Jacobian changes its sign there is no volume to give.
+#[test]
+fn folds_are_told() {
+    let answer = measured(&Machine::verne(), &request(Kind::Tool, -650.0, 0.0, 1.0));
+    assert!(answer.folded(), "{answer:?}");
+    let [least, greatest] = answer.jacobian.unwrap();
+    assert!(least < 0.0 && greatest > 0.0);
+}
+
+#[test]
+fn nothing_is_an_answer() {
+    let closed = changed(|data| data.limits.slider_cone = 1e-6);
+    let narrow = changed(|data| data.limits.rotary = [-0.1, 0.1]);
+    let turned = Request { phi2: 1.0, ..request(Kind::Part, 50.0, 0.0, 1.0) };
+    for (machine, request) in [(narrow, turned), (closed, request(Kind::Platform, 0.0, 0.0, 1.0))] {
+        let answer = measured(&machine, &request);
+        let (value, _) = volume(&answer);
+        assert!(value < 0.01 && answer.area < 1e-3, "{answer:?}");
+    }
+}

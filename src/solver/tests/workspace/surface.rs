@@ -1,0 +1,250 @@
+//! Meshes: closed, oriented, near enough, and the same every time.
+
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use verne_solver::Machine;
+use verne_solver::workspace::{
+    Kind, Observer, Request, Surface, Unobserved, Volume, WorkspaceError, measure, surface,
+};
+
+use crate::brute;
+use crate::machines::{Random, changed, others, random, request};
+
+fn made(machine: &Machine, request: &Request) -> Surface {
+    surface(machine, request, &Unobserved).unwrap()
+}
+
+/// Directed edges that are not met by exactly one opposite edge.
+fn open_edges(surface: &Surface) -> usize {
+    let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
+    for [a, b, c] in &surface.triangles {
+        for edge in [[*a, *b], [*b, *c], [*c, *a]] {
+            *edges.entry(edge).or_default() += 1;
+        }
+    }
+    edges.iter().filter(|([a, b], count)| **count != 1 || edges.get(&[*b, *a]) != Some(&1)).count()
+}
+
+fn euler(surface: &Surface) -> i64 {
+    let [vertices, triangles] =
+        [surface.positions.len(), surface.triangles.len()].map(|count| i64::try_from(count).unwrap());
+    vertices - triangles * 3 / 2 + triangles
+}
+
+fn all_kinds() -> [Request; 4] {
+    [
+        request(Kind::Platform, 0.0, 0.0, 2.0),
+        request(Kind::Tool, 150.0, 0.0, 2.0),
+        request(Kind::Part, 50.0, 0.0, 2.0),
+        request(Kind::Part, 50.0, 60.0, 2.0),
+    ]
+}
+
+#[test]
+fn is_closed_and_outward() {
+    let machines = others().into_iter().chain([("verne", Machine::verne())]);
+    for (name, machine) in machines {
+        for request in all_kinds() {
+            let mesh = made(&machine, &request);
+            assert_eq!(open_edges(&mesh), 0, "{name} {request:?}");
+            assert_eq!(mesh.triangles.len(), mesh.bindings.len());
+            let answer = measure(&machine, &request, &Unobserved).unwrap();
+            let Volume::Value { value, .. } = answer.volume else { panic!("folded") };
+            // Off by less than the tolerance times the sheets' and walls' area.
+            let allowed = request.tolerance * (4.0 * answer.area);
+            assert!(mesh.volume() > 0.0 && (mesh.volume() - value).abs() < allowed, "{name} {request:?}");
+        }
+    }
+}
+
+#[test]
+fn is_closed_for_any_machine() {
+    let mut numbers = Random(88_172_645_463_325_252);
+    for _ in 0..60 {
+        let Some(machine) = random(&mut numbers) else { continue };
+        for request in [request(Kind::Platform, 0.0, 0.0, 10.0), request(Kind::Part, 80.0, 20.0, 10.0)] {
+            let mesh = made(&machine, &request);
+            assert_eq!(open_edges(&mesh), 0, "{:?} {request:?}", machine.data());
+        }
+    }
+}
+
+#[test]
+fn reference_bounds_and_count() {
+    let mesh = made(&Machine::verne(), &request(Kind::Platform, 0.0, 0.0, 1.0));
+    assert!(mesh.triangles.len() < 5_000, "{}", mesh.triangles.len());
+    assert_eq!(euler(&mesh), 2);
+    let [low, high] = mesh.bounds().unwrap();
+    let expected = [[-407.0, -540.5, 870.6], [392.0, 540.5, 1_627.0]];
+    for (found, expected) in low.iter().chain(&high).zip(expected.as_flattened()) {
+        assert!((found - expected).abs() < 1.0, "{found} {expected}");
+    }
+}
+
+/// Volume's error against the number of triangles: both go with the square of the edges.
+#[test]
+fn converges_at_second_order() {
+    let machine = Machine::verne();
+    let question = |tolerance| request(Kind::Platform, 0.0, 0.0, tolerance);
+    let Volume::Value { value, .. } = measure(&machine, &question(1.0), &Unobserved).unwrap().volume else {
+        panic!("folded")
+    };
+    let errors = [4.0, 1.0, 0.25].map(|tolerance| {
+        let mesh = made(&machine, &question(tolerance));
+        (value - mesh.volume()).abs() * mesh.triangles.len() as f64
+    });
+    assert!(errors[1] < 2.0 * errors[0] && errors[2] < 2.0 * errors[1], "{errors:?}");
+}
+
+/// Points of the true boundary, by bisection on solution and margins, are near the mesh.
+#[test]
+fn true_boundary_is_near() {
+    for (name, machine) in others() {
+        let question = request(Kind::Platform, 0.0, 0.0, 1.0);
+        let mesh = made(&machine, &question);
+        let [low, high] = mesh.bounds().unwrap();
+        let mut numbers = Random(31_337);
+        let middle = middle_of(&machine, low, high, &mut numbers);
+        for _ in 0..400 {
+            let to = [0, 1, 2].map(|i| numbers.between(low[i] - 50.0, high[i] + 50.0));
+            let Some(point) = boundary(&machine, middle, to) else { continue };
+            let off = distance(&mesh, point);
+            assert!(off <= question.tolerance, "{name}: {point:?} is off by {off}");
+        }
+    }
+}
+
+fn member(machine: &Machine, [x, y, z]: [f64; 3]) -> bool {
+    brute::column(machine, x, y).is_some_and(|[low, high]| (low..=high).contains(&z))
+}
+
+fn middle_of(machine: &Machine, low: [f64; 3], high: [f64; 3], numbers: &mut Random) -> [f64; 3] {
+    loop {
+        let point = [0, 1, 2].map(|i| numbers.between(low[i], high[i]));
+        if member(machine, point) {
+            return point;
+        }
+    }
+}
+
+/// A point between inside and outside.
+fn boundary(machine: &Machine, inside: [f64; 3], outside: [f64; 3]) -> Option<[f64; 3]> {
+    if member(machine, outside) {
+        return None;
+    }
+    let at = |part: f64| [0, 1, 2].map(|i| inside[i] + part * (outside[i] - inside[i]));
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..50 {
+        let part = 0.5 * (low + high);
+        if member(machine, at(part)) {
+            low = part;
+        } else {
+            high = part;
+        }
+    }
+    Some(at(low))
+}
+
+fn distance(mesh: &Surface, point: [f64; 3]) -> f64 {
+    let corner = |n: u32| mesh.positions[n as usize];
+    let each = mesh.triangles.iter().map(|t| to_triangle(point, t.map(corner)));
+    each.fold(f64::INFINITY, f64::min)
+}
+
+/// Distance from a triangle: of its plane inside, of its sides else.
+fn to_triangle(p: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
+    let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    };
+    let normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+    let mut inside = true;
+    let mut nearest = f64::INFINITY;
+    for i in 0..3 {
+        let (a, b) = (corners[i], corners[(i + 1) % 3]);
+        let (ab, ap) = (minus(b, a), minus(p, a));
+        inside &= dot(cross(normal, ab), ap) >= 0.0;
+        let part = if dot(ab, ab) > 0.0 { (dot(ab, ap) / dot(ab, ab)).clamp(0.0, 1.0) } else { 0.0 };
+        let off = [0, 1, 2].map(|i| ap[i] - part * ab[i]);
+        nearest = nearest.min(dot(off, off).sqrt());
+    }
+    let size = dot(normal, normal).sqrt();
+    if inside && size > 0.0 { (dot(minus(p, corners[0]), normal) / size).abs() } else { nearest }
+}
+
+/// Every vertex lies on the true boundary: a step to one side is inside, to another outside.
+#[test]
+fn corners_are_on_the_true_boundary() {
+    let machine = Machine::verne();
+    let mesh = made(&machine, &request(Kind::Platform, 0.0, 0.0, 1.0));
+    for &[x, y, z] in &mesh.positions {
+        let near = |step: f64| {
+            (0..27).map(move |n| {
+                let side = |k: i32| f64::from(n / k % 3 - 1) * step;
+                [x + side(1), y + side(3), z + side(9)]
+            })
+        };
+        assert!(near(0.1).any(|point| member(&machine, point)), "{x} {y} {z}");
+        assert!(near(0.1).any(|point| !member(&machine, point)), "{x} {y} {z}");
+    }
+}
+
+#[test]
+fn does_not_depend_on_threads() {
+    let machine = Machine::verne();
+    let question = request(Kind::Part, 50.0, 10.0, 0.5);
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| made(&machine, &question))
+    };
+    let one = with(1);
+    assert!(one == with(2) && one == with(5));
+}
+
+#[test]
+fn empty_is_an_answer() {
+    let machine = changed(|data| data.limits.rotary = [-0.1, 0.1]);
+    let question = Request { phi2: 1.0, ..request(Kind::Part, 50.0, 0.0, 1.0) };
+    assert_eq!(made(&machine, &question), Surface::default());
+}
+
+struct After(AtomicUsize);
+
+impl Observer for After {
+    fn progress(&self, part: f64) {
+        assert!((0.0..=1.0).contains(&part));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.fetch_sub(1, Ordering::Relaxed) <= 1
+    }
+}
+
+#[test]
+fn can_be_cancelled() {
+    let machine = Machine::verne();
+    let question = request(Kind::Platform, 0.0, 0.0, 0.01);
+    for looks in [1, 2, 20] {
+        let observer = After(AtomicUsize::new(looks));
+        let answer = surface(&machine, &question, &observer);
+        assert_eq!(answer.unwrap_err(), WorkspaceError::Cancelled);
+        let answer = measure(&machine, &question, &After(AtomicUsize::new(looks)));
+        assert_eq!(answer.unwrap_err(), WorkspaceError::Cancelled);
+    }
+}
+
+#[test]
+fn requests_out_of_domain_are_refused() {
+    let machine = Machine::verne();
+    for (field, question) in [
+        ("tolerance", request(Kind::Platform, 0.0, 0.0, 0.0)),
+        ("tolerance", request(Kind::Platform, 0.0, 0.0, f64::NAN)),
+        ("tool_length", request(Kind::Tool, f64::INFINITY, 0.0, 1.0)),
+        ("phi1", request(Kind::Part, 0.0, f64::NAN, 1.0)),
+    ] {
+        let answer = surface(&machine, &question, &Unobserved);
+        assert_eq!(answer.unwrap_err(), WorkspaceError::OutOfDomain { field });
+    }
+}
