@@ -85,13 +85,15 @@ pub(crate) fn find_roots<const M: usize, C: Closure<M>>(closure: &C, range: f64,
     let (poly, magnitude) = closure.polynomial();
     isolate(&poly, NOISE * magnitude, range, &mut |site| match site {
         Site::Crossing { low, high, start } => add(found, alone(closure, &poly, [low, high], start)),
-        Site::Pair { low, high, at } => match sheet::either_side(closure, [low, high], at) {
-            Some(pair) => pair.into_iter().for_each(|root| add(found, root)),
-            None => {
-                add(found, alone(closure, &poly, [low, at], 0.5 * (low + at)));
-                add(found, alone(closure, &poly, [at, high], 0.5 * (at + high)));
+        Site::Pair { low, high, at } => {
+            let pair = sheet::either_side(closure, [low, high], at).unwrap_or_else(|| {
+                let left = alone(closure, &poly, [low, at], 0.5 * (low + at));
+                [left, alone(closure, &poly, [at, high], 0.5 * (at + high))]
+            });
+            for root in pair {
+                add(found, root);
             }
-        },
+        }
         Site::Touch { low, high, at } => touch::add_roots(closure, [low, high], at, found),
     });
 }
@@ -118,9 +120,9 @@ fn approached<const M: usize>(poly: &TrigPolynomial<M>, [mut low, mut high]: [f6
     for _ in 0..APPROACH {
         let jet = poly.at(a);
         if (jet.value < 0.0) == rising {
-            low = a
+            low = a;
         } else {
-            high = a
+            high = a;
         }
         let newton = a - jet.value / jet.slope;
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };

@@ -53,11 +53,11 @@ fn corrected(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
         let pose = PlatformPose { x: p.x - step[0], y: p.y - step[1], z: p.z - step[2], alpha };
         (errors_now, rods) = errors(machine, &pose, rho);
         let residual = worst(&errors_now);
-        // A NaN gains nothing either.
-        if !(residual < best.residual) {
+        if residual < best.residual {
+            best = Checked { pose, residual };
+        } else {
             break;
         }
-        best = Checked { pose, residual };
     }
     best
 }

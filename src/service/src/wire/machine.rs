@@ -5,7 +5,7 @@ use utoipa::ToSchema;
 use verne_solver::MachineData;
 use verne_solver::machine::{Geometry, Limits, Table};
 
-use super::degrees::{from_degrees, to_short_degrees};
+use super::degrees::{from_degrees, to_degrees};
 use super::numbers::{Axes, Exactly, Pair, PairPerSlider};
 use super::object::object;
 
@@ -161,12 +161,12 @@ impl From<&MachineData> for MachineObject {
             table: TableObject { da: data.table.da, dt: data.table.dt },
             limits: LimitsObject {
                 stroke: Exactly(l.stroke.map(Exactly)),
-                slider_cone: to_short_degrees(l.slider_cone),
-                platform_cone: to_short_degrees(l.platform_cone),
+                slider_cone: to_degrees(l.slider_cone),
+                platform_cone: to_degrees(l.platform_cone),
                 serial_margin: l.serial_margin,
                 parallel_margin: l.parallel_margin,
-                tilt: Exactly(l.tilt.map(to_short_degrees)),
-                rotary: Exactly(l.rotary.map(to_short_degrees)),
+                tilt: Exactly(l.tilt.map(to_degrees)),
+                rotary: Exactly(l.rotary.map(to_degrees)),
                 slider_axes: l.slider_axes.map(|axes| Exactly(axes.map(Exactly))),
                 platform_axes: l.platform_axes.map(|axes| Exactly(axes.map(Exactly))),
             },

@@ -9,7 +9,9 @@ const QUARTER: usize = 4;
 /// Nodes on the circle.
 pub(super) const NODES: usize = 4 * QUARTER;
 /// Angle between two nodes.
-pub(super) const STEP: f64 = 2.0 * PI / NODES as f64;
+pub(super) const STEP: f64 = 2.0 * PI / 16.0;
+
+const _: () = assert!(NODES == 16);
 
 /// cos and sin of the first quarter's nodes, (j + 1/2) STEP. Multiples follow by recurrence.
 const COS: [f64; QUARTER] =
@@ -38,6 +40,7 @@ const fn table() -> [[[f64; QUARTER]; 2]; 5] {
 }
 
 /// The angle of node `i`, from -π + STEP/2 upwards.
+#[allow(clippy::cast_precision_loss, reason = "i is below 16")]
 pub(super) fn node_angle(i: usize) -> f64 {
     (i as f64 + 0.5) * STEP - PI
 }
@@ -50,11 +53,11 @@ pub(super) fn node_angle(i: usize) -> f64 {
 pub(super) fn on_grid<const M: usize>(poly: &TrigPolynomial<M>) -> [f64; NODES] {
     // By parity of the degree: [cos even, cos odd, sin even, sin odd].
     let mut parts = [[0.0; QUARTER]; 4];
-    for n in 0..M {
+    for (n, [cos, sin]) in TABLE.iter().enumerate().take(M) {
         let odd = n & 1;
         for j in 0..QUARTER {
-            parts[odd][j] += poly.cos[n] * TABLE[n][0][j];
-            parts[2 + odd][j] += poly.sin[n] * TABLE[n][1][j];
+            parts[odd][j] += poly.cos[n] * cos[j];
+            parts[2 + odd][j] += poly.sin[n] * sin[j];
         }
     }
     let mut values = [0.0; NODES];

@@ -142,6 +142,19 @@ impl Arc {
         (left, Self { low: at, width: self.high() - at, value, slope })
     }
 
+    /// An arc of one curvature with a point of the other sign than its bend: a root at either side
+    /// where the end's sign differs.
+    fn show_crossed(&self, at: f64, jet: Jet, show: &mut impl FnMut(Site)) {
+        let (left, right) = self.split(at, jet);
+        match (left.crossing(), right.crossing()) {
+            (Some(_), Some(_)) => show(Site::Pair { low: self.low, high: self.high(), at }),
+            (one, other) => {
+                push(show, one);
+                push(show, other);
+            }
+        }
+    }
+
     fn crossing(&self) -> Option<Site> {
         let crosses = (self.value[0] < 0.0) != (self.value[1] < 0.0);
         crosses.then(|| Site::Crossing { low: self.low, high: self.high(), start: self.interpolated_root() })
@@ -211,7 +224,7 @@ impl<const M: usize> Search<'_, M> {
             at = low.0 + (high.0 - low.0) * part;
             let jet = self.poly.at(at);
             if jet.value * bent < -self.noise {
-                self.around_crossed(arc, at, jet, show);
+                arc.show_crossed(at, jet, show);
                 return;
             }
             // The curve lies on one side of its tangent, which is nearest to zero at a bracket's end.
@@ -226,19 +239,6 @@ impl<const M: usize> Search<'_, M> {
             }
         }
         show(Site::Touch { low: arc.low, high: arc.high(), at });
-    }
-
-    /// An arc of one curvature with a point of the other sign than its bend: a root at either side
-    /// where the end's sign differs.
-    fn around_crossed(&self, arc: &Arc, at: f64, jet: Jet, show: &mut impl FnMut(Site)) {
-        let (left, right) = arc.split(at, jet);
-        match (left.crossing(), right.crossing()) {
-            (Some(_), Some(_)) => show(Site::Pair { low: arc.low, high: arc.high(), at }),
-            (one, other) => {
-                push(show, one);
-                push(show, other);
-            }
-        }
     }
 
     fn halves(&self, arc: &Arc, show: &mut impl FnMut(Site)) {

@@ -99,9 +99,9 @@ fn sheet_extremum<const M: usize, C: Closure<M>>(
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if (on_sheet(closure, sheet, middle)?.slope < 0.0) == (first < 0.0) {
-            low = middle
+            low = middle;
         } else {
-            high = middle
+            high = middle;
         }
     }
     let extremum = 0.5 * (low + high);

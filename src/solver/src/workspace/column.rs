@@ -1,7 +1,7 @@
 //! One vertical column of the workspace: what (x, y) alone decides.
 //!
 //! The guideways are parallel to z, so alpha, the rods' directions and the sliders' distances
-//! f_i = z - rho_i are the same all along a column.
+//! `f_i` = z - `rho_i` are the same all along a column.
 
 use crate::inverse::first_leg::{FirstLeg, LegAngle};
 use crate::machine::Machine;
@@ -19,7 +19,7 @@ pub(super) struct Column {
     pub(super) square: [f64; 3],
     /// The drops, with the sign of their squares, mm.
     pub(super) w: [f64; 3],
-    /// f_i = z - rho_i, mm.
+    /// `f_i` = z - `rho_i`, mm.
     pub(super) f: [f64; 3],
 }
 

@@ -19,7 +19,7 @@ pub(super) const LIMITS: usize = 24;
 pub(super) const STROKES: usize = 16;
 /// First of the two limits that stem from the table.
 pub(super) const TILT: usize = 22;
-/// Pairs of sliders (i, j): z_hi of slider i over z_lo of slider j.
+/// Pairs of sliders (i, j): `z_hi` of slider i over `z_lo` of slider j.
 const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
 const RODS: [u8; 4] = [11, 12, 21, 31];
 
@@ -140,14 +140,14 @@ impl<'a> Domain<'a> {
         if end == 0 { half + off } else { half - off }
     }
 
-    /// The lowest z of each slider's stroke at this column; their maximum is z_lo.
+    /// The lowest z of each slider's stroke at this column; their maximum is `z_lo`.
     #[inline]
     pub(super) fn lows(&self, column: &Column) -> [f64; 3] {
         let stroke = &self.machine.limits().stroke;
         std::array::from_fn(|i| stroke[i][0] + column.f[i])
     }
 
-    /// The highest z of each slider's stroke at this column; their minimum is z_hi.
+    /// The highest z of each slider's stroke at this column; their minimum is `z_hi`.
     #[inline]
     pub(super) fn highs(&self, column: &Column) -> [f64; 3] {
         let stroke = &self.machine.limits().stroke;
@@ -162,13 +162,13 @@ impl<'a> Domain<'a> {
 
     /// The slider whose end of stroke is the sheet; the first of equal ones.
     #[inline]
-    pub(super) fn binding_slider(&self, [a, b, c]: [f64; 3], upper: bool) -> usize {
+    pub(super) fn binding_slider([a, b, c]: [f64; 3], upper: bool) -> usize {
         let before = |a: f64, b: f64| if upper { a < b } else { a > b };
         let (first, height) = if before(b, a) { (1, b) } else { (0, a) };
         if before(c, height) { 2 } else { first }
     }
 
-    /// z_lo and z_hi, or twice the height at which a slice meets the column.
+    /// `z_lo` and `z_hi`, or twice the height at which a slice meets the column.
     #[inline]
     pub(super) fn ends(&self, column: &Column) -> [f64; 2] {
         if let Some(height) = self.height {

@@ -1,6 +1,6 @@
 //! Volume and area by integration over the plane domain.
 //!
-//! V = ∬ (z_hi - z_lo)(j0 + j1 (z_hi + z_lo)/2), where j0 + j1 z is the Jacobian determinant of the
+//! V = ∬ (`z_hi` - `z_lo`)(j0 + j1 (`z_hi` + `z_lo`)/2), where j0 + j1 z is the Jacobian determinant of the
 //! kind's map. The inner integral runs over the exactly found intervals of a line x = const, cut
 //! where another slider begins to bind; the outer one over panels between the x at which the
 //! line's structure changes. There the inner integral goes like a square root, which the
@@ -77,6 +77,6 @@ impl Measure {
         let jacobian = extremes.jacobian;
         let folded = jacobian.is_some_and(|[least, greatest]| least < 0.0 && greatest > 0.0);
         let volume = if folded { Volume::Folded } else { Volume::Value { value: signed.abs(), error } };
-        Self { volume, area, area_error, jacobian, inclination: extremes.inclination }
+        Self { volume, area, area_error, jacobian, inclination: extremes.sine.map(f64::asin) }
     }
 }

@@ -64,8 +64,7 @@ impl Request {
     pub(super) fn check(&self) -> Result<(), WorkspaceError> {
         let numbers = [("tool_length", self.tool_length), ("phi1", self.phi1), ("phi2", self.phi2)];
         for (field, number) in numbers {
-            // Not a number compares false.
-            if !(number.abs() <= DOMAIN) {
+            if number.is_nan() || number.abs() > DOMAIN {
                 return Err(WorkspaceError::OutOfDomain { field });
             }
         }

@@ -6,7 +6,7 @@ use verne_solver::{Machine, Margins, platform_working};
 /// Where a column is looked at: every z serves but for the strokes.
 const Z: f64 = 1_000.0;
 
-/// z_lo and z_hi at (x, y), if the column exists.
+/// `z_lo` and `z_hi` at (x, y), if the column exists.
 pub(crate) fn column(machine: &Machine, x: f64, y: f64) -> Option<[f64; 2]> {
     let posture = platform_working(machine, [x, y, Z]).ok()?;
     let mut margins = Margins::of(machine, &posture, None);

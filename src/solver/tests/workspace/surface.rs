@@ -27,7 +27,8 @@ fn open_edges(surface: &Surface) -> usize {
 }
 
 fn euler(surface: &Surface) -> i64 {
-    let (vertices, triangles) = (surface.positions.len() as i64, surface.triangles.len() as i64);
+    let [vertices, triangles] =
+        [surface.positions.len(), surface.triangles.len()].map(|count| i64::try_from(count).unwrap());
     vertices - triangles * 3 / 2 + triangles
 }
 

@@ -19,7 +19,8 @@ const ACCURACY: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Extremes {
     pub(super) jacobian: Option<[f64; 2]>,
-    pub(super) inclination: Option<f64>,
+    /// Greatest |sin alpha|.
+    pub(super) sine: Option<f64>,
 }
 
 impl Extremes {
@@ -28,13 +29,13 @@ impl Extremes {
             let [least, greatest] = self.jacobian.unwrap_or([det; 2]);
             self.jacobian = Some([least.min(det), greatest.max(det)]);
         }
-        let angle = column.alpha().abs();
-        self.inclination = Some(self.inclination.map_or(angle, |a| a.max(angle)));
+        let sine = column.s.abs();
+        self.sine = Some(self.sine.map_or(sine, |most| most.max(sine)));
     }
 }
 
 /// What a line's integrals are made of: the limits that end its intervals, and the sliders that
-/// bind z_lo and z_hi along each. Between lines of equal structure the integrals are smooth in x.
+/// bind `z_lo` and `z_hi` along each. Between lines of equal structure the integrals are smooth in x.
 pub(super) type Structure = Vec<([Option<usize>; 2], Vec<[usize; 2]>)>;
 
 /// A line and its feasible intervals, cut where another slider binds.
@@ -60,9 +61,9 @@ impl<'a> Line<'a> {
         found
     }
 
-    /// The sliders that bind z_lo and z_hi.
+    /// The sliders that bind `z_lo` and `z_hi`.
     fn sliders(&self, column: &Column) -> [usize; 2] {
-        [false, true].map(|upper| self.domain.binding_slider(self.domain.sheet(column, upper), upper))
+        [false, true].map(|upper| Domain::binding_slider(self.domain.sheet(column, upper), upper))
     }
 
     /// Calls `at` with each y between two columns at which another slider begins to bind, and the

@@ -79,7 +79,7 @@ pub(super) fn drawn(domain: &Domain<'_>, curve: usize, [a, b]: [[f64; 2]; 2], pa
             break;
         }
         let next = here - fh * (here - before) / (fh - fb);
-        if !(next.abs() <= FAR) {
+        if next.is_nan() || next.abs() > FAR {
             break;
         }
         let step = (next - here).abs();

@@ -2,7 +2,7 @@
 
 use super::super::domain::Domain;
 use super::super::request::WorkspaceError;
-use super::patch::{Patch, Rim, Table, Triangle, Vertex, key};
+use super::patch::{Patch, Rim, Set, Table, Triangle, Vertex, key};
 use super::site::Site;
 use super::{Lattice, Plane};
 
@@ -46,18 +46,15 @@ fn number(n: usize) -> u32 {
 
 /// The sides that have the domain on their left only.
 fn outer(rims: Vec<Rim>) -> Vec<Rim> {
-    let mut directed: Table<[u32; 2], ()> = Table::default();
-    for rim in &rims {
-        directed.insert(rim.ends, ());
-    }
-    rims.into_iter().filter(|Rim { ends: [a, b], .. }| !directed.contains_key(&[*b, *a])).collect()
+    let directed: Set<[u32; 2]> = rims.iter().map(|rim| rim.ends).collect();
+    rims.into_iter().filter(|Rim { ends: [a, b], .. }| !directed.contains(&[*b, *a])).collect()
 }
 
 impl Plane {
     /// An inner edge between two points at which the sheets meet would belong to both sheets: it
     /// is halved, and its middle is a vertex of each.
     fn part_sheets(&mut self, domain: &Domain<'_>) {
-        let rims: Table<[u32; 2], ()> = self.rims.iter().map(|rim| (rim.ends, ())).collect();
+        let rims: Set<[u32; 2]> = self.rims.iter().map(|rim| rim.ends).collect();
         let mut middles: Table<[u32; 2], u32> = Table::default();
         let mut numbers: Vec<usize> = (0..self.triangles.len()).collect();
         // A triangle may have several such edges: its parts are looked at again.
@@ -65,7 +62,7 @@ impl Plane {
             let corners = self.triangles[which].corners;
             let side = (0..3).find(|&i| {
                 let ends = [corners[i], corners[(i + 1) % 3]];
-                ends.iter().all(|&end| self.vertices[end as usize].pinched) && !rims.contains_key(&ends)
+                ends.iter().all(|&end| self.vertices[end as usize].pinched) && !rims.contains(&ends)
             });
             let Some(i) = side else { continue };
             let [a, b, c] = [0, 1, 2].map(|n| corners[(i + n) % 3]);

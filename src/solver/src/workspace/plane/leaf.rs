@@ -85,7 +85,7 @@ impl<'a> Leaf<'a> {
             if elsewhere || !piece.iter().any(negative) {
                 pieces.push(piece);
             } else if piece.iter().any(|&site| self.sites[site].values[curve] > 0.0) {
-                self.divide(curve, piece, keep, &mut pieces);
+                self.divide(curve, &piece, keep, &mut pieces);
             } else if keep {
                 pieces.push(piece);
             }
@@ -100,7 +100,7 @@ impl<'a> Leaf<'a> {
     }
 
     /// Divides a piece along a curve that crosses it.
-    fn divide(&mut self, curve: usize, piece: Piece, keep: bool, pieces: &mut Vec<Piece>) {
+    fn divide(&mut self, curve: usize, piece: &[usize], keep: bool, pieces: &mut Vec<Piece>) {
         let mut ring = Piece::with_capacity(piece.len() + 4);
         for (i, &a) in piece.iter().enumerate() {
             let b = piece[(i + 1) % piece.len()];

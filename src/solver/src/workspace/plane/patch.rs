@@ -1,6 +1,6 @@
 //! What the work on one part of the plane leaves behind.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 
 use super::super::domain::Domain;
@@ -39,6 +39,7 @@ impl Hasher for Mixer {
     }
 }
 
+pub(super) type Set<K> = HashSet<K, BuildHasherDefault<Mixer>>;
 pub(super) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
 
 /// A vertex of the plane and its column's ends in the image.

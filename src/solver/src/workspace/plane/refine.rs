@@ -34,6 +34,8 @@ enum Edge {
     Halved,
 }
 
+use Edge::{Halved, Kept};
+
 pub(super) struct Refinement<'a> {
     pub(super) domain: &'a Domain<'a>,
     pub(super) tolerance: f64,
@@ -54,7 +56,6 @@ impl Refinement<'_> {
         ];
         let [ab, bc, ca] = [0, 1, 2].map(|i| self.edge(corners[i], &middles[i], corners[(i + 1) % 3]));
         let [m, n, o] = &middles;
-        use Edge::{Halved, Kept};
         match (ab, bc, ca) {
             (Kept, Kept, Kept) => {
                 go_on(self.observer)?;
@@ -82,8 +83,7 @@ impl Refinement<'_> {
         let ([ax, ay], [bx, by], [cx, cy]) = (a.at(), b.at(), c.at());
         let area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
         let longest = length(a, b).max(length(b, c)).max(length(c, a));
-        // Not a number counts as thin.
-        !(area > THIN * self.tolerance * longest)
+        area.is_nan() || area <= THIN * self.tolerance * longest
     }
 
     /// Cuts a triangle as it is, with the points that its neighbours will have on its edges.
@@ -168,7 +168,7 @@ impl Refinement<'_> {
         let slopes = columns[1].drop_rates(self.domain.machine, rates);
         [true, false].into_iter().any(|upper| {
             let sheets = columns.map(|column| self.domain.sheet(column, upper));
-            let binding = sheets.map(|heights| self.domain.binding_slider(heights, upper));
+            let binding = sheets.map(|heights| Domain::binding_slider(heights, upper));
             (0..3).filter(|slider| binding.contains(slider)).any(|slider| {
                 let z = sheets.map(|heights| heights[slider]);
                 let image = |i: usize| self.domain.image.point(columns[i], z[i]);
