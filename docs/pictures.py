@@ -38,7 +38,7 @@ def read(path):
 def seams(corners, tags):
     """The edges between two tags."""
     edges = {}
-    for triangle, tag in zip(np.round(corners, 2), tags):
+    for triangle, tag in zip(np.round(corners, 1), tags):
         for a, b in ((0, 1), (1, 2), (2, 0)):
             edges.setdefault(frozenset((tuple(triangle[a]), tuple(triangle[b]))), []).append(tag)
     return [sorted(edge) for edge, sides in edges.items() if len(set(sides)) > 1 and len(edge) == 2]
@@ -60,7 +60,7 @@ def draw(path, picture):
     light = 0.62 + 0.38 * np.clip(normals @ LIGHT, 0, 1)
     colours = paint[tags] * light[:, None]
 
-    figure = plt.figure(figsize=(7.6, 5.6), dpi=105)
+    figure = plt.figure(figsize=(7.6, 5.6), dpi=98)
     axes = figure.add_axes((-0.04, 0.0, 0.78, 1.0), projection="3d", proj_type="ortho", computed_zorder=False)
     axes.add_collection3d(Poly3DCollection(corners[seen], facecolors=colours[seen], edgecolors=colours[seen], linewidths=0.3))
     outline = seams(corners[seen], tags[seen])
@@ -80,9 +80,10 @@ def draw(path, picture):
     axes.tick_params(labelsize=7)
     axes.set_box_aspect(greatest - least, zoom=0.95)
     axes.view_init(ELEVATION, AZIMUTH)
+    invented = "; dimensions invented" if about["machine"]["name"] == "verne" else ""
     request = ", ".join(f"{name} {value:g}" for name, value in about["request"].items() if name != "kind")
     figure.text(0.03, 0.95, f"{about['kind'].capitalize()} workspace of “{about['machine']['name']}”", fontsize=12)
-    figure.text(0.03, 0.915, f"{request}; {len(corners)} triangles; dimensions invented", fontsize=8, color="#555555")
+    figure.text(0.03, 0.915, f"{request}; {len(corners)} triangles{invented}", fontsize=8, color="#555555")
     patches = [Patch(facecolor=colour, label=swatch["name"].replace("_", " ")) for colour, swatch in zip(paint, palette)]
     figure.legend(handles=patches, loc="center right", fontsize=7.5, frameon=False, title="limited by", title_fontsize=9)
     figure.savefig(picture)
