@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Of this domain an edge runs along the grid's columns: these were swept at random places in 900² cells.
     let thick = changed(|data| data.geometry.rod_radius = 60.0)?;
     let thick = of(&thick, Kind::Platform, 0.0, 0.0)?;
-    print("V_platform, rod_radius 60, mm³", volume(&thick), 2.104444e8);
+    print("V_platform, rod_radius 60, mm³", volume(&thick), 2.104_444e8);
     print("area of A, rod_radius 60, mm²", (thick.area, thick.area_error), 558_150.0);
     let short = changed(|data| data.limits.stroke = [[100.0, 400.0]; 3])?;
     print("V_platform, strokes [100, 400], mm³", volume(&of(&short, Kind::Platform, 0.0, 0.0)?), 2.10792e7);

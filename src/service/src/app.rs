@@ -41,6 +41,9 @@ pub fn document() -> Value {
     openapi::complete(router::routes().get_openapi())
 }
 
+/// The document as it is sent. It is the same for every service: its examples are computed once.
+static DOCUMENT: OnceLock<Bytes> = OnceLock::new();
+
 /// The whole service, ready for requests.
 pub fn service(config: &ServeConfig) -> Result<Router, StartError> {
     let mut machines = Registry::default();
@@ -48,8 +51,6 @@ pub fn service(config: &ServeConfig) -> Result<Router, StartError> {
         machines.publish_directory(directory).map_err(StartError::Machine)?;
     }
     let (routes, api) = router::routes().split_for_parts();
-    // The same for every service: its examples are computed once.
-    static DOCUMENT: OnceLock<Bytes> = OnceLock::new();
     let document = DOCUMENT.get_or_init(|| Bytes::from(openapi::complete(&api).to_string())).clone();
     let results = Results::within(config.cache_bytes);
     let state = State { machines, limits: config.limits(), results, openapi: document };

@@ -89,7 +89,7 @@ async fn another_machine_has_another_id_and_its_name() {
     let thick = ask(&service, json!({"machine": machine})).await.json;
     // 900² columns at random places in their cells: regular ones would count an edge that runs along them wholly or
     // not at all.
-    assert_close(&thick["volume"], 2.104444e8, 1e-5);
+    assert_close(&thick["volume"], 2.104_444e8, 1e-5);
     assert_close(&thick["area"], 558_150.0, 5e-5);
 }
 

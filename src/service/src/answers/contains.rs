@@ -8,12 +8,16 @@ use super::batch_rows::{CHUNK, EXPLAINED, read_row};
 use super::workspace_question::{WorkspaceQuestion, workspace_error};
 use crate::error::Error;
 use crate::state::State;
+use crate::wire::answer::MachineId;
 use crate::wire::batch::RowError;
 use crate::wire::contains::{ContainsAnswer, ContainsCounts, ContainsRequest};
 use crate::wire::json::write_json;
 use crate::wire::limit::Limit;
 use crate::wire::parse::parse_body;
 use crate::wire::workspace::WorkspaceRequest;
+
+/// Membership needs no tolerance; any one that is allowed will do.
+const COARSE: f64 = 1000.0;
 
 /// About the bytes of an answered point.
 const POINT_BYTES: usize = 96;
@@ -25,7 +29,6 @@ pub(crate) fn answer_contains(body: &[u8], state: &State, observer: &dyn Observe
     if rows > limit {
         return Err(Error::TooManyRows { rows, limit });
     }
-    // Membership needs no tolerance; any one that is allowed will do.
     let ContainsRequest { machine, kind, tool_length, phi1, phi2, points } = asked;
     let whole = WorkspaceRequest { machine, kind, tool_length, phi1, phi2, tolerance: COARSE };
     let question = WorkspaceQuestion::new(&whole, &state.machines)?;
@@ -37,16 +40,7 @@ pub(crate) fn answer_contains(body: &[u8], state: &State, observer: &dyn Observe
     let good: Vec<Point> = read.iter().flatten().copied().collect();
     let request = Request::from(&question.request);
     let found = contains(&question.published.machine, &request, &good, observer).map_err(workspace_error)?;
-    let mut answer = ContainsAnswer {
-        machine: question.published.id.clone(),
-        inside: Vec::with_capacity(rows),
-        margin: Vec::with_capacity(rows),
-        unit: Vec::with_capacity(rows),
-        constraint: Vec::with_capacity(rows),
-        element: Vec::with_capacity(rows),
-        counts: ContainsCounts::default(),
-        errors: Vec::new(),
-    };
+    let mut answer = ContainsAnswer::with_room(question.published.id.clone(), rows);
     let mut found = found.into_iter();
     for point in read {
         match point {
@@ -57,9 +51,20 @@ pub(crate) fn answer_contains(body: &[u8], state: &State, observer: &dyn Observe
     write_json(&answer, POINT_BYTES * rows)
 }
 
-const COARSE: f64 = 1000.0;
-
 impl ContainsAnswer {
+    fn with_room(machine: MachineId, points: usize) -> Self {
+        Self {
+            machine,
+            inside: Vec::with_capacity(points),
+            margin: Vec::with_capacity(points),
+            unit: Vec::with_capacity(points),
+            constraint: Vec::with_capacity(points),
+            element: Vec::with_capacity(points),
+            counts: ContainsCounts::default(),
+            errors: Vec::new(),
+        }
+    }
+
     fn add(&mut self, membership: Membership) {
         *(if membership.inside { &mut self.counts.inside } else { &mut self.counts.outside }) += 1;
         self.push(Some(membership.inside), membership.margin.map(Limit::from));

@@ -1,5 +1,7 @@
 //! Writes a workspace's mesh in a format.
 
+use std::fmt::Write;
+
 use serde_json::Value;
 use verne_mesh::{glb, json, ply, stl};
 
@@ -51,9 +53,10 @@ fn comments(about: &Value) -> String {
         .into_iter()
         .flatten()
         .filter(|(name, _)| !["unit", "constraints"].contains(&name.as_str()));
-    lines
-        .map(|(name, value)| {
-            format!("{name} {}\n", value.as_str().map_or_else(|| value.to_string(), str::to_owned))
-        })
-        .collect()
+    lines.fold(String::new(), |mut comments, (name, value)| {
+        let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        // Writing to a string cannot fail.
+        let _ = writeln!(comments, "{name} {text}");
+        comments
+    })
 }
