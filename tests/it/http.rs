@@ -6,12 +6,17 @@ mod kinematics;
 mod machines;
 mod part_frame;
 mod transport;
+mod workspace;
+mod workspace_contains;
+mod workspace_delivery;
+mod workspace_files;
+mod workspace_slices;
 
 use std::path::PathBuf;
 
 use axum::Router;
 use axum::body::Body;
-use axum::http::{HeaderMap, Method, Request, StatusCode, header};
+use axum::http::{HeaderMap, HeaderName, Method, Request, StatusCode, header};
 use http_body_util::BodyExt;
 use serde_json::Value;
 use tower::ServiceExt;
@@ -33,6 +38,7 @@ pub(crate) fn config(machines: Option<PathBuf>) -> ServeConfig {
         machines,
         max_body_bytes: 1024 * 1024,
         max_rows: 2_000,
+        cache_bytes: 64 * 1024 * 1024,
         timeout: 30,
     }
 }
@@ -63,6 +69,15 @@ pub(crate) async fn get(uri: &str) -> Reply {
 /// POST of a JSON text, which may be no JSON at all.
 pub(crate) async fn post(uri: &str, body: impl ToString) -> Reply {
     send(json_request(Method::POST, uri, body)).await
+}
+
+/// GET of a service, with headers.
+pub(crate) async fn get_from(service: &Router, uri: &str, headers: &[(HeaderName, &str)]) -> Reply {
+    let mut request = Request::get(uri);
+    for (name, value) in headers {
+        request = request.header(name, *value);
+    }
+    send_to(service.clone(), request.body(Body::empty()).unwrap()).await
 }
 
 /// A request with a JSON body.

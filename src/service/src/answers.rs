@@ -1,15 +1,26 @@
 //! From typed questions to typed answers: what handlers and the command line share.
 
 mod batch_rows;
+mod contains;
 mod forward;
 mod forward_batch;
 mod inverse;
 mod inverse_batch;
 mod near;
 mod orientation;
+mod slice;
 mod solutions;
+mod workspace;
+mod workspace_colours;
+mod workspace_files;
+mod workspace_question;
 
+pub(crate) use contains::answer_contains;
 pub(crate) use forward::answer_fk;
 pub(crate) use forward_batch::answer_fk_batch;
 pub(crate) use inverse::answer_ik;
 pub(crate) use inverse_batch::answer_ik_batch;
+pub(crate) use slice::answer_slice;
+pub(crate) use workspace::{Workspace, compute_workspace};
+pub(crate) use workspace_files::write_mesh;
+pub(crate) use workspace_question::WorkspaceQuestion;

@@ -1,7 +1,7 @@
 //! Puts the service together, and runs it until it is told to stop.
 
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use axum::Router;
@@ -12,6 +12,7 @@ use utoipa_swagger_ui::{Config, SwaggerUi};
 
 use crate::config::ServeConfig;
 use crate::registry::{BadFile, Registry};
+use crate::results::Results;
 use crate::state::State;
 use crate::{layers, openapi, router};
 
@@ -47,8 +48,11 @@ pub fn service(config: &ServeConfig) -> Result<Router, StartError> {
         machines.publish_directory(directory).map_err(StartError::Machine)?;
     }
     let (routes, api) = router::routes().split_for_parts();
-    let document = openapi::complete(&api).to_string();
-    let state = State { machines, limits: config.limits(), openapi: Bytes::from(document) };
+    // The same for every service: its examples are computed once.
+    static DOCUMENT: OnceLock<Bytes> = OnceLock::new();
+    let document = DOCUMENT.get_or_init(|| Bytes::from(openapi::complete(&api).to_string())).clone();
+    let results = Results::within(config.cache_bytes);
+    let state = State { machines, limits: config.limits(), results, openapi: document };
     let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
     let routes = routes.with_state(Arc::new(state)).merge(docs);
     Ok(layers::wrap(routes, Duration::from_secs(config.timeout)))

@@ -1,8 +1,11 @@
 //! The command line.
 
+mod progress;
 mod question;
+mod workspace;
 
 use question::Question;
+use workspace::WorkspaceCommand;
 
 use std::io::{Write, stderr};
 
@@ -12,7 +15,7 @@ use tracing_subscriber::EnvFilter;
 use crate::app;
 use crate::config::ServeConfig;
 
-/// Kinematics of the VERNE five-axis hybrid machine's architecture: every solution, over HTTP and here.
+/// Kinematics and workspaces of the VERNE five-axis hybrid machine's architecture, over HTTP and here.
 ///
 /// Without a command: serve. Lengths in mm, angles in degrees; z points down. The built-in machine `verne` has
 /// invented dimensions that reproduce the counts printed in arXiv:0707.3507; they are not Fatronik's.
@@ -29,6 +32,8 @@ pub struct Cli {
 enum Command {
     /// Serve over HTTP.
     Serve(ServeConfig),
+    /// A workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
+    Workspace(WorkspaceCommand),
     #[command(flatten)]
     Ask(Question),
 }
@@ -38,6 +43,7 @@ impl Cli {
     pub fn run(self, out: &mut impl Write, pretty: bool) -> Result<(), String> {
         match self.command.unwrap_or(Command::Serve(self.serve)) {
             Command::Serve(config) => serve(&config),
+            Command::Workspace(command) => command.run(out, pretty),
             Command::Ask(question) => {
                 let answer = question.answer(pretty)?;
                 writeln!(out, "{answer}").map_err(|error| format!("cannot write the answer: {error}"))

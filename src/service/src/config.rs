@@ -22,6 +22,9 @@ pub struct ServeConfig {
     /// Most rows in a batch.
     #[arg(long, env = "VERNE_MAX_ROWS", default_value_t = 100_000)]
     pub max_rows: usize,
+    /// Most bytes of workspaces, meshes included, that are kept in memory.
+    #[arg(long, env = "VERNE_CACHE_BYTES", default_value_t = 256 * 1024 * 1024)]
+    pub cache_bytes: u64,
     /// Seconds after which a request is given up.
     #[arg(long, env = "VERNE_TIMEOUT", default_value_t = 30, value_name = "SECONDS")]
     pub timeout: u64,

@@ -40,6 +40,12 @@ pub(crate) enum Error {
     },
     /// No machine is published under this name.
     NoSuchMachine(String),
+    /// No workspace is kept under this id.
+    NoSuchWorkspace(String),
+    /// None of the media types that Accept names can be had; these can.
+    NotAcceptable(Vec<&'static str>),
+    /// The range starts beyond the end of so many bytes.
+    RangeNotSatisfiable(u64),
     /// Nothing lives at this path.
     NoSuchPath,
     /// The answer took longer than the time allowed.
@@ -67,6 +73,18 @@ impl fmt::Display for Error {
             }
             Self::NoSuchMachine(name) => {
                 write!(f, "No machine is published as {name:?}; GET /machines lists them.")
+            }
+            Self::NoSuchWorkspace(id) => {
+                write!(
+                    f,
+                    "No workspace is kept as {id:?} (any more): ask /workspace again, the id will be the same."
+                )
+            }
+            Self::NotAcceptable(media) => {
+                write!(f, "Accept names nothing that can be had here: {}.", media.join(", "))
+            }
+            Self::RangeNotSatisfiable(length) => {
+                write!(f, "The range starts beyond the end: there are {length} bytes.")
             }
             Self::NoSuchPath => write!(f, "Nothing lives at this path; GET /openapi.json lists what does."),
             Self::TimedOut => write!(f, "The answer took longer than the time allowed."),

@@ -3,10 +3,13 @@
 use std::time::Duration;
 
 use axum::Router;
+use axum::body::HttpBody;
+use axum::http::header::ETAG;
 use axum::http::{Request, Response, StatusCode};
 use tower::ServiceBuilder;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
+use tower_http::compression::predicate::{DefaultPredicate, Predicate};
 use tower_http::cors::{Any, CorsLayer};
 use tower_http::request_id::{MakeRequestUuid, PropagateRequestIdLayer, SetRequestIdLayer};
 use tower_http::timeout::TimeoutLayer;
@@ -24,11 +27,21 @@ pub(crate) fn wrap(routes: Router, time_limit: Duration) -> Router {
             .layer(TraceLayer::new_for_http().make_span_with(span).on_response(report).on_failure(()))
             .layer(PropagateRequestIdLayer::x_request_id())
             .layer(open_to_browsers())
-            .layer(CompressionLayer::new())
+            .layer(CompressionLayer::new().compress_when(DefaultPredicate::new().and(Untagged)))
             .map_response(give_every_failure_a_document)
             .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, time_limit))
             .layer(CatchPanicLayer::new()),
     )
+}
+
+/// A strong ETag promises these very bytes, and ranges count them: what carries one is sent as it is.
+#[derive(Clone, Copy)]
+struct Untagged;
+
+impl Predicate for Untagged {
+    fn should_compress<B: HttpBody>(&self, response: &Response<B>) -> bool {
+        !response.headers().contains_key(ETAG)
+    }
 }
 
 /// The service keeps no secrets and no state of its callers: any page may ask.

@@ -1,4 +1,4 @@
-//! The verne service: kinematics of the VERNE machine's architecture over HTTP and on the command line.
+//! The verne service: kinematics and workspaces of the VERNE machine's architecture over HTTP and on the command line.
 //!
 //! Dependencies point one way: main → cli → app → router → handlers → answers → wire, state, error.
 
@@ -6,15 +6,19 @@ mod answers;
 pub mod app;
 pub mod cli;
 pub mod config;
+mod delivery;
+mod drawing;
 mod error;
 mod extract;
 mod faults;
 mod handlers;
 mod layers;
 mod machine_hash;
+mod negotiation;
 mod openapi;
 mod problem;
 mod registry;
+mod results;
 mod router;
 mod state;
 mod wire;

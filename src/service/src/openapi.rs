@@ -1,5 +1,6 @@
 //! The OpenAPI document: what the handlers say, completed with examples that the solver answers.
 
+pub(crate) mod binary;
 mod examples;
 mod inlined;
 pub(crate) mod machine_schema;
@@ -15,8 +16,9 @@ use crate::problem::Problem;
 #[openapi(
     info(
         title = "verne",
-        description = "Kinematics of the VERNE five-axis hybrid machine's architecture (arXiv:0707.3507): every forward \
-            and inverse solution, labelled, with signed margins to every limit.\n\n\
+        description = "Kinematics and workspaces of the VERNE five-axis hybrid machine's architecture \
+            (arXiv:0707.3507): every forward and inverse solution, labelled, with signed margins to every limit; \
+            workspaces as volumes, watertight meshes, slices and membership.\n\n\
             **Units**: lengths in mm, angles in degrees; z points down in the base frame. Field names are the paper's.\n\n\
             **Machines**: named, or whole in the request. The built-in machine `verne` has invented, round dimensions \
             that reproduce the counts printed in the paper; they are not Fatronik's, which the paper does not give. \
@@ -28,12 +30,13 @@ use crate::problem::Problem;
             root of the sum of squares of lengths in mm and of angles as arcs of radius R1.\n\n\
             **Failures** are `application/problem+json` (RFC 9457) with a stable `code`, all of them: `bad_json`, \
             `bad_request`, `invalid_request`, `machine_not_found`, `not_found`, `method_not_allowed`, `body_too_large`, \
-            `too_many_rows`, `unsupported_media_type`, `timed_out`, `internal`. Bad fields are listed in `errors` with \
+            `too_many_rows`, `unsupported_media_type`, `workspace_not_found`, `not_acceptable`, `range_not_satisfiable`, `timed_out`, `internal`. Bad fields are listed in `errors` with \
             a JSON Pointer into the body, or `/query/<name>`. Unknown and repeated fields are refused."
     ),
     servers((url = "/", description = "This service.")),
     tags(
         (name = "kinematics", description = "From joints to poses and back."),
+        (name = "workspace", description = "Where the machine can go."),
         (name = "machines", description = "Machines that requests may name."),
         (name = "service", description = "The service itself.")
     ),

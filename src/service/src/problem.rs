@@ -4,6 +4,7 @@ use axum::BoxError;
 use axum::body::{Body, Bytes, HttpBody};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use headers::{ContentRange, HeaderMapExt};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -57,6 +58,9 @@ fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
         Error::BodyTooLarge(_) => (StatusCode::PAYLOAD_TOO_LARGE, "body_too_large"),
         Error::TooManyRows { .. } => (StatusCode::PAYLOAD_TOO_LARGE, "too_many_rows"),
         Error::NoSuchMachine(_) => (StatusCode::NOT_FOUND, "machine_not_found"),
+        Error::NoSuchWorkspace(_) => (StatusCode::NOT_FOUND, "workspace_not_found"),
+        Error::NotAcceptable(_) => (StatusCode::NOT_ACCEPTABLE, "not_acceptable"),
+        Error::RangeNotSatisfiable(_) => (StatusCode::RANGE_NOT_SATISFIABLE, "range_not_satisfiable"),
         Error::NoSuchPath => (StatusCode::NOT_FOUND, "not_found"),
         Error::MethodNotAllowed => (StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed"),
         Error::TimedOut => (StatusCode::SERVICE_UNAVAILABLE, "timed_out"),
@@ -105,7 +109,12 @@ impl IntoResponse for Problem {
 
 impl IntoResponse for Error {
     fn into_response(self) -> Response {
-        Problem::from(self).into_response()
+        let length = if let Self::RangeNotSatisfiable(length) = self { Some(length) } else { None };
+        let mut response = Problem::from(self).into_response();
+        if let Some(length) = length {
+            response.headers_mut().typed_insert(ContentRange::unsatisfied_bytes(length));
+        }
+        response
     }
 }
 

@@ -4,7 +4,7 @@ use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use crate::handlers::{batch, kinematics, machines, service};
+use crate::handlers::{batch, contains, kinematics, machines, service, workspace, workspace_results};
 use crate::openapi::Document;
 use crate::state::Shared;
 
@@ -15,6 +15,11 @@ pub(crate) fn routes() -> OpenApiRouter<Shared> {
         .routes(routes!(kinematics::get_ik, kinematics::post_ik))
         .routes(routes!(batch::fk_batch))
         .routes(routes!(batch::ik_batch))
+        .routes(routes!(workspace::get_workspace, workspace::post_workspace))
+        .routes(routes!(contains::post_contains))
+        .routes(routes!(workspace_results::get_summary))
+        .routes(routes!(workspace_results::get_mesh))
+        .routes(routes!(workspace_results::get_slice))
         .routes(routes!(machines::get_machines))
         .routes(routes!(machines::get_machine_schema))
         .routes(routes!(machines::get_machine))

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use axum::body::Bytes;
 
 use crate::registry::Registry;
+use crate::results::Results;
 
 /// The largest requests that are answered.
 #[derive(Clone, Copy, Debug)]
@@ -15,13 +16,15 @@ pub(crate) struct RequestLimits {
     pub rows: usize,
 }
 
-/// Shared, immutable state.
+/// Shared state; only the results change.
 #[derive(Debug)]
 pub(crate) struct State {
     /// The published machines.
     pub machines: Registry,
     /// The largest requests that are answered.
     pub limits: RequestLimits,
+    /// The workspaces computed so far.
+    pub results: Results,
     /// The OpenAPI document, as it is sent.
     pub openapi: Bytes,
 }

@@ -17,7 +17,7 @@ pub(super) const CHUNK: usize = 64;
 pub(super) const ROW_BYTES: usize = 192;
 
 /// How many bad rows are explained.
-const EXPLAINED: usize = 100;
+pub(super) const EXPLAINED: usize = 100;
 
 /// How one row fares.
 #[derive(Debug)]

@@ -40,7 +40,8 @@ impl Question {
     }
 }
 
-fn written(answer: &impl Serialize, pretty: bool) -> Result<String, String> {
+/// JSON, with line breaks for people or without.
+pub(super) fn written(answer: &impl Serialize, pretty: bool) -> Result<String, String> {
     let text = if pretty { serde_json::to_string_pretty(answer) } else { serde_json::to_string(answer) };
     text.map_err(|error| error.to_string())
 }
@@ -64,7 +65,7 @@ fn ik(query: IkQuery) -> Result<Answer, String> {
 }
 
 /// A machine's name, or the path of its file.
-fn machine(name: &str) -> Result<MachineRef, String> {
+pub(super) fn machine(name: &str) -> Result<MachineRef, String> {
     let path = Path::new(name);
     if !path.is_file() && !name.contains(['/', '.']) {
         return Ok(MachineRef::Name(name.to_owned()));
@@ -76,7 +77,7 @@ fn machine(name: &str) -> Result<MachineRef, String> {
 }
 
 /// An error in the words of the command line.
-fn in_flags(error: Error) -> String {
+pub(super) fn in_flags(error: Error) -> String {
     let Error::Fields(faults) = point_into_query(error) else { return "a defect of this program".to_owned() };
     let flags = faults.into_iter().map(|Fault { pointer, detail }| {
         let path = pointer.trim_start_matches("/query/");

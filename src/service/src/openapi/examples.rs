@@ -3,14 +3,21 @@
 use axum::body::Bytes;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
+use verne_solver::workspace::Unobserved;
 
-use crate::answers::{answer_fk, answer_fk_batch, answer_ik, answer_ik_batch};
+use crate::answers::{
+    WorkspaceQuestion, answer_contains, answer_fk, answer_fk_batch, answer_ik, answer_ik_batch, answer_slice,
+    compute_workspace,
+};
 use crate::error::Error;
 use crate::handlers::machines;
 use crate::openapi::machine_schema::machine_schema;
 use crate::registry::Registry;
+use crate::results::Results;
 use crate::state::{RequestLimits, State};
+use crate::wire::alphas::Alphas;
 use crate::wire::catalogue::Health;
+use crate::wire::format::SliceFormat;
 use crate::wire::parse::{parse_body, parse_query};
 use crate::wire::query::{FkQuery, IkQuery};
 
@@ -27,7 +34,8 @@ pub(super) struct Example {
     method: &'static str,
     path: &'static str,
     asked: Asked,
-    answer: Value,
+    /// Nothing where it is no JSON, or long.
+    answer: Option<Value>,
 }
 
 impl Example {
@@ -45,7 +53,9 @@ impl Example {
                 }
             }
         }
-        operation["responses"]["200"]["content"]["application/json"]["example"] = self.answer;
+        if let Some(answer) = self.answer {
+            operation["responses"]["200"]["content"]["application/json"]["example"] = answer;
+        }
     }
 }
 
@@ -54,16 +64,23 @@ pub(super) fn examples() -> Vec<Example> {
     let state = State {
         machines: Registry::default(),
         limits: RequestLimits { body_bytes: usize::MAX, rows: usize::MAX },
+        results: Results::within(0),
         openapi: Bytes::new(),
     };
     let mut examples = of_the_service(&state.machines);
     examples.extend(of_queries(&state.machines));
     examples.extend(of_bodies(&state));
+    examples.extend(of_workspaces(&state));
     examples
 }
 
 fn of_the_service(registry: &Registry) -> Vec<Example> {
-    let get = |path, asked, answer| Example { method: "get", path, asked: Asked::Parameters(asked), answer };
+    let get = |path, asked, answer| Example {
+        method: "get",
+        path,
+        asked: Asked::Parameters(asked),
+        answer: Some(answer),
+    };
     let health = json!(Health { status: "ok" });
     vec![
         get("/livez", json!({}), health.clone()),
@@ -75,7 +92,12 @@ fn of_the_service(registry: &Registry) -> Vec<Example> {
 }
 
 fn of_queries(registry: &Registry) -> Vec<Example> {
-    let get = |path, asked, answer| Example { method: "get", path, asked: Asked::Parameters(asked), answer };
+    let get = |path, asked, answer| Example {
+        method: "get",
+        path,
+        asked: Asked::Parameters(asked),
+        answer: Some(answer),
+    };
     let fk = parse_query::<FkQuery>("rho=674,685,250").and_then(FkQuery::into_request);
     let ik = parse_query::<IkQuery>("frame=platform&x=-240&y=-86&z=1000").and_then(IkQuery::into_request);
     vec![
@@ -126,9 +148,37 @@ fn of_bodies(state: &State) -> Vec<Example> {
     ]
 }
 
+fn of_workspaces(state: &State) -> Vec<Example> {
+    let asked = json!({"machine": "verne", "kind": "part", "tool_length": 50, "phi1": 30, "tolerance": 10});
+    let question = parse_body(asked.to_string().as_bytes())
+        .and_then(|request| WorkspaceQuestion::new(&request, &state.machines));
+    let workspace = question.and_then(|question| compute_workspace(question, &Unobserved));
+    let summary = workspace.as_ref().map_err(Clone::clone).and_then(|found| parse_body(&found.summary.bytes));
+    let slice = workspace.as_ref().map_err(Clone::clone).and_then(|found| {
+        let alphas = Alphas::These(vec![0.0]);
+        answer_slice(found, 300.0, &alphas, SliceFormat::Json, &Unobserved).and_then(|text| parse_body(&text))
+    });
+    let id = workspace.map(|found| found.question.id).unwrap_or_default();
+    let get = |path, asked, answer| Example { method: "get", path, asked: Asked::Parameters(asked), answer };
+    let summary: Value = answered(summary as Result<Value, Error>);
+    let slice: Value = answered(slice as Result<Value, Error>);
+    vec![
+        get("/workspace", asked.clone(), Some(summary.clone())),
+        post("/workspace", asked, |_| Ok(summary.clone())),
+        get("/workspace/{id}", json!({"id": id}), Some(summary.clone())),
+        get("/workspace/{id}/mesh", json!({"id": id, "format": "glb"}), None),
+        get("/workspace/{id}/slice", json!({"id": id, "z": 300, "alpha": "0"}), Some(slice)),
+        post(
+            "/workspace/contains",
+            json!({"kind": "part", "tool_length": 50, "points": [[100, 50, 150], [0, 0, 900], null, [5000, 0, 0]]}),
+            |body| answer_contains(body, state, &Unobserved).and_then(|answer| parse_body(&answer)),
+        ),
+    ]
+}
+
 fn post(path: &'static str, body: Value, answer: impl Fn(&[u8]) -> Result<Value, Error>) -> Example {
     let answer = answered(answer(body.to_string().as_bytes()));
-    Example { method: "post", path, asked: Asked::Body(body), answer }
+    Example { method: "post", path, asked: Asked::Body(body), answer: Some(answer) }
 }
 
 /// The answer as JSON; a question that fails shows its failure, which the tests take for stale.

@@ -23,6 +23,18 @@ pub(crate) struct BodyProblems;
 /// Failures of a batch.
 pub(crate) struct BatchProblems;
 
+/// Failures of a workspace in the query string.
+pub(crate) struct WorkspaceQueryProblems;
+
+/// Failures of a workspace in the body.
+pub(crate) struct WorkspaceBodyProblems;
+
+/// Failures of asking for a result by its id.
+pub(crate) struct KeptProblems;
+
+/// Failures of asking for a result by its id and parameters.
+pub(crate) struct KeptQueryProblems;
+
 /// Failures of asking for a machine by name.
 pub(crate) struct MachineProblems;
 
@@ -61,6 +73,42 @@ impl IntoResponses for BatchProblems {
         let description = "The body or the batch is too large (`body_too_large`, `too_many_rows`).";
         with(of_bodies(), [documented(description, error)])
     }
+}
+
+impl IntoResponses for WorkspaceQueryProblems {
+    fn responses() -> Responses {
+        with(QueryProblems::responses(), [not_acceptable(), beyond_the_end()])
+    }
+}
+
+impl IntoResponses for WorkspaceBodyProblems {
+    fn responses() -> Responses {
+        with(BodyProblems::responses(), [not_acceptable()])
+    }
+}
+
+impl IntoResponses for KeptProblems {
+    fn responses() -> Responses {
+        let unknown = Error::NoSuchWorkspace("1f2e".to_owned());
+        let unknown = documented("No result is kept under this id (`workspace_not_found`).", unknown);
+        with(ServiceProblems::responses(), [unknown, not_acceptable(), beyond_the_end()])
+    }
+}
+
+impl IntoResponses for KeptQueryProblems {
+    fn responses() -> Responses {
+        with(QueryProblems::responses(), KeptProblems::responses())
+    }
+}
+
+fn not_acceptable() -> (String, RefOr<Response>) {
+    let error = Error::NotAcceptable(vec!["application/json", "model/gltf-binary"]);
+    documented("Accept names nothing that can be had (`not_acceptable`).", error)
+}
+
+fn beyond_the_end() -> (String, RefOr<Response>) {
+    let error = Error::RangeNotSatisfiable(162_300);
+    documented("The range starts beyond the end (`range_not_satisfiable`).", error)
 }
 
 impl IntoResponses for MachineProblems {

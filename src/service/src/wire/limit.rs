@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 use utoipa::ToSchema;
+use verne_solver::workspace::Binding;
 use verne_solver::{Constraint, Element, Margin};
 
 use super::degrees::to_degrees;
@@ -81,8 +82,26 @@ impl From<Constraint> for ConstraintName {
     }
 }
 
+impl fmt::Display for ConstraintName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Stroke => "stroke",
+            Self::LegLength => "leg_length",
+            Self::SerialSingularity => "serial_singularity",
+            Self::ParallelSingularity => "parallel_singularity",
+            Self::SliderJoint => "slider_joint",
+            Self::PlatformJoint => "platform_joint",
+            Self::RodCrossing => "rod_crossing",
+            Self::RodInterference => "rod_interference",
+            Self::Tilt => "tilt",
+            Self::Rotary => "rotary",
+        })
+    }
+}
+
 impl ConstraintName {
-    fn unit(self) -> Unit {
+    /// The unit of its margins.
+    pub(crate) fn unit(self) -> Unit {
         match self {
             Self::Stroke | Self::LegLength | Self::RodCrossing | Self::RodInterference => Unit::Millimetre,
             Self::SliderJoint | Self::PlatformJoint | Self::Tilt | Self::Rotary => Unit::Degree,
@@ -96,13 +115,28 @@ impl From<Margin> for Limit {
         let constraint = ConstraintName::from(margin.constraint);
         let unit = constraint.unit();
         let value = if unit == Unit::Degree { to_degrees(margin.value) } else { margin.value + 0.0 };
-        Self { constraint, value, unit, element: ElementName(margin) }
+        Self { constraint, value, unit, element: margin.into() }
     }
 }
 
 /// The part of the machine that a margin belongs to; written as its name.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ElementName(Margin);
+pub(crate) struct ElementName {
+    constraint: Constraint,
+    element: Element,
+}
+
+impl From<Margin> for ElementName {
+    fn from(margin: Margin) -> Self {
+        Self { constraint: margin.constraint, element: margin.element }
+    }
+}
+
+impl From<Binding> for ElementName {
+    fn from(binding: Binding) -> Self {
+        Self { constraint: binding.constraint, element: binding.element }
+    }
+}
 
 impl Serialize for ElementName {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -113,13 +147,13 @@ impl Serialize for ElementName {
 impl fmt::Display for ElementName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let end = |high| if high { "max" } else { "min" };
-        match self.0.element {
+        match self.element {
             Element::Stroke { slider, high } => write!(f, "slider{slider}.{}", end(high)),
             Element::Leg(leg) => write!(f, "leg{leg}"),
             Element::Rod(rod) => write!(f, "rod{rod}"),
             Element::Rods(one, other) => write!(f, "rods{one}-{other}"),
             Element::Range { high } => {
-                let angle = if self.0.constraint == Constraint::Rotary { "theta2" } else { "theta1" };
+                let angle = if self.constraint == Constraint::Rotary { "theta2" } else { "theta1" };
                 write!(f, "{angle}.{}", end(high))
             }
             Element::Platform => f.write_str("platform"),

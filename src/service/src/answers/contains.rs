@@ -1,0 +1,83 @@
+//! `/workspace/contains`: which points belong to a workspace.
+
+use rayon::prelude::*;
+use verne_solver::Point;
+use verne_solver::workspace::{Membership, Observer, Request, contains};
+
+use super::batch_rows::{CHUNK, EXPLAINED, read_row};
+use super::workspace_question::{WorkspaceQuestion, workspace_error};
+use crate::error::Error;
+use crate::state::State;
+use crate::wire::batch::RowError;
+use crate::wire::contains::{ContainsAnswer, ContainsCounts, ContainsRequest};
+use crate::wire::json::write_json;
+use crate::wire::limit::Limit;
+use crate::wire::parse::parse_body;
+use crate::wire::workspace::WorkspaceRequest;
+
+/// About the bytes of an answered point.
+const POINT_BYTES: usize = 96;
+
+/// Answers a batch of points, from its body to the answer's; to be called on the worker threads.
+pub(crate) fn answer_contains(body: &[u8], state: &State, observer: &dyn Observer) -> Result<Vec<u8>, Error> {
+    let asked: ContainsRequest<'_> = parse_body(body)?;
+    let (rows, limit) = (asked.points.len(), state.limits.rows);
+    if rows > limit {
+        return Err(Error::TooManyRows { rows, limit });
+    }
+    // Membership needs no tolerance; any one that is allowed will do.
+    let ContainsRequest { machine, kind, tool_length, phi1, phi2, points } = asked;
+    let whole = WorkspaceRequest { machine, kind, tool_length, phi1, phi2, tolerance: COARSE };
+    let question = WorkspaceQuestion::new(&whole, &state.machines)?;
+    let read: Vec<Result<Point, String>> = points
+        .par_iter()
+        .with_min_len(CHUNK)
+        .map(|text| read_row(text, &[3], "[x, y, z]").map(|row| [row[0], row[1], row[2]]))
+        .collect();
+    let good: Vec<Point> = read.iter().flatten().copied().collect();
+    let request = Request::from(&question.request);
+    let found = contains(&question.published.machine, &request, &good, observer).map_err(workspace_error)?;
+    let mut answer = ContainsAnswer {
+        machine: question.published.id.clone(),
+        inside: Vec::with_capacity(rows),
+        margin: Vec::with_capacity(rows),
+        unit: Vec::with_capacity(rows),
+        constraint: Vec::with_capacity(rows),
+        element: Vec::with_capacity(rows),
+        counts: ContainsCounts::default(),
+        errors: Vec::new(),
+    };
+    let mut found = found.into_iter();
+    for point in read {
+        match point {
+            Ok(_) => answer.add(found.next().ok_or(Error::Internal)?),
+            Err(detail) => answer.add_invalid(detail),
+        }
+    }
+    write_json(&answer, POINT_BYTES * rows)
+}
+
+const COARSE: f64 = 1000.0;
+
+impl ContainsAnswer {
+    fn add(&mut self, membership: Membership) {
+        *(if membership.inside { &mut self.counts.inside } else { &mut self.counts.outside }) += 1;
+        self.push(Some(membership.inside), membership.margin.map(Limit::from));
+    }
+
+    fn add_invalid(&mut self, detail: String) {
+        if self.errors.len() < EXPLAINED {
+            self.errors.push(RowError { row: self.inside.len(), detail });
+        }
+        self.counts.invalid += 1;
+        self.push(None, None);
+    }
+
+    fn push(&mut self, inside: Option<bool>, limit: Option<Limit>) {
+        self.inside.push(inside);
+        self.margin.push(limit.as_ref().map(|limit| limit.value));
+        self.unit.push(limit.as_ref().map(|limit| limit.unit));
+        self.constraint.push(limit.as_ref().map(|limit| limit.constraint));
+        self.element.push(limit.map(|limit| limit.element));
+    }
+}

@@ -1,0 +1,91 @@
+//! A checked question about a workspace, and the id of its answer.
+
+use std::sync::Arc;
+
+use verne_solver::MachineData;
+use verne_solver::workspace::WorkspaceError;
+
+use crate::error::{Error, Fault};
+use crate::faults::Faults;
+use crate::registry::{Published, Registry};
+use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest};
+
+/// Finest and coarsest tolerance, mm: at the finest the reference machine's mesh has some 350,000 triangles.
+const TOLERANCES: [f64; 2] = [0.01, 1000.0];
+
+/// Finest tolerance as a part of the machine's longest dimension: it keeps any machine's mesh to a few million
+/// triangles.
+const FINEST: f64 = 1e-6;
+
+/// Changes when the bytes do that the same question is answered with.
+const LAYOUT: &[u8] = b"verne workspace 1";
+
+/// A question that has an answer.
+#[derive(Clone, Debug)]
+pub(crate) struct WorkspaceQuestion {
+    /// The machine.
+    pub published: Arc<Published>,
+    /// What is asked.
+    pub request: CanonicalRequest,
+    /// The answer's id.
+    pub id: String,
+}
+
+impl WorkspaceQuestion {
+    /// Checks a request.
+    pub(crate) fn new(asked: &WorkspaceRequest, machines: &Registry) -> Result<Self, Error> {
+        let mut faults = Faults::default();
+        faults.tool_length(asked.tool_length);
+        faults.angle("/phi1", Some(asked.phi1));
+        faults.angle("/phi2", Some(asked.phi2));
+        let resolved = machines.resolve(&asked.machine);
+        let [mut finest, coarsest] = TOLERANCES;
+        if let Ok(published) = &resolved {
+            finest = finest.max(FINEST * longest(published.machine.data()));
+        }
+        if !(finest..=coarsest).contains(&asked.tolerance) {
+            faults.add("/tolerance", format!("must be a number from {finest} to {coarsest} mm"));
+        }
+        faults.into_result()?;
+        let (published, request) = (resolved?, CanonicalRequest::from(asked));
+        Ok(Self { id: id(&published, &request), published, request })
+    }
+}
+
+fn longest(machine: &MachineData) -> f64 {
+    let g = &machine.geometry;
+    [g.L1, g.L2, g.L3, g.R1, g.R2, g.r1, g.r4].into_iter().fold(0.0, f64::max)
+}
+
+/// BLAKE3, in hex. The machine's name and description count here: the answer shows them.
+fn id(published: &Published, request: &CanonicalRequest) -> String {
+    let mut hasher = blake3::Hasher::new();
+    let kind = match request.kind {
+        KindName::Platform => 0,
+        KindName::Tool => 1,
+        KindName::Part => 2,
+    };
+    hasher.update(LAYOUT).update(env!("CARGO_PKG_VERSION").as_bytes()).update(&[kind]);
+    for number in [request.tool_length, request.phi1, request.phi2, Some(request.tolerance)] {
+        hasher.update(&number.unwrap_or_default().to_le_bytes());
+    }
+    for text in [&*published.id.hash, &*published.id.name, &*published.machine.data().description] {
+        // Hashed by itself, a text cannot run into the next one.
+        hasher.update(blake3::hash(text.as_bytes()).as_bytes());
+    }
+    hasher.finalize().to_hex().to_string()
+}
+
+/// What the solver refuses, in the words of the request.
+pub(crate) fn workspace_error(error: WorkspaceError) -> Error {
+    match error {
+        WorkspaceError::OutOfDomain { field } => {
+            Error::Fields(vec![Fault::new(format!("/{field}"), "is out of range")])
+        }
+        WorkspaceError::TooFine => {
+            Error::Fields(vec![Fault::new("/tolerance", "asks for more vertices than can be numbered")])
+        }
+        // Only what nobody waits for any more is cancelled.
+        WorkspaceError::Cancelled => Error::TimedOut,
+    }
+}

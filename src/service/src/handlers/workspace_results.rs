@@ -1,0 +1,123 @@
+//! `/workspace/{id}`: what has been computed, for ever the same bytes.
+
+use axum::extract::rejection::PathRejection;
+use axum::extract::{Path, State};
+use axum::response::Response;
+
+use super::workspace::{mesh, summary, written};
+use crate::answers::answer_slice;
+use crate::delivery::{Conditions, Delivery, FOR_EVER};
+use crate::error::Error;
+use crate::extract::Params;
+use crate::negotiation::Accept;
+use crate::openapi::binary::{Binary, Text};
+use crate::openapi::problems::{KeptProblems, KeptQueryProblems};
+use crate::results::Content;
+use crate::state::Shared;
+use crate::wire::format::{MeshFormat, SliceFormat};
+use crate::wire::query::point_into_query;
+use crate::wire::slice::SliceObject;
+use crate::wire::workspace_query::{MeshQuery, SliceQuery};
+use crate::wire::workspace_summary::WorkspaceSummary;
+use crate::workers::on_workers_while_waited_for;
+
+type Id = Result<Path<String>, PathRejection>;
+
+/// A computed workspace in figures
+///
+/// What /workspace answered under this id. Results leave when room is needed: asked again, /workspace gives the same
+/// id and the same bytes.
+#[utoipa::path(
+    get, path = "/workspace/{id}", operation_id = "workspace_summary", tag = "workspace",
+    params(("id" = String, Path, description = "The id that /workspace answered.")),
+    responses((status = 200, description = "The summary.", body = WorkspaceSummary), KeptProblems)
+)]
+pub(crate) async fn get_summary(
+    State(state): State<Shared>,
+    id: Id,
+    accept: Accept,
+    conditions: Conditions,
+) -> Result<Response, Error> {
+    let Path(id) = id.map_err(|_| Error::NoSuchPath)?;
+    accept.choose([("application/json", ())])?;
+    let delivery = summary(state.results.kept(&id).await?.as_ref());
+    Delivery { cache_control: Some(FOR_EVER), ..delivery }.answer(&conditions)
+}
+
+/// The mesh of a computed workspace
+///
+/// Watertight, within the tolerance of the true surface, each triangle tagged with what limits the workspace there. By
+/// `format` or Accept, else GLB. Strong ETags, conditional requests and byte ranges.
+#[utoipa::path(
+    get, path = "/workspace/{id}/mesh", operation_id = "workspace_mesh", tag = "workspace",
+    params(("id" = String, Path, description = "The id that /workspace answered."), MeshQuery),
+    responses(
+        (status = 200, description = "The mesh.", content(
+            (Binary = "model/gltf-binary"), (Binary = "model/stl"), (Binary = "model/ply"),
+            (Object = "application/json"),
+        )),
+        KeptQueryProblems
+    )
+)]
+pub(crate) async fn get_mesh(
+    State(state): State<Shared>,
+    id: Id,
+    Params(query): Params<MeshQuery>,
+    accept: Accept,
+    conditions: Conditions,
+) -> Result<Response, Error> {
+    let Path(id) = id.map_err(|_| Error::NoSuchPath)?;
+    let format = match query.format {
+        Some(format) => format,
+        None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format)))?,
+    };
+    let write = async { written(state.results.kept(&id).await?, format).await };
+    let delivery = mesh(&id, format, state.results.file(&id, format, write).await?);
+    Delivery { cache_control: Some(FOR_EVER), ..delivery }.answer(&conditions)
+}
+
+/// A computed workspace cut at one height
+///
+/// Polygons with holes, on request with lines of constant alpha (for the platform the ellipses of Eq (16)); as JSON,
+/// as a drawing (SVG) or for CAD (DXF). Exact to the workspace's tolerance: it is not a cut of the mesh.
+#[utoipa::path(
+    get, path = "/workspace/{id}/slice", operation_id = "workspace_slice", tag = "workspace",
+    params(("id" = String, Path, description = "The id that /workspace answered."), SliceQuery),
+    responses(
+        (status = 200, description = "The slice.", content(
+            (SliceObject = "application/json"), (Text = "image/svg+xml"), (Text = "image/vnd.dxf"),
+            (Text = "application/dxf"),
+        )),
+        KeptQueryProblems
+    )
+)]
+pub(crate) async fn get_slice(
+    State(state): State<Shared>,
+    id: Id,
+    Params(query): Params<SliceQuery>,
+    accept: Accept,
+    conditions: Conditions,
+) -> Result<Response, Error> {
+    let Path(id) = id.map_err(|_| Error::NoSuchPath)?;
+    let SliceQuery { z, alpha, format } = query;
+    let (format, media) = match format {
+        Some(format) => (format, format.media()[0]),
+        None => accept.choose(
+            SliceFormat::ALL
+                .into_iter()
+                .flat_map(|format| format.media().iter().map(move |&media| (media, (format, media)))),
+        )?,
+    };
+    let workspace = state.results.kept(&id).await?;
+    let cut = on_workers_while_waited_for(move |observer| {
+        answer_slice(&workspace, z, &alpha, format, observer).map(Content::from)
+    });
+    let delivery = Delivery {
+        content: cut.await.map_err(point_into_query)?,
+        media,
+        cache_control: Some(FOR_EVER),
+        location: format!("/workspace/{id}/slice?z={z}&format={}", format.name()),
+        file_name: Some(format!("slice-{id:.8}.{}", format.name())),
+    };
+    delivery.answer(&conditions)
+}

@@ -1,0 +1,81 @@
+//! The formats of meshes and slices: their names in queries, as file extensions and as media types.
+
+use clap::ValueEnum;
+use serde::Deserialize;
+use utoipa::ToSchema;
+
+/// How a mesh is written: `glb`, binary glTF 2.0 (metres, Y up, the frame in `extras`), for viewers; `stl`, binary
+/// (mm), for slicers and CAD; `ply`, binary (mm, double precision, with the binding constraint); `json` (mm, flat
+/// `positions` and `indices`), for scripts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, ToSchema, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum MeshFormat {
+    /// Binary glTF 2.0.
+    Glb,
+    /// Binary STL.
+    Stl,
+    /// Binary PLY.
+    Ply,
+    /// JSON with flat arrays.
+    Json,
+}
+
+impl MeshFormat {
+    /// All of them; the first is preferred.
+    pub(crate) const ALL: [Self; 4] = [Self::Glb, Self::Stl, Self::Ply, Self::Json];
+
+    /// The media type.
+    pub(crate) fn media(self) -> &'static str {
+        match self {
+            Self::Glb => "model/gltf-binary",
+            Self::Stl => "model/stl",
+            Self::Ply => "model/ply",
+            Self::Json => "application/json",
+        }
+    }
+
+    /// The name, which is also the extension.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Glb => "glb",
+            Self::Stl => "stl",
+            Self::Ply => "ply",
+            Self::Json => "json",
+        }
+    }
+}
+
+/// How a slice is written: `json`; `svg`, a drawing for people; `dxf` (R12, mm), for CAD.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, ToSchema, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum SliceFormat {
+    /// Polygons with holes.
+    Json,
+    /// A drawing.
+    Svg,
+    /// AutoCAD R12, ASCII.
+    Dxf,
+}
+
+impl SliceFormat {
+    /// All of them; the first is preferred.
+    pub(crate) const ALL: [Self; 3] = [Self::Json, Self::Svg, Self::Dxf];
+
+    /// The media types, the one that is answered first.
+    pub(crate) fn media(self) -> &'static [&'static str] {
+        match self {
+            Self::Json => &["application/json"],
+            Self::Svg => &["image/svg+xml"],
+            Self::Dxf => &["image/vnd.dxf", "application/dxf"],
+        }
+    }
+
+    /// The name, which is also the extension.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Json => "json",
+            Self::Svg => "svg",
+            Self::Dxf => "dxf",
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! The answer of `/workspace/{id}/slice`.
+
+use serde::Serialize;
+use utoipa::ToSchema;
+use verne_solver::workspace::{Contour, Polygon, Slice};
+
+use super::degrees::to_degrees;
+use super::numbers::{Exactly, Pair};
+use super::workspace::FrameName;
+
+/// A workspace cut at one height.
+#[derive(Clone, Debug, Serialize, ToSchema)]
+#[schema(as = Slice)]
+pub(crate) struct SliceObject {
+    /// The workspace.
+    pub id: String,
+    /// The frame of z and of the points.
+    pub frame: FrameName,
+    /// Height of the cut, mm.
+    pub z: f64,
+    /// Greatest distance between polygon and true boundary, mm.
+    pub tolerance: f64,
+    /// Area of all polygons, mm².
+    pub area: f64,
+    /// The parts of the cut; none where the plane misses the workspace.
+    pub polygons: Vec<PolygonObject>,
+    /// Lines of constant alpha within the cut; only where they were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contours: Vec<ContourObject>,
+}
+
+/// A polygon with holes; the last corner joins the first.
+#[derive(Clone, Debug, Serialize, ToSchema)]
+#[schema(as = Polygon)]
+pub(crate) struct PolygonObject {
+    /// Corners [x, y], mm; counter-clockwise.
+    #[schema(inline)]
+    pub outer: Vec<Pair>,
+    /// Corners of each hole; clockwise.
+    #[schema(inline)]
+    pub holes: Vec<Vec<Pair>>,
+    /// Area less the holes', mm².
+    pub area: f64,
+}
+
+/// A line on which alpha is constant.
+#[derive(Clone, Debug, Serialize, ToSchema)]
+#[schema(as = AlphaLine)]
+pub(crate) struct ContourObject {
+    /// Degrees.
+    pub alpha: f64,
+    /// [x, y] along the line, mm.
+    #[schema(inline)]
+    pub points: Vec<Pair>,
+}
+
+impl SliceObject {
+    /// The solver's slice in the wire's units.
+    pub(crate) fn new(id: &str, frame: FrameName, z: f64, tolerance: f64, slice: Slice) -> Self {
+        Self {
+            id: id.to_owned(),
+            frame,
+            z,
+            tolerance,
+            area: slice.area(),
+            polygons: slice.polygons.into_iter().map(PolygonObject::from).collect(),
+            contours: slice.contours.into_iter().map(ContourObject::from).collect(),
+        }
+    }
+}
+
+impl From<Polygon> for PolygonObject {
+    fn from(polygon: Polygon) -> Self {
+        let rings = std::iter::once(&polygon.outer).chain(&polygon.holes);
+        Self {
+            area: rings.map(|ring| signed_area(ring)).sum(),
+            outer: pairs(polygon.outer),
+            holes: polygon.holes.into_iter().map(pairs).collect(),
+        }
+    }
+}
+
+impl From<Contour> for ContourObject {
+    fn from(contour: Contour) -> Self {
+        Self { alpha: to_degrees(contour.alpha), points: pairs(contour.points) }
+    }
+}
+
+fn pairs(points: Vec<[f64; 2]>) -> Vec<Pair> {
+    points.into_iter().map(Exactly).collect()
+}
+
+/// Positive for a counter-clockwise ring. Taken about its first corner: far from the origin digits would be lost.
+fn signed_area(ring: &[[f64; 2]]) -> f64 {
+    let Some(&[x, y]) = ring.first() else { return 0.0 };
+    ring.windows(2)
+        .map(|side| (side[0][0] - x) * (side[1][1] - y) - (side[1][0] - x) * (side[0][1] - y))
+        .sum::<f64>()
+        / 2.0
+}

@@ -1,0 +1,140 @@
+//! The question `/workspace`, as JSON and as it is kept.
+
+use clap::ValueEnum;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+use verne_solver::workspace::{Kind, Request};
+
+use super::degrees::from_degrees;
+use super::machine_ref::MachineRef;
+
+/// Where can the machine go?
+#[derive(Clone, Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WorkspaceRequest {
+    /// The machine: a published name, or the whole object.
+    #[serde(default)]
+    pub machine: MachineRef,
+    /// Whose positions the workspace is made of.
+    #[serde(default)]
+    pub kind: KindName,
+    /// Distance from P to the tool's tip, mm; without effect on `platform`.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_length: f64,
+    /// Inclination of the tool in the table frame, degrees; only `part` depends on it.
+    #[serde(default)]
+    #[schema(minimum = -36000, maximum = 36000, default = 0.0)]
+    pub phi1: f64,
+    /// Azimuth of the tool in the table frame, degrees; only `part` depends on it.
+    #[serde(default)]
+    #[schema(minimum = -36000, maximum = 36000, default = 0.0)]
+    pub phi2: f64,
+    /// Greatest distance between the mesh and the true surface, both ways, mm. At least a millionth of the machine's
+    /// longest dimension.
+    #[serde(default = "default_tolerance")]
+    #[schema(minimum = 0.01, maximum = 1000, default = 1.0)]
+    pub tolerance: f64,
+}
+
+/// Tolerance of a question that names none, mm.
+pub(crate) fn default_tolerance() -> f64 {
+    1.0
+}
+
+/// Whose positions a workspace is made of: `platform` (default), the platform's point P in the base frame; `tool`,
+/// the tool's tip in the base frame; `part`, the tool's tip in the table frame, for a fixed orientation of the tool
+/// there (with phi1 = phi2 = 0 the manufacturing workspace of the paper).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = WorkspaceKind)]
+pub(crate) enum KindName {
+    /// The platform's point P in the base frame.
+    #[default]
+    Platform,
+    /// The tool's tip in the base frame.
+    Tool,
+    /// The tool's tip in the table frame, for a fixed orientation.
+    Part,
+}
+
+impl KindName {
+    /// The name.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Platform => "platform",
+            Self::Tool => "tool",
+            Self::Part => "part",
+        }
+    }
+
+    /// The frame of its positions.
+    pub(crate) fn frame(self) -> FrameName {
+        match self {
+            Self::Platform | Self::Tool => FrameName::Base,
+            Self::Part => FrameName::Part,
+        }
+    }
+}
+
+/// A frame: `base`, z down; `part`, that of the table, z up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = WorkspaceFrame)]
+pub(crate) enum FrameName {
+    /// z points down.
+    Base,
+    /// z points up from the table.
+    Part,
+}
+
+/// A request with its defaults filled in, and without the fields that have no effect.
+#[derive(Clone, Copy, Debug, Serialize, ToSchema)]
+pub(crate) struct CanonicalRequest {
+    /// Whose positions.
+    pub kind: KindName,
+    /// mm; for `tool` and `part`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub tool_length: Option<f64>,
+    /// Degrees; for `part`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub phi1: Option<f64>,
+    /// Degrees; for `part`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub phi2: Option<f64>,
+    /// mm.
+    pub tolerance: f64,
+}
+
+impl From<&WorkspaceRequest> for CanonicalRequest {
+    fn from(asked: &WorkspaceRequest) -> Self {
+        // -0 is 0.
+        let (tool, part) = (asked.kind != KindName::Platform, asked.kind == KindName::Part);
+        Self {
+            kind: asked.kind,
+            tool_length: tool.then_some(asked.tool_length + 0.0),
+            phi1: part.then_some(asked.phi1 + 0.0),
+            phi2: part.then_some(asked.phi2 + 0.0),
+            tolerance: asked.tolerance,
+        }
+    }
+}
+
+impl From<&CanonicalRequest> for Request {
+    fn from(asked: &CanonicalRequest) -> Self {
+        Self {
+            kind: match asked.kind {
+                KindName::Platform => Kind::Platform,
+                KindName::Tool => Kind::Tool,
+                KindName::Part => Kind::Part,
+            },
+            tool_length: asked.tool_length.unwrap_or_default(),
+            phi1: from_degrees(asked.phi1.unwrap_or_default()),
+            phi2: from_degrees(asked.phi2.unwrap_or_default()),
+            tolerance: asked.tolerance,
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Workspaces in query strings and on the command line: one list of parameters for both.
+
+use clap::Args;
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+use super::alphas::Alphas;
+use super::format::{MeshFormat, SliceFormat};
+use super::machine_ref::{MachineRef, REFERENCE};
+use super::workspace::{KindName, WorkspaceRequest, default_tolerance};
+
+fn reference() -> String {
+    REFERENCE.to_owned()
+}
+
+/// Parameters of GET /workspace.
+#[derive(Debug, Deserialize, IntoParams, Args)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct WorkspaceQuery {
+    /// The machine's name (on the command line also the path of a machine object).
+    #[serde(default = "reference")]
+    #[arg(long, default_value = REFERENCE)]
+    #[param(default = "verne")]
+    pub machine: String,
+    /// Whose positions the workspace is made of.
+    #[serde(default)]
+    #[arg(long, default_value = "platform")]
+    pub kind: KindName,
+    /// Distance from P to the tool's tip, mm; without effect on `platform`.
+    #[serde(default)]
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    #[param(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_length: f64,
+    /// Inclination of the tool in the table frame, degrees; only `part` depends on it.
+    #[serde(default)]
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    #[param(minimum = -36000, maximum = 36000, default = 0.0)]
+    pub phi1: f64,
+    /// Azimuth of the tool in the table frame, degrees; only `part` depends on it.
+    #[serde(default)]
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    #[param(minimum = -36000, maximum = 36000, default = 0.0)]
+    pub phi2: f64,
+    /// Greatest distance between the mesh and the true surface, both ways, mm.
+    #[serde(default = "default_tolerance")]
+    #[arg(long, default_value_t = 1.0, allow_hyphen_values = true)]
+    #[param(minimum = 0.01, maximum = 1000, default = 1.0)]
+    pub tolerance: f64,
+    /// The mesh in this format instead of the summary, whatever Accept says.
+    #[arg(skip)]
+    #[param(inline, nullable = false)]
+    pub format: Option<MeshFormat>,
+}
+
+impl WorkspaceQuery {
+    /// The question as POST would put it.
+    pub(crate) fn into_request(self) -> WorkspaceRequest {
+        let Self { machine, kind, tool_length, phi1, phi2, tolerance, format: _ } = self;
+        let machine = MachineRef::Name(machine);
+        WorkspaceRequest { machine, kind, tool_length, phi1, phi2, tolerance }
+    }
+}
+
+/// Parameters of POST /workspace and GET /workspace/{id}/mesh.
+#[derive(Debug, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct MeshQuery {
+    /// The mesh in this format, whatever Accept says.
+    #[param(inline, nullable = false)]
+    pub format: Option<MeshFormat>,
+}
+
+/// Parameters of GET /workspace/{id}/slice.
+#[derive(Debug, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct SliceQuery {
+    /// Height of the cut in the workspace's frame, mm.
+    #[param(minimum = -1e7, maximum = 1e7)]
+    pub z: f64,
+    /// Lines of constant alpha within the cut: `true` for every five degrees, or the angles in degrees, separated by
+    /// commas.
+    #[serde(default)]
+    #[param(inline)]
+    pub alpha: Alphas,
+    /// The slice in this format, whatever Accept says.
+    #[param(inline, nullable = false)]
+    pub format: Option<SliceFormat>,
+}

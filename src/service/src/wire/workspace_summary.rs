@@ -1,0 +1,74 @@
+//! The answer of `/workspace`.
+
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use super::answer::MachineId;
+use super::numbers::Triple;
+use super::workspace::{CanonicalRequest, FrameName, KindName};
+
+/// A workspace in figures.
+#[derive(Clone, Debug, Serialize, ToSchema)]
+pub(crate) struct WorkspaceSummary {
+    /// BLAKE3 of the request, the machine and the solver's version: equal questions have equal ids.
+    pub id: String,
+    /// Whose positions.
+    pub kind: KindName,
+    /// The frame of bounds, mesh and slices.
+    pub frame: FrameName,
+    /// The request with its defaults, without the fields that have no effect on this kind.
+    pub request: CanonicalRequest,
+    /// The machine.
+    pub machine: MachineId,
+    /// Volume, mm³, by integration and not from the mesh; null where the workspace folds.
+    pub volume: Option<f64>,
+    /// The true volume lies within `volume` ± this, mm³.
+    pub volume_error: Option<f64>,
+    /// Area of the plane domain of the platform positions (x, y) that the workspace stands on, mm².
+    pub area: f64,
+    /// The true area lies within `area` ± this, mm².
+    pub area_error: f64,
+    /// The mesh's least and greatest coordinates, within the tolerance of the true ones; null where it is empty.
+    pub bounds: Option<BoundsObject>,
+    /// Vertices of the mesh.
+    pub vertices: usize,
+    /// Triangles of the mesh.
+    pub triangles: usize,
+    /// Whether some positions are reached from two platform positions.
+    pub folded: bool,
+    /// Why there is no volume; only where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false, value_type = String)]
+    pub explanation: Option<&'static str>,
+    /// Where the results are.
+    pub links: Links,
+}
+
+/// A box along the axes, mm.
+#[derive(Clone, Copy, Debug, Serialize, ToSchema)]
+#[schema(as = Bounds)]
+pub(crate) struct BoundsObject {
+    /// Least x, y, z.
+    #[schema(inline)]
+    pub min: Triple,
+    /// Greatest x, y, z.
+    #[schema(inline)]
+    pub max: Triple,
+}
+
+/// Paths of the results.
+#[derive(Clone, Debug, Serialize, ToSchema)]
+pub(crate) struct Links {
+    /// This summary.
+    #[serde(rename = "self")]
+    pub itself: String,
+    /// The mesh.
+    pub mesh: String,
+}
+
+impl Links {
+    /// The paths of a workspace.
+    pub(crate) fn of(id: &str) -> Self {
+        Self { itself: format!("/workspace/{id}"), mesh: format!("/workspace/{id}/mesh") }
+    }
+}

@@ -1,0 +1,170 @@
+//! `/workspace`: figures, ids, negotiation, bad questions.
+
+use axum::Router;
+use axum::http::header::{ACCEPT, CACHE_CONTROL, CONTENT_TYPE};
+use axum::http::{Method, StatusCode};
+use serde_json::{Value, json};
+
+use super::{Reply, get, get_from, json_request, post, send_to, service};
+
+/// POST /workspace on a service that keeps its results.
+pub(super) async fn ask(service: &Router, question: Value) -> Reply {
+    send_to(service.clone(), json_request(Method::POST, "/workspace", question)).await
+}
+
+fn assert_close(found: &Value, wanted: f64, relative: f64) {
+    let found = found.as_f64().unwrap();
+    assert!((found - wanted).abs() <= relative * wanted.abs(), "{found} is not {wanted}");
+}
+
+/// Published figures: a sweep of columns, good to about 1e-5.
+#[tokio::test]
+async fn figures_are_those_of_an_independent_sweep() {
+    let service = service();
+    for (question, volume) in [
+        (json!({}), 2.33692e8),
+        (json!({"kind": "tool", "tool_length": 50}), 2.44325e8),
+        (json!({"kind": "tool", "tool_length": 150}), 2.65591e8),
+        (json!({"kind": "tool", "tool_length": 300}), 2.97490e8),
+        (json!({"kind": "part", "tool_length": 50}), 3.00444e8),
+        (json!({"kind": "part", "phi1": -30, "phi2": 200}), 3.00444e8),
+        (json!({"kind": "part", "phi1": 60}), 2.99485e8),
+    ] {
+        let answer = ask(&service, question).await.json;
+        assert_close(&answer["volume"], volume, 1e-5);
+        // At phi1 = 60° the tilt's range cuts the domain as well.
+        if answer["request"]["phi1"] != 60.0 {
+            assert_close(&answer["area"], 657_677.0, 2e-5);
+        }
+        let (volume, error) = (answer["volume"].as_f64().unwrap(), answer["volume_error"].as_f64().unwrap());
+        assert!(error < 1e-6 * volume, "{error}");
+        assert_eq!(answer["folded"], false);
+        assert!(answer["triangles"].as_u64().unwrap() < 5_000);
+    }
+}
+
+#[tokio::test]
+async fn bounds_are_within_the_tolerance() {
+    let bounds = &ask(&service(), json!({})).await.json["bounds"];
+    let wanted = [("min", [-407.0, -540.5, 870.6]), ("max", [392.0, 540.5, 1627.0])];
+    for (end, numbers) in wanted {
+        for (axis, wanted) in numbers.into_iter().enumerate() {
+            let found = bounds[end][axis].as_f64().unwrap();
+            assert!((found - wanted).abs() < 1.5, "{end} {axis}: {found}");
+        }
+    }
+}
+
+#[tokio::test]
+async fn equal_questions_have_equal_ids() {
+    let service = service();
+    let id = async |question| ask(&service, question).await.json["id"].as_str().unwrap().to_owned();
+    let part = id(json!({"kind": "part", "tool_length": 50})).await;
+    assert_eq!(part.len(), 64);
+    assert_eq!(part, id(json!({"kind": "part", "tool_length": 50.0, "phi1": -0.0, "tolerance": 1})).await);
+    assert_ne!(part, id(json!({"kind": "part", "tool_length": 50, "tolerance": 2})).await);
+    assert_ne!(part, id(json!({"kind": "tool", "tool_length": 50})).await);
+    assert_ne!(part, id(json!({"kind": "part", "tool_length": 50, "phi2": 10})).await);
+    let by_query = get_from(&service, "/workspace?kind=part&tool_length=50", &[]).await;
+    assert_eq!(by_query.json["id"], part);
+    assert!(by_query.headers[CACHE_CONTROL].to_str().unwrap().contains("max-age"));
+    // What has no effect on the platform makes no difference.
+    assert_eq!(id(json!({})).await, id(json!({"kind": "platform", "tool_length": 70, "phi1": 3})).await);
+    let platform = ask(&service, json!({"phi1": 3})).await.json;
+    assert_eq!(platform["request"], json!({"kind": "platform", "tolerance": 1.0}));
+}
+
+#[tokio::test]
+async fn another_machine_has_another_id_and_its_name() {
+    let mut machine = get("/machines/verne").await.json["definition"].clone();
+    let service = service();
+    let original = ask(&service, json!({"machine": machine, "tolerance": 20})).await.json;
+    assert_eq!(original, ask(&service, json!({"tolerance": 20})).await.json);
+    machine["name"] = "mine".into();
+    let renamed = ask(&service, json!({"machine": machine, "tolerance": 20})).await.json;
+    assert_eq!(renamed["machine"]["hash"], original["machine"]["hash"]);
+    assert_eq!(renamed["machine"]["name"], "mine");
+    assert_ne!(renamed["id"], original["id"], "the name is part of the answer");
+    machine["geometry"]["rod_radius"] = 60.into();
+    let thick = ask(&service, json!({"machine": machine})).await.json;
+    assert_close(&thick["volume"], 2.10385e8, 1e-5);
+    assert_close(&thick["area"], 557_944.0, 2e-5);
+}
+
+#[tokio::test]
+async fn an_empty_workspace_is_an_answer() {
+    let mut machine = get("/machines/verne").await.json["definition"].clone();
+    machine["geometry"]["rod_radius"] = 1000.into();
+    let service = service();
+    let answer = ask(&service, json!({"machine": machine})).await.json;
+    assert_eq!(answer["volume"], 0.0);
+    assert_eq!((&answer["bounds"], &answer["triangles"]), (&Value::Null, &json!(0)));
+    for format in ["glb", "stl", "ply", "json"] {
+        let uri = format!("{}?format={format}", answer["links"]["mesh"].as_str().unwrap());
+        assert_eq!(get_from(&service, &uri, &[]).await.status, StatusCode::OK, "{format}");
+    }
+    let slice = format!("{}/slice?z=1200&alpha=true", answer["links"]["self"].as_str().unwrap());
+    assert_eq!(get_from(&service, &slice, &[]).await.json["polygons"], json!([]));
+}
+
+#[tokio::test]
+async fn a_folded_workspace_has_no_volume_and_says_why() {
+    let question = json!({"kind": "tool", "tool_length": 5000});
+    let answer = ask(&service(), question).await.json;
+    let jacobian_changes_sign = answer["folded"] == true;
+    assert_eq!(answer["volume"].is_null(), jacobian_changes_sign);
+    assert_eq!(answer["explanation"].is_string(), jacobian_changes_sign);
+}
+
+#[tokio::test]
+async fn accept_and_format_choose() {
+    let service = service();
+    for (accept, format, media) in [
+        (None, None, "application/json"),
+        (Some("*/*"), None, "application/json"),
+        (Some("model/*"), None, "model/gltf-binary"),
+        (Some("model/gltf-binary;q=0.4, model/ply;q=0.5"), None, "model/ply"),
+        (Some("text/html, */*;q=0.1"), None, "application/json"),
+        (Some("application/json"), Some("stl"), "model/stl"),
+        (Some("text/html"), Some("glb"), "model/gltf-binary"),
+    ] {
+        let uri = format.map_or("/workspace?tolerance=20".to_owned(), |format| {
+            format!("/workspace?tolerance=20&format={format}")
+        });
+        let headers: Vec<_> = accept.into_iter().map(|accept| (ACCEPT, accept)).collect();
+        let reply = get_from(&service, &uri, &headers).await;
+        assert_eq!(reply.headers[CONTENT_TYPE], media, "{accept:?} {format:?}");
+    }
+    // As a format, json is the mesh.
+    let mesh = get_from(&service, "/workspace?tolerance=20&format=json", &[]).await.json;
+    assert!(mesh["positions"].is_array() && mesh["indices"].is_array());
+    let refused = get_from(&service, "/workspace?tolerance=20", &[(ACCEPT, "text/html")]).await;
+    refused.assert_problem(406, "not_acceptable");
+    assert!(refused.json["detail"].as_str().unwrap().contains("model/gltf-binary"));
+}
+
+#[tokio::test]
+async fn bad_questions_name_the_field() {
+    for (body, pointer) in [
+        (json!({"kind": "nautilus"}), "/kind"),
+        (json!({"tolerance": 0}), "/tolerance"),
+        (json!({"tolerance": 1e-3}), "/tolerance"),
+        (json!({"tolerance": 1e5}), "/tolerance"),
+        (json!({"tool_length": -1}), "/tool_length"),
+        (json!({"kind": "part", "phi1": 1e9}), "/phi1"),
+        (json!({"machine": "nautilus"}), "/machine"),
+        (json!({"colour": "blue"}), "/colour"),
+    ] {
+        post("/workspace", body).await.assert_bad_field(pointer);
+    }
+    for (query, pointer) in [
+        ("tolerance=0", "/query/tolerance"),
+        ("tolerance=NaN", "/query/tolerance"),
+        ("phi2=inf", "/query/phi2"),
+        ("format=obj", "/query/format"),
+        ("tolerance=1&tolerance=2", "/query/tolerance"),
+    ] {
+        get(&format!("/workspace?{query}")).await.assert_bad_field(pointer);
+    }
+    post("/workspace?format=step", "{}").await.assert_bad_field("/query/format");
+}
