@@ -15,6 +15,7 @@ use std::f64::consts::{PI, TAU};
 
 use arrayvec::ArrayVec;
 
+use crate::angle::sin_cos;
 use crate::circle::{Site, TrigPolynomial, isolate};
 pub(crate) use sheet::{determinant, polish};
 
@@ -138,7 +139,7 @@ fn approached<const M: usize>(poly: &TrigPolynomial<M>, [mut low, mut high]: [f6
 /// A root as the polynomial gives it.
 #[cold]
 fn at_angle<const M: usize, C: Closure<M>>(closure: &C, a: f64) -> Root {
-    let (s, c) = a.sin_cos();
+    let (s, c) = sin_cos(a);
     Root::at(a, [c, s], closure.w_at_root(c, s))
 }
 

@@ -29,20 +29,17 @@ pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, Refusal> {
 /// takes sliders far outside their strokes, it is the one whose `det_P` has the sign of home.
 pub fn forward_working(machine: &Machine, rho: [f64; 3]) -> Result<Posture, Refusal> {
     let assembly = question(machine, rho)?;
-    if let Some(posture) = direct(machine, &assembly, rho) {
+    // On the sheet λ > 0 from the level platform: the working mode's only basin in practice. What
+    // is found there counts only in the working mode and on home's side of the singularity.
+    if let Some([w, _]) = assembly.sheets(1.0, 0.0)
+        && let Some(root) = polish(&assembly, Root::at(0.0, [1.0, 0.0], w))
+        && on_home_side(machine, &assembly, &root)
+        && let Some(posture) = posture(machine, &assembly, rho, &root)
+        && posture.working
+    {
         return Ok(posture);
     }
     among_all(machine, &assembly, rho)
-}
-
-/// Newton's method on the sheet λ > 0 from the level platform: the working mode's only basin in
-/// practice. What it finds counts only in the working mode and on home's side of the singularity.
-#[inline]
-fn direct(machine: &Machine, assembly: &Assembly, rho: [f64; 3]) -> Option<Posture> {
-    let w = assembly.sheets(1.0, 0.0)?[0];
-    let root = polish(assembly, Root::at(0.0, [1.0, 0.0], w))?;
-    let posture = posture(machine, assembly, rho, &root)?;
-    (posture.working && on_home_side(machine, assembly, &root)).then_some(posture)
 }
 
 /// The working mode among all roots of the sheet, wherever they are.
@@ -95,12 +92,12 @@ fn posture(machine: &Machine, assembly: &Assembly, rho: [f64; 3], root: &Root) -
         alpha: wrapped(root.a),
     };
     let Checked { pose, residual } = checked(machine, pose, rho);
-    if residual > RESIDUAL_TOLERANCE * size(machine, pose.z) {
-        return None;
-    }
     let q = g.R2 * root.s;
     let drops = [w1, pose.z - q - rho[1], pose.z + q - rho[2]];
     let legs = drops.map(Side::of);
     let working = u > 0.0 && w1 > v.abs() && drops[1] > 0.0 && drops[2] > 0.0;
-    Some(Posture { pose, rho, mode: Mode { legs, crossed: u < 0.0 }, working, merged: root.merged, residual })
+    let mode = Mode { legs, crossed: u < 0.0 };
+    // A NaN is no residual either.
+    let holds = residual <= RESIDUAL_TOLERANCE * size(machine, pose.z);
+    holds.then_some(Posture { pose, rho, mode, working, merged: root.merged, residual })
 }

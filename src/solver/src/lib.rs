@@ -110,6 +110,7 @@
 //! column it is dimensionless; its determinant det_P vanishes where two assembly modes merge. bz/L
 //! vanishes where two inverse solutions merge. See [`jacobian`].
 
+mod angle;
 pub mod axis;
 mod circle;
 mod closure;

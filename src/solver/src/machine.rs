@@ -8,6 +8,7 @@ pub use fault::MachineFault;
 
 use crate::forward;
 use crate::jacobian;
+use crate::margins::cone::{Columns, columns};
 use crate::margins::interference;
 
 /// Rods that cross at home are measured against this distance, mm.
@@ -120,8 +121,8 @@ pub(crate) struct Derived {
     /// Largest length of the machine: the scale of tolerances.
     pub(crate) scale: f64,
     /// Unit axes of the slider cones (base frame) and platform cones (platform frame).
-    pub(crate) slider_axes: [[f64; 3]; 4],
-    pub(crate) platform_axes: [[f64; 3]; 4],
+    pub(crate) slider_axes: Columns,
+    pub(crate) platform_axes: Columns,
     /// `det_P` at home; its sign is the machine's.
     pub(crate) home_det: f64,
     /// The forward closure's determinant at home; its sign goes with `home_det`'s.
@@ -189,8 +190,8 @@ impl Derived {
             inverse_r1_square: 1.0 / (g.R1 * g.R1),
             uncrossed: (g.r1 / g.R1).acos(),
             scale,
-            slider_axes,
-            platform_axes,
+            slider_axes: columns(&slider_axes),
+            platform_axes: columns(&platform_axes),
             home_det: jacobian::det_at_home(g),
             home_distance: interference::nearest(g, &rods).0.max(SMALL_DISTANCE),
             home_turn: 0.0,

@@ -1,6 +1,6 @@
 //! Signed margins of a posture against every constraint: positive inside, zero on the limit.
 
-mod cone;
+pub(crate) mod cone;
 pub(crate) mod interference;
 mod worst;
 
@@ -46,6 +46,7 @@ impl Margins {
         let pose = &posture.pose;
         let rods = Rods::of(machine, &posture.pose, posture.rho);
         let (distance, nearest_rods) = interference::nearest(g, &rods);
+        let directions = cone::columns(&rods.directions);
         let q = g.R2 * rods.s;
         let [rho1, rho2, rho3] = posture.rho;
         let drops = [pose.z - rho1, pose.z - q - rho2, pose.z + q - rho3];
@@ -55,11 +56,11 @@ impl Margins {
             serial_singularity: rods.directions.map(|direction| direction[2] - limits.serial_margin),
             parallel_singularity: determinant(&matrix(g, &rods)) * derived.home_det.signum()
                 - limits.parallel_margin,
-            slider_joint: cone::margins(limits.slider_cone, &derived.slider_axes, &rods.directions),
+            slider_joint: cone::margins(limits.slider_cone, &derived.slider_axes, &directions),
             platform_joint: cone::margins(
                 limits.platform_cone,
                 &derived.platform_axes,
-                &cone::in_platform(&rods),
+                &cone::in_platform(&rods, &directions),
             ),
             rod_crossing: g.R1 * rods.c - g.r1,
             rod_interference: distance - 2.0 * g.rod_radius,

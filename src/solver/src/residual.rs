@@ -2,11 +2,12 @@
 
 use nalgebra::{Matrix4, Vector4};
 
+use crate::angle::sin_cos;
 use crate::closure::wrapped;
 use crate::jacobian::matrix;
 use crate::machine::Machine;
 use crate::pose::PlatformPose;
-use crate::rods::Rods;
+use crate::rods::{Rods, vectors_of};
 
 /// Largest rod-length error of a solution, relative to the size of its numbers. Evaluating the
 /// equations rounds by a few 1e-16 of that size; some hundred times as much is no solution.
@@ -31,7 +32,7 @@ pub(crate) struct Checked {
 /// elimination left an error.
 #[inline]
 pub(crate) fn checked(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
-    let residual = worst(&errors(machine, &pose, rho).0);
+    let residual = worst(&errors(machine, &pose, rho));
     let size = size(machine, pose.z);
     // What is further off is no rounded solution: correcting it would find another one.
     let rounded = residual > FINE * size && residual < ROUGH * size;
@@ -42,16 +43,16 @@ pub(crate) fn checked(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> C
 #[cold]
 fn corrected(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
     let radius = machine.geometry().R1;
-    let (mut errors_now, mut rods) = errors(machine, &pose, rho);
+    let mut errors_now = errors(machine, &pose, rho);
     let mut best = Checked { pose, residual: worst(&errors_now) };
     for _ in 0..STEPS {
-        let rows = matrix(machine.geometry(), &rods);
+        let rows = matrix(machine.geometry(), &Rods::of(machine, &best.pose, rho));
         let jacobian = Matrix4::from_fn(|row, column| rows[row][column]);
         let Some(step) = jacobian.lu().solve(&Vector4::from(errors_now)) else { break };
         let p = best.pose;
         let alpha = wrapped(p.alpha - step[3] / radius);
         let pose = PlatformPose { x: p.x - step[0], y: p.y - step[1], z: p.z - step[2], alpha };
-        (errors_now, rods) = errors(machine, &pose, rho);
+        errors_now = errors(machine, &pose, rho);
         let residual = worst(&errors_now);
         if residual < best.residual {
             best = Checked { pose, residual };
@@ -62,20 +63,29 @@ fn corrected(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
     best
 }
 
-/// The rods' length errors in Eqs (3)-(6), mm, and the rods.
+/// The rods' length errors in Eqs (3)-(6), mm.
 #[inline]
-fn errors(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> ([f64; 4], Rods) {
+fn errors(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> [f64; 4] {
     let g = machine.geometry();
-    let rods = Rods::of(machine, pose, rho);
-    let error =
-        |[x, y, z]: [f64; 3], length: f64| (x * x + y * y + (z - length) * (z + length)) * (0.5 / length);
-    let [b11, b12, b2, b3] = rods.vectors;
-    ([error(b11, g.L1), error(b12, g.L1), error(b2, g.L2), error(b3, g.L3)], rods)
+    let (s, c) = sin_cos(pose.alpha);
+    let vectors = vectors_of(machine, pose, rho, [c, s]);
+    let error = |i: usize, length: f64| {
+        let [x, y, z] = vectors[i];
+        (x * x + y * y + (z - length) * (z + length)) * (0.5 * machine.derived.inverse_lengths[i])
+    };
+    [error(0, g.L1), error(1, g.L1), error(2, g.L2), error(3, g.L3)]
 }
 
 #[inline]
 fn worst(errors: &[f64; 4]) -> f64 {
-    errors[0].abs().max(errors[1].abs()).max(errors[2].abs().max(errors[3].abs()))
+    let [a, b, c, d] = errors.map(f64::abs);
+    greater(greater(a, b), greater(c, d))
+}
+
+/// The greater of two numbers: a single instruction, unlike `f64::max`, which looks for NaNs.
+#[inline]
+pub(crate) fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// The size of a pose's numbers, which scales all rounding: a pose far along z is rounded with

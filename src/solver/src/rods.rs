@@ -1,5 +1,6 @@
 //! The six rods of a posture in space.
 
+use crate::angle::sin_cos;
 use crate::machine::{Geometry, Machine};
 use crate::pose::PlatformPose;
 
@@ -22,11 +23,9 @@ pub(crate) struct Rods {
 impl Rods {
     #[inline]
     pub(crate) fn of(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> Self {
-        let g = machine.geometry();
-        let (s, c) = pose.alpha.sin_cos();
-        let w = rho.map(|rho| pose.z - rho);
-        let (e1, e2) = (machine.derived.e1, machine.derived.e2);
-        Self::new(g, &machine.derived.inverse_lengths, [pose.x + e1, pose.x + e2], pose.y, w, [c, s])
+        let (s, c) = sin_cos(pose.alpha);
+        let vectors = vectors_of(machine, pose, rho, [c, s]);
+        Self::along(vectors, &machine.derived.inverse_lengths, [c, s])
     }
 
     #[inline]
@@ -38,14 +37,11 @@ impl Rods {
         w: [f64; 3],
         [c, s]: [f64; 2],
     ) -> Self {
-        let (u, v) = (g.R1 * c - g.r1, g.R1 * s);
-        let (p, q) = (g.R2 * c - g.r4, g.R2 * s);
-        let vectors = [
-            [x[0], y + u, w[0] + v],
-            [x[0], y - u, w[0] - v],
-            [x[1], y - p, w[1] - q],
-            [x[1], y + p, w[2] + q],
-        ];
+        Self::along(vectors(g, x, y, w, [c, s]), inverse, [c, s])
+    }
+
+    #[inline]
+    fn along(vectors: [[f64; 3]; 4], inverse: &[f64; 4], [c, s]: [f64; 2]) -> Self {
         let scaled = |i: usize| vectors[i].map(|component| component * inverse[i]);
         let directions = [scaled(0), scaled(1), scaled(2), scaled(3)];
         Self { vectors, directions, c, s }
@@ -65,4 +61,24 @@ impl Rods {
             [g.D2 - half, others[0], others[1]],
         ]
     }
+}
+
+/// B - A by family, from the platform's direction (c, s).
+#[inline]
+pub(crate) fn vectors_of(
+    machine: &Machine,
+    pose: &PlatformPose,
+    rho: [f64; 3],
+    direction: [f64; 2],
+) -> [[f64; 3]; 4] {
+    let (e1, e2) = (machine.derived.e1, machine.derived.e2);
+    let w = rho.map(|rho| pose.z - rho);
+    vectors(machine.geometry(), [pose.x + e1, pose.x + e2], pose.y, w, direction)
+}
+
+#[inline]
+fn vectors(g: &Geometry, x: [f64; 2], y: f64, w: [f64; 3], [c, s]: [f64; 2]) -> [[f64; 3]; 4] {
+    let (u, v) = (g.R1 * c - g.r1, g.R1 * s);
+    let (p, q) = (g.R2 * c - g.r4, g.R2 * s);
+    [[x[0], y + u, w[0] + v], [x[0], y - u, w[0] - v], [x[1], y - p, w[1] - q], [x[1], y + p, w[2] + q]]
 }

@@ -1,11 +1,12 @@
 //! The tilting table and the tool: Eqs (7)-(9), (14), (26), (27).
 
+use crate::angle::sin_cos;
 use crate::machine::Machine;
 use crate::pose::{PartPose, PlatformPose, Point, TableAngles};
 
 /// The tool centre point U in the base frame, for a tool of length `tool_length` from P (Eq (27)).
 pub fn tool_point(pose: &PlatformPose, tool_length: f64) -> Point {
-    let (s, c) = pose.alpha.sin_cos();
+    let (s, c) = sin_cos(pose.alpha);
     [pose.x, pose.y - tool_length * s, pose.z + tool_length * c]
 }
 
@@ -13,8 +14,8 @@ pub fn tool_point(pose: &PlatformPose, tool_length: f64) -> Point {
 pub fn part_pose(machine: &Machine, pose: &PlatformPose, table: TableAngles, tool_length: f64) -> PartPose {
     let offsets = machine.table();
     let phi1 = pose.alpha - table.theta1;
-    let ((s1, c1), (s2, c2)) = (table.theta1.sin_cos(), table.theta2.sin_cos());
-    let (sp, cp) = phi1.sin_cos();
+    let ((s1, c1), (s2, c2)) = (sin_cos(table.theta1), sin_cos(table.theta2));
+    let (sp, cp) = sin_cos(phi1);
     let height = pose.z - offsets.da;
     let v1 = tool_length * sp - pose.y * c1 - height * s1;
     PartPose {

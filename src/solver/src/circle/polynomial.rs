@@ -1,5 +1,7 @@
 //! Trigonometric polynomials in the Fourier basis.
 
+use crate::angle::sin_cos;
+
 /// `cos[0] + Σ (cos[n] cos nθ + sin[n] sin nθ)` of degree M - 1; `sin[0]` is zero.
 ///
 /// The Fourier basis keeps products exact in form, is invariant under rotation, and bounds every
@@ -101,7 +103,7 @@ impl<const M: usize> TrigPolynomial<M> {
 
     /// `θ ↦ self(θ + angle)`.
     pub(crate) fn turned(&self, angle: f64) -> Self {
-        let (s1, c1) = angle.sin_cos();
+        let (s1, c1) = sin_cos(angle);
         let (mut c, mut s) = (1.0, 0.0);
         let mut turned = *self;
         for n in 1..M {
@@ -140,7 +142,7 @@ impl<const M: usize> TrigPolynomial<M> {
     /// Value and slope at an angle.
     #[inline]
     pub(crate) fn at(&self, angle: f64) -> Jet {
-        let (s1, c1) = angle.sin_cos();
+        let (s1, c1) = sin_cos(angle);
         let (mut c, mut s, mut order) = (1.0, 0.0, 0.0);
         let mut jet = Jet { value: self.cos[0], slope: 0.0 };
         for n in 1..M {

@@ -1,12 +1,13 @@
 //! Newton's method on the loop closure, and one sheet of it as a function of the angle.
 
 use super::{Closure, Root};
+use crate::angle::{angle_of, sin_cos};
 use crate::residual::RESIDUAL_TOLERANCE;
 
 /// Newton steps until the last digit; convergence is quadratic, so few are ever used.
 const STEPS: usize = 12;
-/// Up to this angle the series of cos and sin below are exact in double precision.
-const SERIES: f64 = 0.15;
+/// A step of this angle leads astray.
+const ASTRAY: f64 = 1.0;
 
 /// Newton's method in (a, w); `None` if it does not converge.
 #[inline]
@@ -16,7 +17,7 @@ pub(crate) fn polish<const M: usize, C: Closure<M>>(closure: &C, start: Root) ->
         let step = step(closure, &root);
         root = stepped(&root, step)?;
         if settled(closure, &root, step) {
-            return Some(root);
+            return Some(arrived(&start, root));
         }
     }
     None
@@ -32,7 +33,7 @@ fn polish_both<const M: usize, C: Closure<M>>(closure: &C, starts: [Root; 2]) ->
         first = stepped(&first, steps[0])?;
         second = stepped(&second, steps[1])?;
         if settled(closure, &first, steps[0]) & settled(closure, &second, steps[1]) {
-            return Some([first, second]);
+            return Some([arrived(&starts[0], first), arrived(&starts[1], second)]);
         }
     }
     None
@@ -50,7 +51,7 @@ pub(super) fn root_between<const M: usize, C: Closure<M>>(
     [low, high]: [f64; 2],
     a: f64,
 ) -> Option<Root> {
-    let (s, c) = a.sin_cos();
+    let (s, c) = sin_cos(a);
     let inside = |root: &Root| root.a >= low && root.a <= high;
     let w = closure.w_at_root(c, s);
     let sheets = closure.sheets(c, s).unwrap_or([w, w]);
@@ -70,7 +71,7 @@ pub(super) fn either_side<const M: usize, C: Closure<M>>(
     [low, high]: [f64; 2],
     at: f64,
 ) -> Option<[Root; 2]> {
-    let (s, c) = at.sin_cos();
+    let (s, c) = sin_cos(at);
     let [above, below] = closure.sheets(c, s)?;
     let [first, second] = polish_both(closure, [above, below].map(|w| Root::at(at, [c, s], w)))?;
     let pair = if first.a < second.a { [first, second] } else { [second, first] };
@@ -94,31 +95,25 @@ fn step<const M: usize, C: Closure<M>>(closure: &C, root: &Root) -> [f64; 2] {
     [(e.f[1] * e.dw[0] - e.f[0] * e.dw[1]) * scale, (e.f[0] * e.da[1] - e.f[1] * e.da[0]) * scale]
 }
 
-/// The root moved by a step; `None` for a step that leads astray.
+/// The root moved by a step, except for its angle; `None` for a step that leads astray.
+///
+/// The direction (c, s) is turned by the rational rotation with half the step for the tangent of
+/// the half angle: it keeps a unit vector as exactly as cos and sin do and differs from the step
+/// by its cube only, which Newton's method does not notice.
 #[inline]
 fn stepped(root: &Root, [step_a, step_w]: [f64; 2]) -> Option<Root> {
-    let (a, w) = (root.a + step_a, root.w + step_w);
-    let size = step_a.abs();
-    if size < SERIES {
-        let (c, s) = rotated(root.c, root.s, step_a);
-        Some(Root { a, c, s, w, ..*root })
-    } else if size < 1.0 {
-        let (s, c) = a.sin_cos();
-        Some(Root { a, c, s, w, ..*root })
-    } else {
-        None
-    }
+    let square = 0.25 * step_a * step_a;
+    let scale = 1.0 / (1.0 + square);
+    let (cd, sd) = ((1.0 - square) * scale, step_a * scale);
+    let (c, s) = (root.c * cd - root.s * sd, root.s * cd + root.c * sd);
+    (step_a.abs() < ASTRAY).then_some(Root { c, s, w: root.w + step_w, ..*root })
 }
 
-/// The direction (c, s) turned by an angle below [`SERIES`], by the Taylor series of cos and sin.
+/// The root with the angle of its direction, which is told from the start's: it is continuous.
 #[inline]
-fn rotated(c: f64, s: f64, angle: f64) -> (f64, f64) {
-    let x = angle * angle;
-    let sd =
-        angle * (1.0 - x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5_040.0 - x * (1.0 / 362_880.0)))));
-    let cd = 1.0
-        - x * (0.5 - x * (1.0 / 24.0 - x * (1.0 / 720.0 - x * (1.0 / 40_320.0 - x * (1.0 / 3_628_800.0)))));
-    (c * cd - s * sd, s * cd + c * sd)
+fn arrived(start: &Root, root: Root) -> Root {
+    let turned = angle_of(root.c * start.c + root.s * start.s, root.s * start.c - root.c * start.s);
+    Root { a: start.a + turned, ..root }
 }
 
 /// The linear equation on one sheet: its value and its slope along the sheet.
@@ -132,7 +127,7 @@ pub(super) struct OnSheet {
 
 /// Sheet 0 (w₊) or 1 (w₋) at an angle; `None` where it does not exist.
 pub(super) fn on_sheet<const M: usize, C: Closure<M>>(closure: &C, sheet: usize, a: f64) -> Option<OnSheet> {
-    let (s, c) = a.sin_cos();
+    let (s, c) = sin_cos(a);
     let w = closure.sheets(c, s)?[sheet];
     let e = closure.equations(c, s, w);
     let slope = e.da[0] - e.dw[0] * e.da[1] / e.dw[1];

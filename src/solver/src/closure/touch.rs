@@ -4,6 +4,7 @@ use arrayvec::ArrayVec;
 
 use super::sheet::{OnSheet, on_sheet, polish};
 use super::{Closure, Root, Roots, add};
+use crate::angle::sin_cos;
 
 /// Even intervals of the arc in which the sheets are looked at.
 const EVEN: u8 = 16;
@@ -122,7 +123,7 @@ fn at_fold<const M: usize, C: Closure<M>>(
 }
 
 fn root_at<const M: usize, C: Closure<M>>(closure: &C, sheet: usize, a: f64, merged: bool) -> Option<Root> {
-    let (s, c) = a.sin_cos();
+    let (s, c) = sin_cos(a);
     let w = closure.sheets(c, s)?[sheet];
     Some(Root { a, c, s, w, merged })
 }

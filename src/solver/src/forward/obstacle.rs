@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::elimination::Assembly;
 use super::posture;
+use crate::angle::sin_cos;
 use crate::closure::{Closure, Roots, find_roots};
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
@@ -25,7 +26,7 @@ pub(super) fn nearest(machine: &Machine, assembly: &Assembly) -> Margin {
 
 /// How far the closure is from being satisfied at one angle, mm.
 fn miss_at(machine: &Machine, assembly: &Assembly, a: f64) -> f64 {
-    let (s, c) = a.sin_cos();
+    let (s, c) = sin_cos(a);
     let size = 2.0 * machine.derived.scale;
     let missed = |w: f64| {
         let f = assembly.equations(c, s, w).f;

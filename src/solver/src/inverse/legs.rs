@@ -1,10 +1,14 @@
 //! Legs II and III with the platform's pose known, and the postures that come of it.
 
-use crate::limit::{Constraint, Element, Margin};
+use std::f64::consts::PI;
+
+use crate::angle::sin_cos;
+use crate::closure::{Root, wrapped};
+use crate::limit::{Constraint, Element, Margin, Refusal};
 use crate::machine::Machine;
 use crate::pose::{PlatformPose, Point};
 use crate::posture::{Mode, Posture, Postures, Side};
-use crate::residual::{FINE, RESIDUAL_TOLERANCE};
+use crate::residual::{FINE, RESIDUAL_TOLERANCE, greater};
 
 /// Relative to L², what is left for a leg's drop is zero up to rounding: its two sides are one.
 const FLAT: f64 = 8.0 * f64::EPSILON;
@@ -13,25 +17,18 @@ const FLAT: f64 = 8.0 * f64::EPSILON;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Closed {
     /// P, mm.
-    pub(super) p: Point,
-    pub(super) alpha: f64,
-    pub(super) c: f64,
-    pub(super) s: f64,
-    /// cos and sin of `alpha` itself, for the check: see [`check`].
-    pub(super) checked: [f64; 2],
-    pub(super) w1: f64,
-    pub(super) side: Side,
-    pub(super) merged: bool,
+    p: Point,
+    alpha: f64,
+    c: f64,
+    s: f64,
+    /// cos and sin of `alpha` itself, for the check: it starts from the angle that is given out,
+    /// not from the c and s that it was found with.
+    checked: [f64; 2],
+    w1: f64,
+    first: Leg,
+    merged: bool,
     /// The size of the numbers that P was found from: its rounding.
-    pub(super) size: f64,
-}
-
-/// cos and sin of the angle that is given out. The check of a solution starts from them, not from
-/// the c and s that it was found with.
-#[inline]
-pub(super) fn check(alpha: f64) -> [f64; 2] {
-    let (s, c) = alpha.sin_cos();
-    [c, s]
+    size: f64,
 }
 
 /// One way to close a leg: its slider's position, and the rod length's error there.
@@ -42,149 +39,230 @@ struct Leg {
     error: f64,
 }
 
-/// Both sides of leg II or III, the same one twice if they have merged.
+/// What leg II or III has between its platform end and its slider, mm: zero if its two sides have
+/// merged.
 #[derive(Clone, Copy, Debug)]
-struct Sides {
-    legs: [Leg; 2],
+struct Drop {
+    size: f64,
     merged: bool,
 }
 
-/// A closed platform and what the other legs need of it.
-#[derive(Clone, Copy, Debug)]
-struct Platform<'a> {
-    machine: &'a Machine,
-    closed: &'a Closed,
-    u: f64,
-    v: f64,
-    p: f64,
-    q: f64,
-    x2: f64,
-    /// p and q again, from the angle that is given out, for the check.
-    checked: [f64; 2],
-    tolerance: f64,
-}
-
-impl<'a> Platform<'a> {
-    /// The platform and its leg I, whose error is found from the angle that is given out.
+impl Closed {
+    /// The platform at `p` with leg I at a root of its closure; `size` is that of the numbers that
+    /// both come from.
     #[inline]
-    fn new(machine: &'a Machine, closed: &'a Closed) -> (Self, Leg) {
-        let g = machine.geometry();
-        let [c, s] = closed.checked;
-        let platform = Self {
-            machine,
-            closed,
-            u: g.R1 * closed.c - g.r1,
-            v: g.R1 * closed.s,
-            p: g.R2 * closed.c - g.r4,
-            q: g.R2 * closed.s,
-            x2: closed.p[0] + machine.derived.e2,
-            checked: [g.R2 * c - g.r4, g.R2 * s],
-            tolerance: RESIDUAL_TOLERANCE * closed.size,
-        };
-        let [x, y, z] = closed.p;
-        let rho = z - closed.w1;
-        let (u, v, w) = (g.R1 * c - g.r1, g.R1 * s, z - rho);
-        let x = x + machine.derived.e1;
-        let error = |y: f64, z: f64| ((x * x + y * y + (z - g.L1) * (z + g.L1)) * (0.5 / g.L1)).abs();
-        let error = error(y + u, w + v).max(error(y - u, w - v));
-        (platform, Leg { rho, side: closed.side, error })
+    pub(super) fn new(machine: &Machine, p: Point, root: &Root, size: f64) -> Self {
+        let alpha = wrapped(root.a);
+        let (s, c) = sin_cos(alpha);
+        let first = first_leg(machine, p, [c, s], root.w);
+        let Root { c: found_c, s: found_s, w: w1, merged, .. } = *root;
+        Self { p, alpha, c: found_c, s: found_s, checked: [c, s], w1, first, merged, size }
     }
 
-    /// Rod length of leg II (`sign` -1) or III (+1).
+    /// Leg I closed from the other side where P does not depend on the angle: (c, -s, -w1)
+    /// satisfies (A) with (c, s, w1).
     #[inline]
-    fn length(&self, sign: f64) -> f64 {
-        let g = self.machine.geometry();
-        if sign < 0.0 { g.L2 } else { g.L3 }
+    fn mirrored(&self, machine: &Machine) -> Self {
+        let alpha = if self.alpha == PI { PI } else { -self.alpha };
+        let checked = [self.checked[0], -self.checked[1]];
+        let first = first_leg(machine, self.p, checked, -self.w1);
+        Self { alpha, s: -self.s, checked, w1: -self.w1, first, ..*self }
     }
 
-    /// What leg II or III has left for its drop, squared.
+    /// Whether a rod length's error is one of a solution; not if it is a NaN.
     #[inline]
-    fn left(&self, sign: f64) -> f64 {
-        let length = self.length(sign);
-        let y = self.closed.p[1] + sign * self.p;
-        (length - self.x2) * (length + self.x2) - y * y
+    fn holds(&self, error: f64) -> bool {
+        error <= RESIDUAL_TOLERANCE * self.size
     }
 
+    /// Whether leg I closes to the last digits.
     #[inline]
-    fn leg(&self, sign: f64, side: Side, drop: f64) -> Leg {
-        let [_, y, z] = self.closed.p;
-        let length = self.length(sign);
-        let rho = z + sign * self.q - side.sign() * drop;
-        let [p, q] = self.checked;
-        let (y, z) = (y + sign * p, z + sign * q - rho);
-        let error = (self.x2 * self.x2 + y * y + (z - length) * (z + length)) * (0.5 / length);
-        Leg { rho, side, error: error.abs() }
-    }
-
-    /// Both sides of leg II or III; none if it does not reach.
-    #[inline]
-    fn sides(&self, sign: f64) -> Option<Sides> {
-        let left = self.left(sign);
-        let flat = FLAT * self.length(sign) * self.length(sign);
-        if left < -flat {
-            return None;
-        }
-        let merged = left <= flat;
-        let drop = if merged { 0.0 } else { left.sqrt() };
-        let legs = [self.leg(sign, Side::Above, drop), self.leg(sign, Side::Below, drop)];
-        Some(Sides { legs, merged })
-    }
-
-    /// The posture with these legs; `None` if it does not satisfy Eqs (3)-(6).
-    #[inline]
-    fn posture(&self, legs: [&Leg; 3], merged: bool) -> Option<Posture> {
-        let residual = legs[0].error.max(legs[1].error).max(legs[2].error);
-        let above = legs[0].side == Side::Above && legs[1].side == Side::Above && legs[2].side == Side::Above;
-        let [x, y, z] = self.closed.p;
-        (residual <= self.tolerance).then_some(Posture {
-            pose: PlatformPose { x, y, z, alpha: self.closed.alpha },
-            rho: [legs[0].rho, legs[1].rho, legs[2].rho],
-            mode: Mode { legs: [legs[0].side, legs[1].side, legs[2].side], crossed: self.u < 0.0 },
-            working: above && !merged && self.u > 0.0 && self.closed.w1 > self.v.abs(),
-            merged: merged || self.closed.merged,
-            residual,
-        })
+    pub(super) fn is_fine(&self) -> bool {
+        self.first.error <= FINE * self.size
     }
 }
 
-/// Whether leg I closes to the last digits.
+/// Leg I with the platform's direction (c, s) as it is given out.
 #[inline]
-pub(super) fn is_fine(machine: &Machine, closed: &Closed) -> bool {
-    Platform::new(machine, closed).1.error <= FINE * closed.size
+fn first_leg(machine: &Machine, [x, y, z]: Point, [c, s]: [f64; 2], w1: f64) -> Leg {
+    let g = machine.geometry();
+    let rho = z - w1;
+    let (u, v, w) = (g.R1 * c - g.r1, g.R1 * s, z - rho);
+    let x = x + machine.derived.e1;
+    let scale = 0.5 * machine.derived.inverse_lengths[0];
+    let error = |y: f64, z: f64| ((x * x + y * y + (z - g.L1) * (z + g.L1)) * scale).abs();
+    Leg { rho, side: Side::of(w1), error: greater(error(y + u, w + v), error(y - u, w - v)) }
+}
+
+/// Leg II or III with the platform closed.
+#[derive(Clone, Copy, Debug)]
+struct Other<'a> {
+    closed: &'a Closed,
+    length: f64,
+    half_inverse: f64,
+    x: f64,
+    /// p and q, signed, as they were found and from the angle that is given out.
+    found: [f64; 2],
+    checked: [f64; 2],
+}
+
+impl<'a> Other<'a> {
+    /// Legs II and III.
+    #[inline]
+    fn both(machine: &Machine, closed: &'a Closed) -> [Self; 2] {
+        let (g, derived) = (machine.geometry(), &machine.derived);
+        let [c, s] = closed.checked;
+        let x = closed.p[0] + derived.e2;
+        let (found, checked) = ([g.R2 * closed.c - g.r4, g.R2 * closed.s], [g.R2 * c - g.r4, g.R2 * s]);
+        let leg = |sign: f64, length, inverse: f64| {
+            let (found, checked) = (found.map(|arm| sign * arm), checked.map(|arm| sign * arm));
+            Self { closed, length, half_inverse: 0.5 * inverse, x, found, checked }
+        };
+        let [_, _, inverse2, inverse3] = derived.inverse_lengths;
+        [leg(-1.0, g.L2, inverse2), leg(1.0, g.L3, inverse3)]
+    }
+
+    /// What the leg has left for its drop, squared.
+    #[inline]
+    fn left(&self) -> f64 {
+        let y = self.closed.p[1] + self.found[0];
+        (self.length - self.x) * (self.length + self.x) - y * y
+    }
+
+    /// The leg's drop; `None` if it does not reach.
+    #[inline]
+    fn drop(&self) -> Option<Drop> {
+        let left = self.left();
+        let flat = FLAT * self.length * self.length;
+        let merged = left <= flat;
+        (left >= -flat).then(|| Drop { size: if merged { 0.0 } else { left.sqrt() }, merged })
+    }
+
+    /// The leg with its slider above, and below.
+    #[inline]
+    fn sides(&self, drop: f64) -> [Leg; 2] {
+        [self.leg(Side::Above, drop), self.leg(Side::Below, drop)]
+    }
+
+    #[inline]
+    fn leg(&self, side: Side, drop: f64) -> Leg {
+        let [_, y, z] = self.closed.p;
+        let rho = z + self.found[1] - side.sign() * drop;
+        let (y, z) = (y + self.checked[0], z + self.checked[1] - rho);
+        let square = self.x * self.x + y * y + (z - self.length) * (z + self.length);
+        Leg { rho, side, error: (square * self.half_inverse).abs() }
+    }
+}
+
+/// The drops of legs II and III; `None` if one does not reach.
+#[inline]
+fn drops(legs: &[Other<'_>; 2]) -> Option<[Drop; 2]> {
+    Some([legs[0].drop()?, legs[1].drop()?])
 }
 
 /// All postures of a closed leg I.
 #[inline]
 pub(super) fn postures(machine: &Machine, closed: &Closed, found: &mut Postures) {
-    let (platform, first) = Platform::new(machine, closed);
-    let (Some(second), Some(third)) = (platform.sides(-1.0), platform.sides(1.0)) else { return };
-    let merged = second.merged || third.merged;
-    for leg2 in &second.legs[usize::from(second.merged)..] {
-        for leg3 in &third.legs[usize::from(third.merged)..] {
+    let legs = Other::both(machine, closed);
+    if let Some(drops) = drops(&legs) {
+        add(machine, closed, &legs, drops, found);
+    }
+}
+
+/// All postures of a closed leg I and of its mirror image, whose other legs have the same drops:
+/// they depend on c alone.
+#[inline]
+pub(super) fn mirrored_postures(machine: &Machine, above: &Closed, found: &mut Postures) {
+    let legs = Other::both(machine, above);
+    if let Some(drops) = drops(&legs) {
+        add(machine, above, &legs, drops, found);
+        let below = above.mirrored(machine);
+        add(machine, &below, &Other::both(machine, &below), drops, found);
+    }
+}
+
+#[inline]
+fn add(
+    machine: &Machine,
+    closed: &Closed,
+    [second, third]: &[Other<'_>; 2],
+    drops: [Drop; 2],
+    found: &mut Postures,
+) {
+    let (seconds, thirds) = (second.sides(drops[0].size), third.sides(drops[1].size));
+    let merged = drops[0].merged || drops[1].merged;
+    let holds = |leg: &Leg| closed.holds(leg.error);
+    let all_hold = holds(&closed.first) && seconds.iter().chain(&thirds).all(holds);
+    // All four, and nothing to look at in each: nearly always.
+    if !merged && all_hold && found.remaining_capacity() >= 4 {
+        for leg2 in &seconds {
+            for leg3 in &thirds {
+                found.push(posture(machine, closed, [leg2, leg3], false));
+            }
+        }
+        return;
+    }
+    add_those_that_hold(
+        machine,
+        closed,
+        [&seconds[usize::from(drops[0].merged)..], &thirds[usize::from(drops[1].merged)..]],
+        merged,
+        found,
+    );
+}
+
+/// As [`add`], where two sides have merged (and count once) or a posture does not satisfy Eqs (3)-(6).
+#[cold]
+fn add_those_that_hold(
+    machine: &Machine,
+    closed: &Closed,
+    [seconds, thirds]: [&[Leg]; 2],
+    merged: bool,
+    found: &mut Postures,
+) {
+    for leg2 in seconds {
+        for leg3 in thirds {
+            let holds = [&closed.first, leg2, leg3].iter().all(|leg| closed.holds(leg.error));
             // At most six angles of leg I exist, and four postures of each: there is room.
-            if let Some(posture) = platform.posture([&first, leg2, leg3], merged)
-                && !found.is_full()
-            {
-                found.push(posture);
+            if holds && !found.is_full() {
+                found.push(posture(machine, closed, [leg2, leg3], merged));
             }
         }
     }
 }
 
+/// The posture of a closed leg I and these two.
+#[inline]
+fn posture(machine: &Machine, closed: &Closed, [leg2, leg3]: [&Leg; 2], merged: bool) -> Posture {
+    let g = machine.geometry();
+    let (u, v) = (g.R1 * closed.c - g.r1, g.R1 * closed.s);
+    let above = leg2.side == Side::Above && leg3.side == Side::Above;
+    let [x, y, z] = closed.p;
+    Posture {
+        pose: PlatformPose { x, y, z, alpha: closed.alpha },
+        rho: [closed.first.rho, leg2.rho, leg3.rho],
+        mode: Mode { legs: [closed.first.side, leg2.side, leg3.side], crossed: u < 0.0 },
+        working: above && !merged && u > 0.0 && closed.w1 > v.abs(),
+        merged: merged || closed.merged,
+        residual: greater(closed.first.error, greater(leg2.error, leg3.error)),
+    }
+}
+
 /// The posture with all sliders above, if it is in the working mode; else what prevents it.
 #[inline]
-pub(super) fn working(machine: &Machine, closed: &Closed) -> Result<Posture, Margin> {
-    let (platform, first) = Platform::new(machine, closed);
-    let (second, third) = (platform.left(-1.0), platform.left(1.0));
-    if second <= 0.0 || third <= 0.0 {
-        return Err(out_of_reach(second, third));
+pub(super) fn working(machine: &Machine, closed: &Closed) -> Result<Posture, Refusal> {
+    let [second, third] = Other::both(machine, closed);
+    let (left2, left3) = (second.left(), third.left());
+    if left2 <= 0.0 || left3 <= 0.0 {
+        return Err(Refusal::Blocked(out_of_reach(left2, left3)));
     }
-    let second = platform.leg(-1.0, Side::Above, second.sqrt());
-    let third = platform.leg(1.0, Side::Above, third.sqrt());
-    match platform.posture([&first, &second, &third], false) {
-        Some(posture) if posture.working => Ok(posture),
-        _ => Err(out_of_mode(machine, closed).unwrap_or_else(|| out_of_reach(-0.0, -0.0))),
+    let (leg2, leg3) = (second.leg(Side::Above, left2.sqrt()), third.leg(Side::Above, left3.sqrt()));
+    let posture = posture(machine, closed, [&leg2, &leg3], false);
+    let holds = [closed.first, leg2, leg3].iter().all(|leg| closed.holds(leg.error));
+    if posture.working && holds {
+        return Ok(posture);
     }
+    Err(Refusal::Blocked(out_of_mode(machine, closed).unwrap_or_else(|| out_of_reach(-0.0, -0.0))))
 }
 
 /// The leg that is short, or shorter of the two.
@@ -217,7 +295,6 @@ pub(super) fn out_of_mode(machine: &Machine, closed: &Closed) -> Option<Margin> 
 /// What keeps legs II and III from reaching a pose at all, if anything does.
 #[cold]
 pub(super) fn reach_of_others(machine: &Machine, closed: &Closed) -> Option<Margin> {
-    let (platform, _) = Platform::new(machine, closed);
-    let (second, third) = (platform.left(-1.0), platform.left(1.0));
+    let [second, third] = Other::both(machine, closed).map(|leg| leg.left());
     (second < 0.0 || third < 0.0).then(|| out_of_reach(second, third))
 }

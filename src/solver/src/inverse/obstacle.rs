@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::legs;
 use super::track::{LegOne, Track};
+use crate::angle::sin_cos;
 use crate::closure::{Roots, find_roots};
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
@@ -46,7 +47,7 @@ pub(super) fn of_leg_one(machine: &Machine, track: &Track) -> Margin {
 /// The greatest slack of leg I over the platform's angles.
 fn best_slack(leg: &LegOne) -> f64 {
     let slack = |a: f64| {
-        let (s, c) = a.sin_cos();
+        let (s, c) = sin_cos(a);
         leg.slack(c, s)
     };
     let step = TAU / f64::from(TRIALS);

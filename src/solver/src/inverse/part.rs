@@ -1,6 +1,7 @@
 //! The whole machine: the tool's pose given in the table frame.
 
 use super::track::Track;
+use crate::angle::sin_cos;
 use crate::limit::{Refusal, in_domain};
 use crate::machine::Machine;
 use crate::pose::PartPose;
@@ -22,7 +23,7 @@ fn track(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Track
     let PartPose { x, y, z, phi1, phi2 } = *target;
     in_domain(&[x, y, z, phi1, phi2, tool_length])?;
     let table = machine.table();
-    let ((s1, c1), (s2, c2)) = (phi1.sin_cos(), phi2.sin_cos());
+    let ((s1, c1), (s2, c2)) = (sin_cos(phi1), sin_cos(phi2));
     // theta2 = -phi2.
     let v1 = y * c2 - x * s2;
     let a = tool_length * s1 - v1;

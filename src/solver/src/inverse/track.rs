@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 
-use super::legs::{self, Closed, check};
+use super::legs::{self, Closed};
 use super::obstacle;
 use super::platform::{platform, platform_working};
 use crate::circle::{TrigPolynomial, linear};
-use crate::closure::{Closure, Equations, LAST_STEP, Root, Roots, find_roots, polish, wrapped};
-use crate::limit::{Margin, Refusal};
+use crate::closure::{Closure, Equations, LAST_STEP, Root, Roots, find_roots, polish};
+use crate::limit::Refusal;
 use crate::machine::Machine;
 use crate::pose::Point;
-use crate::posture::{Posture, Postures, Side, gathered};
+use crate::posture::{Posture, Postures, gathered};
 use crate::residual::size;
 
 /// P = (x, y0 + yc cos a + ys sin a, z0 + zc cos a + zs sin a): where the platform has to be at
@@ -60,48 +60,37 @@ impl Track {
         }
         let leg = LegOne::new(machine, self);
         // From the level platform on the sheet w1 > 0: the working mode's only basin in practice.
-        let direct = leg.sheets(1.0, 0.0).and_then(|[w, _]| {
-            let root = polish(&leg, Root::at(0.0, [1.0, 0.0], w))?;
-            legs::working(machine, &self.closed(machine, &root)).ok()
-        });
-        match direct {
-            Some(posture) => Ok(posture),
-            None => self.among_all(machine, &leg),
+        if let Some([w, _]) = leg.sheets(1.0, 0.0)
+            && let Some(root) = polish(&leg, Root::at(0.0, [1.0, 0.0], w))
+        {
+            let answer = legs::working(machine, &self.closed(machine, &root));
+            if answer.is_ok() {
+                return answer;
+            }
         }
+        self.among_all(machine, &leg)
     }
 
     /// The working mode among all roots of the sheet at which leg I's rods do not cross.
     #[cold]
     fn among_all(&self, machine: &Machine, leg: &LegOne) -> Result<Posture, Refusal> {
-        let mut refused: Option<Margin> = None;
+        let mut refused = None;
         let mut roots = Roots::new();
         find_roots(leg, machine.derived.uncrossed, &mut roots);
         for root in roots.iter().filter(|root| root.w >= 0.0) {
             match legs::working(machine, &self.closed(machine, root)) {
                 Ok(posture) => return Ok(posture),
-                Err(margin) => refused = refused.or(Some(margin)),
+                Err(refusal) => refused = refused.or(Some(refusal)),
             }
         }
-        Err(Refusal::Blocked(refused.unwrap_or_else(|| obstacle::of_leg_one(machine, self))))
+        Err(refused.unwrap_or_else(|| Refusal::Blocked(obstacle::of_leg_one(machine, self))))
     }
 
     /// The platform's pose at a root of leg I's closure.
     #[inline]
     pub(super) fn closed(&self, machine: &Machine, root: &Root) -> Closed {
         let p = self.at(root.c, root.s);
-        let alpha = wrapped(root.a);
-        let (c, s) = (root.c, root.s);
-        Closed {
-            p,
-            alpha,
-            c,
-            s,
-            checked: check(alpha),
-            w1: root.w,
-            side: Side::of(root.w),
-            merged: root.merged,
-            size: size(machine, p[2]) + self.y[1].abs() + self.y[2].abs(),
-        }
+        Closed::new(machine, p, root, size(machine, p[2]) + self.y[1].abs() + self.y[2].abs())
     }
 }
 

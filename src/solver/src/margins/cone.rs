@@ -1,30 +1,47 @@
 //! Passive joints: the angle between a rod and the axis of its cone.
 
-use std::f64::consts::PI;
+use std::f64::consts::FRAC_PI_2;
 
+use crate::angle::asin;
 use crate::rods::Rods;
 
-/// Half-angle less each direction's angle from its axis, rad. All are unit vectors.
+/// Four unit vectors by coordinate, so that four angles are computed at once.
+pub(crate) type Columns = [[f64; 4]; 3];
+
+/// Vectors by coordinate.
 #[inline]
-pub(super) fn margins(half_angle: f64, axes: &[[f64; 3]; 4], directions: &[[f64; 3]; 4]) -> [f64; 4] {
-    let margin = |i: usize| half_angle - angle(axes[i], directions[i]);
-    [margin(0), margin(1), margin(2), margin(3)]
+pub(crate) fn columns(vectors: &[[f64; 3]; 4]) -> Columns {
+    let column = |axis: usize| [0, 1, 2, 3].map(|i: usize| vectors[i][axis]);
+    [column(0), column(1), column(2)]
 }
 
-/// The rods' directions in the platform frame: turned back by alpha about x.
+/// Columns turned back by alpha about x: from the base frame into the platform's.
 #[inline]
-pub(super) fn in_platform(rods: &Rods) -> [[f64; 3]; 4] {
+pub(super) fn in_platform(rods: &Rods, [x, y, z]: &Columns) -> Columns {
     let (c, s) = (rods.c, rods.s);
-    rods.directions.map(|[x, y, z]| [x, c * y + s * z, c * z - s * y])
+    let (mut turned_y, mut turned_z) = ([0.0; 4], [0.0; 4]);
+    for i in 0..4 {
+        turned_y[i] = c * y[i] + s * z[i];
+        turned_z[i] = c * z[i] - s * y[i];
+    }
+    [*x, turned_y, turned_z]
 }
 
+/// Half-angle less each direction's angle from its axis, rad.
+///
 /// The angle between two unit vectors by their chord: unlike the arc cosine of their product it
-/// keeps its digits near home, where the angle is zero.
+/// keeps its digits near home, where the angle is zero. Of two that point apart it is the chord to
+/// the opposite of the one, and what is missing to half a turn.
 #[inline]
-fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let sign = if dot < 0.0 { -1.0 } else { 1.0 };
-    let [x, y, z] = [a[0] - sign * b[0], a[1] - sign * b[1], a[2] - sign * b[2]];
-    let acute = 2.0 * (0.5 * (x * x + y * y + z * z).sqrt()).asin();
-    if dot < 0.0 { PI - acute } else { acute }
+pub(super) fn margins(half_angle: f64, a: &Columns, b: &Columns) -> [f64; 4] {
+    let mut margins = [0.0; 4];
+    for i in 0..4 {
+        let dot = a[0][i] * b[0][i] + a[1][i] * b[1][i] + a[2][i] * b[2][i];
+        let sign = 1.0_f64.copysign(dot);
+        let chord = [a[0][i] - sign * b[0][i], a[1][i] - sign * b[1][i], a[2][i] - sign * b[2][i]];
+        let square = 0.25 * (chord[0] * chord[0] + chord[1] * chord[1] + chord[2] * chord[2]);
+        let acute = 2.0 * asin(square.sqrt(), square);
+        margins[i] = half_angle - (FRAC_PI_2 * (1.0 - sign) + sign * acute);
+    }
+    margins
 }

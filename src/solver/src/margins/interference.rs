@@ -16,41 +16,51 @@ pub(crate) fn nearest(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     let mut nearest = (f64::INFINITY, 0, 0);
     // A leg's own rods first: they are usually the nearest, and the rest is then seen to be
     // further apart at a glance. Rods 22 and 32 stand to each other as 21 and 31 do.
-    meet::<0, 1>(&mut nearest, &ends, rods);
+    meet(&mut nearest, &ends, rods, [0, 1]);
+    let half = g.parallelogram_half_width;
     for (leg, first) in [(2, 2), (3, 4)] {
-        let square = square_parallel(2.0 * g.parallelogram_half_width, &rods.vectors[leg]);
+        let square = square_parallel(2.0 * half, &rods.vectors[leg]);
         if square < nearest.0 {
             nearest = (square, first, first + 1);
         }
     }
-    meet::<0, 2>(&mut nearest, &ends, rods);
-    meet::<0, 3>(&mut nearest, &ends, rods);
-    meet::<0, 4>(&mut nearest, &ends, rods);
-    meet::<0, 5>(&mut nearest, &ends, rods);
-    meet::<1, 2>(&mut nearest, &ends, rods);
-    meet::<1, 3>(&mut nearest, &ends, rods);
-    meet::<1, 4>(&mut nearest, &ends, rods);
-    meet::<1, 5>(&mut nearest, &ends, rods);
-    meet::<2, 4>(&mut nearest, &ends, rods);
-    meet::<2, 5>(&mut nearest, &ends, rods);
-    meet::<3, 4>(&mut nearest, &ends, rods);
+    for i in [0, 1] {
+        for j in [2, 4] {
+            if !far(&nearest, &to_middle(&ends, i, j, half), rods, [i, j], half) {
+                meet(&mut nearest, &ends, rods, [i, j]);
+                meet(&mut nearest, &ends, rods, [i, j + 1]);
+            }
+        }
+    }
+    if !far(&nearest, &difference(ends[2], ends[4]), rods, [2, 4], 2.0 * half) {
+        for pair in [[2, 4], [2, 5], [3, 4]] {
+            meet(&mut nearest, &ends, rods, pair);
+        }
+    }
     let (square, i, j) = nearest;
     (square.sqrt(), [RODS[i], RODS[j]])
 }
 
+/// Whether two rods are at least as far apart as the nearest pair, by what can be told without
+/// their nearest points, wherever one of them is shifted along x by up to `shift` either way: the
+/// segments' projections on the gap's direction are at least so far apart, times |gap|.
 #[inline]
-fn meet<const I: usize, const J: usize>(nearest: &mut Nearest, ends: &[[f64; 3]; 6], rods: &Rods) {
-    let (a, b) = (&rods.vectors[FAMILY[I]], &rods.vectors[FAMILY[J]]);
-    let gap = difference(ends[I], ends[J]);
-    // The segments' projections on the gap's direction are at least this far apart, times |gap|.
-    let square_gap = dot(&gap, &gap);
-    let apart = square_gap - dot(a, &gap).max(0.0) + dot(b, &gap).min(0.0);
-    if apart > 0.0 && apart * apart >= nearest.0 * square_gap {
+fn far(nearest: &Nearest, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
+    let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
+    let square_gap = dot(gap, gap);
+    let apart = square_gap - dot(a, gap).max(0.0) + dot(b, gap).min(0.0) - shift * gap[0].abs();
+    apart > 0.0 && apart * apart >= nearest.0 * square_gap
+}
+
+#[inline]
+fn meet(nearest: &mut Nearest, ends: &[[f64; 3]; 6], rods: &Rods, [i, j]: [usize; 2]) {
+    let gap = difference(ends[i], ends[j]);
+    if far(nearest, &gap, rods, [i, j], 0.0) {
         return;
     }
-    let square = square_distance(&gap, a, b);
+    let square = square_distance(&gap, &rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
     if square < nearest.0 {
-        *nearest = (square, I, J);
+        *nearest = (square, i, j);
     }
 }
 
@@ -77,6 +87,14 @@ fn square_distance(gap: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> f64 {
     let at = |axis: usize| gap[axis] - a[axis] * s + b[axis] * t;
     let nearest = [at(0), at(1), at(2)];
     dot(&nearest, &nearest)
+}
+
+/// The gap between rod `i`'s platform end and the middle of a parallelogram's two, of which `j` is
+/// the one at the greater x.
+#[inline]
+fn to_middle(ends: &[[f64; 3]; 6], i: usize, j: usize, half_width: f64) -> [f64; 3] {
+    let [x, y, z] = difference(ends[i], ends[j]);
+    [x + half_width, y, z]
 }
 
 #[inline]

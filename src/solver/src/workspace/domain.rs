@@ -9,6 +9,7 @@ use crate::inverse::first_leg::FirstLeg;
 use crate::jacobian::{determinant, matrix};
 use crate::limit::{Constraint, Element};
 use crate::machine::Machine;
+use crate::margins::cone::Columns;
 use crate::margins::interference;
 use crate::rods::Rods;
 use crate::table::table_angles;
@@ -101,11 +102,11 @@ impl<'a> Domain<'a> {
             4 => column.square[1] - (limits.serial_margin * g.L2).powi(2),
             5 => column.square[2] - (limits.serial_margin * g.L3).powi(2),
             6 => determinant(&matrix(g, rods)) * d.home_det.signum() - limits.parallel_margin,
-            7..=10 => self.chords[0] - chord(d.slider_axes[limit - 7], rods.directions[limit - 7]),
+            7..=10 => self.chords[0] - chord(axis(&d.slider_axes, limit - 7), rods.directions[limit - 7]),
             11..=14 => {
                 let [x, y, z] = rods.directions[limit - 11];
                 let (c, s) = (rods.c, rods.s);
-                self.chords[1] - chord(d.platform_axes[limit - 11], [x, c * y + s * z, c * z - s * y])
+                self.chords[1] - chord(axis(&d.platform_axes, limit - 11), [x, c * y + s * z, c * z - s * y])
             }
             15 => interference::nearest(g, rods).0 - 2.0 * g.rod_radius,
             STROKES..TILT => self.stroke(limit - STROKES, column),
@@ -199,6 +200,12 @@ impl<'a> Domain<'a> {
 /// A limit that is never met.
 const fn half_turn() -> f64 {
     PI
+}
+
+/// One axis of four that are stored by coordinate.
+#[inline]
+fn axis([x, y, z]: &Columns, i: usize) -> [f64; 3] {
+    [x[i], y[i], z[i]]
 }
 
 #[inline]
