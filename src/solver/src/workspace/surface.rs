@@ -1,6 +1,8 @@
 //! The boundary surface of a workspace: two sheets over the plane domain and the walls between.
 
+mod part;
 mod tidy;
+mod twins;
 
 use super::domain::{Binding, Domain, binding, stroke_binding};
 use super::observer::{Observer, go_on};
@@ -11,8 +13,9 @@ use crate::pose::Point;
 
 /// A closed surface of triangles, oriented outwards; empty for an empty workspace.
 ///
-/// Every edge belongs to two triangles, which run along it in opposite directions. Where the
-/// slider or the constraint that binds changes, the change is an edge.
+/// Every edge belongs to two triangles, which run along it in opposite directions, and the
+/// triangles at a vertex are one ring: where parts of the workspace touch, each has vertices of
+/// its own. Where the slider or the constraint that binds changes, the change is an edge.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
     /// Positions in the frame of the request's kind, mm.
@@ -38,7 +41,10 @@ pub fn surface(
     let plane = Plane::trace(&domain, request.tolerance, observer)?;
     go_on(observer)?;
     let mut surface = Surface::over(&plane);
+    part::part(&mut surface)?;
     tidy::contract(&mut surface, request.tolerance);
+    // Contraction keeps a manifold one; this looks at the result, and costs little.
+    part::part(&mut surface)?;
     if surface.volume() < 0.0 {
         // The map turns the workspace inside out.
         for triangle in &mut surface.triangles {
