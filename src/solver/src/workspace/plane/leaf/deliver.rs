@@ -15,11 +15,13 @@ impl Leaf<'_> {
             let mut piece = self.with_divisions(piece);
             let mut numbers: Vec<u32> =
                 piece.iter().map(|&site| patch.vertex(self.domain, &self.sites[site])).collect();
-            without_spikes(&mut piece, &mut numbers);
+            let mut limits = self.limits(&piece);
+            without_spikes(&mut piece, &mut numbers, &mut limits);
             for (i, &a) in numbers.iter().enumerate() {
-                edges.push([a, numbers[(i + 1) % numbers.len()]]);
+                let ends = [a, numbers[(i + 1) % numbers.len()]];
+                edges.push(ends);
+                patch.rims.extend(limits[i].map(|limit| Rim { ends, limit }));
             }
-            self.rims(&piece, &numbers, patch);
             outlines.push((piece, numbers));
         }
         for (piece, numbers) in outlines {
@@ -37,16 +39,17 @@ impl Leaf<'_> {
         }
     }
 
-    /// Notes the sides of an outline that lie on limits.
-    fn rims(&self, piece: &[usize], numbers: &[u32], patch: &mut Patch) {
-        for (i, &a) in piece.iter().enumerate() {
-            let next = (i + 1) % piece.len();
-            let common = self.sites[a].on() & self.sites[piece[next]].on() & ((1 << LIMITS) - 1);
-            if common != 0 {
-                let limit = u8::try_from(common.trailing_zeros()).unwrap_or(u8::MAX);
-                patch.rims.push(Rim { ends: [numbers[i], numbers[next]], limit });
-            }
-        }
+    /// The limit on which each side of a piece lies, if on any.
+    fn limits(&self, piece: &[usize]) -> Vec<Option<u8>> {
+        let next = piece.iter().cycle().skip(1);
+        piece
+            .iter()
+            .zip(next)
+            .map(|(&a, &b)| {
+                let common = self.sites[a].on() & self.sites[b].on() & ((1 << LIMITS) - 1);
+                (common != 0).then(|| u8::try_from(common.trailing_zeros()).unwrap_or(u8::MAX))
+            })
+            .collect()
     }
 
     /// The sliders that bind the sheets on a piece.
@@ -63,8 +66,9 @@ impl Leaf<'_> {
     }
 }
 
-/// Takes out points that came to lie on their neighbours, and sides that go forth and back.
-fn without_spikes(piece: &mut Piece, numbers: &mut Vec<u32>) {
+/// Takes out points that came to lie on their neighbours, and sides that go forth and back. What
+/// is left of the other sides keeps its limit, whichever of the points in one place stays.
+fn without_spikes(piece: &mut Piece, numbers: &mut Vec<u32>, limits: &mut Vec<Option<u8>>) {
     let mut i = 0;
     while i < numbers.len() && numbers.len() > 2 {
         let count = numbers.len();
@@ -72,6 +76,7 @@ fn without_spikes(piece: &mut Piece, numbers: &mut Vec<u32>) {
         if numbers[i] == after || before == after {
             piece.remove(i);
             numbers.remove(i);
+            limits.remove(i);
             i = 0;
         } else {
             i += 1;
@@ -80,5 +85,6 @@ fn without_spikes(piece: &mut Piece, numbers: &mut Vec<u32>) {
     if numbers.len() < 3 {
         piece.clear();
         numbers.clear();
+        limits.clear();
     }
 }
