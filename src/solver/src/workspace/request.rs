@@ -46,7 +46,8 @@ pub enum WorkspaceError {
     Cancelled,
     /// The tolerance asks for more vertices than 32 bits can number.
     TooFine,
-    /// The surface could not be closed: nothing is answered rather than a mesh with a gap.
+    /// The surface or the slice could not be closed: nothing is answered rather than a mesh with
+    /// a gap.
     Open,
 }
 

@@ -6,7 +6,7 @@ mod twins;
 
 use super::domain::{Binding, Domain, binding, stroke_binding};
 use super::observer::{Observer, go_on};
-use super::plane::{Plane, Rim};
+use super::plane::{ATTEMPTS, Plane, Rim};
 use super::request::{Request, WorkspaceError};
 use crate::machine::Machine;
 use crate::pose::Point;
@@ -38,13 +38,7 @@ pub fn surface(
     request.check()?;
     go_on(observer)?;
     let domain = Domain::new(machine, request, None);
-    let plane = Plane::trace(&domain, request.tolerance, observer)?;
-    go_on(observer)?;
-    let mut surface = Surface::over(&plane);
-    part::part(&mut surface)?;
-    tidy::contract(&mut surface, request.tolerance);
-    // Contraction keeps a manifold one; this looks at the result, and costs little.
-    part::part(&mut surface)?;
+    let mut surface = closed(&domain, request.tolerance, observer)?;
     if surface.volume() < 0.0 {
         // The map turns the workspace inside out.
         for triangle in &mut surface.triangles {
@@ -52,6 +46,28 @@ pub fn surface(
         }
     }
     observer.progress(1.0);
+    Ok(surface)
+}
+
+/// The surface over the first lattice on which it closes.
+fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Surface, WorkspaceError> {
+    let mut answer = Err(WorkspaceError::Open);
+    for attempt in ATTEMPTS {
+        let plane = Plane::trace(domain, attempt, tolerance, observer)?;
+        go_on(observer)?;
+        answer = made_one(Surface::over(&plane), tolerance);
+        if answer != Err(WorkspaceError::Open) {
+            break;
+        }
+    }
+    answer
+}
+
+fn made_one(mut surface: Surface, tolerance: f64) -> Result<Surface, WorkspaceError> {
+    part::part(&mut surface)?;
+    tidy::contract(&mut surface, tolerance);
+    // Contraction keeps a manifold one; this looks at the result, and costs little.
+    part::part(&mut surface)?;
     Ok(surface)
 }
 

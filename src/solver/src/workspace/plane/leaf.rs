@@ -106,7 +106,9 @@ impl<'a> Leaf<'a> {
         for (i, &a) in piece.iter().enumerate() {
             let b = piece[(i + 1) % piece.len()];
             ring.push(a);
-            if self.sites[a].values[curve] * self.sites[b].values[curve] < 0.0 {
+            // Not by the product: values may be so small that it vanishes.
+            let [first, last] = [a, b].map(|site| self.sites[site].values[curve]);
+            if first < 0.0 && last > 0.0 || first > 0.0 && last < 0.0 {
                 ring.push(self.crossing(curve, a, b));
             }
         }
