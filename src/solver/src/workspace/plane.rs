@@ -24,8 +24,22 @@ pub(super) use patch::{Rim, Triangle, Vertex};
 use refine::Refinement;
 use site::Site;
 
-/// Squares along the rectangle in which the domain is known to lie.
-const SQUARES: u32 = 12;
+/// Squares along the rectangle in which the lattice lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Attempt {
+    /// Along its longer side.
+    squares: u32,
+    /// Whether it is all that the legs reach, not only what a coarse look found.
+    whole: bool,
+}
+
+/// The lattices, in turn until the result closes. A piece of the domain may be so narrow that the
+/// coarse look misses it, and the rectangle cuts it off.
+pub(super) const ATTEMPTS: [Attempt; 3] = [
+    Attempt { squares: 12, whole: false },
+    Attempt { squares: 24, whole: true },
+    Attempt { squares: 29, whole: true },
+];
 
 /// The domain's triangles and its sides, the domain to their left.
 pub(super) struct Plane {
@@ -37,16 +51,18 @@ pub(super) struct Plane {
 impl Plane {
     pub(super) fn trace(
         domain: &Domain<'_>,
+        attempt: Attempt,
         tolerance: f64,
         observer: &dyn Observer,
     ) -> Result<Self, WorkspaceError> {
         if domain.empty {
             return Ok(Self { vertices: Vec::new(), triangles: Vec::new(), rims: Vec::new() });
         }
-        let Some(rectangle) = narrowed(domain) else {
+        let found = if attempt.whole { Some(domain.rectangle()) } else { narrowed(domain) };
+        let Some(rectangle) = found else {
             return Ok(Self { vertices: Vec::new(), triangles: Vec::new(), rims: Vec::new() });
         };
-        let lattice = Lattice::new(rectangle, SQUARES);
+        let lattice = Lattice::new(rectangle, attempt.squares);
         let refinement = Refinement { domain, tolerance, observer };
         let (count, done) = (lattice.count(), AtomicUsize::new(0));
         let patches: Result<Vec<Patch>, WorkspaceError> = (0..count)
@@ -59,6 +75,16 @@ impl Plane {
             })
             .collect();
         join::join(domain, &lattice, patches?)
+    }
+
+    /// Whether the sides are closed rings.
+    pub(super) fn closes(&self) -> bool {
+        let mut balance = vec![0_i32; self.vertices.len()];
+        for [from, to] in self.rims.iter().map(|rim| rim.ends) {
+            balance[from as usize] += 1;
+            balance[to as usize] -= 1;
+        }
+        balance.into_iter().all(|difference| difference == 0)
     }
 }
 

@@ -46,6 +46,9 @@ pub enum WorkspaceError {
     Cancelled,
     /// The tolerance asks for more vertices than 32 bits can number.
     TooFine,
+    /// The surface or the slice could not be closed: nothing is answered rather than a mesh with
+    /// a gap.
+    Open,
 }
 
 impl fmt::Display for WorkspaceError {
@@ -54,6 +57,7 @@ impl fmt::Display for WorkspaceError {
             Self::OutOfDomain { field } => write!(f, "{field} is out of range"),
             Self::Cancelled => write!(f, "cancelled"),
             Self::TooFine => write!(f, "the tolerance needs more vertices than can be numbered"),
+            Self::Open => write!(f, "the surface could not be closed at this tolerance"),
         }
     }
 }

@@ -5,7 +5,7 @@ mod loops;
 
 use super::domain::Domain;
 use super::observer::{Observer, go_on};
-use super::plane::Plane;
+use super::plane::{ATTEMPTS, Plane};
 use super::request::{Request, WorkspaceError};
 use crate::limit::DOMAIN;
 use crate::machine::Machine;
@@ -47,8 +47,7 @@ pub fn slice(
     }
     go_on(observer)?;
     let domain = Domain::new(machine, request, Some(height));
-    let plane = Plane::trace(&domain, request.tolerance, observer)?;
-    let polygons = loops::polygons(&plane);
+    let polygons = loops::polygons(&closed(&domain, request.tolerance, observer)?);
     let mut contours = Vec::new();
     if !polygons.is_empty() {
         for &alpha in alphas {
@@ -58,6 +57,17 @@ pub fn slice(
     }
     observer.progress(1.0);
     Ok(Slice { polygons, contours })
+}
+
+/// The domain on the first lattice on which its sides close.
+fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Plane, WorkspaceError> {
+    for attempt in ATTEMPTS {
+        let plane = Plane::trace(domain, attempt, tolerance, observer)?;
+        if plane.closes() {
+            return Ok(plane);
+        }
+    }
+    Err(WorkspaceError::Open)
 }
 
 impl Slice {

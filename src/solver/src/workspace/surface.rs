@@ -1,18 +1,21 @@
 //! The boundary surface of a workspace: two sheets over the plane domain and the walls between.
 
+mod part;
 mod tidy;
+mod twins;
 
 use super::domain::{Binding, Domain, binding, stroke_binding};
 use super::observer::{Observer, go_on};
-use super::plane::{Plane, Rim};
+use super::plane::{ATTEMPTS, Plane, Rim};
 use super::request::{Request, WorkspaceError};
 use crate::machine::Machine;
 use crate::pose::Point;
 
 /// A closed surface of triangles, oriented outwards; empty for an empty workspace.
 ///
-/// Every edge belongs to two triangles, which run along it in opposite directions. Where the
-/// slider or the constraint that binds changes, the change is an edge.
+/// Every edge belongs to two triangles, which run along it in opposite directions, and the
+/// triangles at a vertex are one ring: where parts of the workspace touch, each has vertices of
+/// its own. Where the slider or the constraint that binds changes, the change is an edge.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
     /// Positions in the frame of the request's kind, mm.
@@ -35,10 +38,7 @@ pub fn surface(
     request.check()?;
     go_on(observer)?;
     let domain = Domain::new(machine, request, None);
-    let plane = Plane::trace(&domain, request.tolerance, observer)?;
-    go_on(observer)?;
-    let mut surface = Surface::over(&plane);
-    tidy::contract(&mut surface, request.tolerance);
+    let mut surface = closed(&domain, request.tolerance, observer)?;
     if surface.volume() < 0.0 {
         // The map turns the workspace inside out.
         for triangle in &mut surface.triangles {
@@ -46,6 +46,28 @@ pub fn surface(
         }
     }
     observer.progress(1.0);
+    Ok(surface)
+}
+
+/// The surface over the first lattice on which it closes.
+fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Surface, WorkspaceError> {
+    let mut answer = Err(WorkspaceError::Open);
+    for attempt in ATTEMPTS {
+        let plane = Plane::trace(domain, attempt, tolerance, observer)?;
+        go_on(observer)?;
+        answer = made_one(Surface::over(&plane), tolerance);
+        if answer != Err(WorkspaceError::Open) {
+            break;
+        }
+    }
+    answer
+}
+
+fn made_one(mut surface: Surface, tolerance: f64) -> Result<Surface, WorkspaceError> {
+    part::part(&mut surface)?;
+    tidy::contract(&mut surface, tolerance);
+    // Contraction keeps a manifold one; this looks at the result, and costs little.
+    part::part(&mut surface)?;
     Ok(surface)
 }
 

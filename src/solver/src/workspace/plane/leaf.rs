@@ -4,11 +4,12 @@
 //! A new point on an edge of the triangle is found from that edge alone, and the signs of all
 //! curves along it follow from its ends: the triangle on the other side cuts it alike.
 
+mod deliver;
+
 use super::super::domain::{Domain, LIMITS};
 use super::super::root;
 use super::bend;
-use super::ears;
-use super::patch::{Patch, Rim, Triangle};
+use super::patch::Patch;
 use super::site::{CREASES, CURVES, Site, value};
 
 /// Resolution of a point on an edge, as a part of the edge.
@@ -105,7 +106,9 @@ impl<'a> Leaf<'a> {
         for (i, &a) in piece.iter().enumerate() {
             let b = piece[(i + 1) % piece.len()];
             ring.push(a);
-            if self.sites[a].values[curve] * self.sites[b].values[curve] < 0.0 {
+            // Not by the product: values may be so small that it vanishes.
+            let [first, last] = [a, b].map(|site| self.sites[site].values[curve]);
+            if first < 0.0 && last > 0.0 || first > 0.0 && last < 0.0 {
                 ring.push(self.crossing(curve, a, b));
             }
         }
@@ -237,48 +240,6 @@ impl<'a> Leaf<'a> {
         site
     }
 
-    /// Triangles and sides of all pieces.
-    fn deliver(self, patch: &mut Patch) {
-        let mut outlines = Vec::with_capacity(self.pieces.len());
-        let mut edges: Vec<[u32; 2]> = Vec::new();
-        for piece in &self.pieces {
-            let mut piece = self.with_divisions(piece);
-            let mut numbers: Vec<u32> =
-                piece.iter().map(|&site| patch.vertex(self.domain, &self.sites[site])).collect();
-            without_spikes(&mut piece, &mut numbers);
-            for (i, &a) in numbers.iter().enumerate() {
-                edges.push([a, numbers[(i + 1) % numbers.len()]]);
-            }
-            self.rims(&piece, &numbers, patch);
-            outlines.push((piece, numbers));
-        }
-        for (piece, numbers) in outlines {
-            let sliders = self.sliders(&piece);
-            let sites: Vec<&Site> = piece.iter().map(|&site| &self.sites[site]).collect();
-            let taken = |i: usize, j: usize| {
-                let (a, b) = (numbers[i], numbers[j]);
-                edges.contains(&[a, b]) || edges.contains(&[b, a])
-            };
-            let ears = ears::triangulate(&sites, taken).into_iter().map(|ear| ear.map(|i| numbers[i]));
-            for corners in ears {
-                patch.triangles.push(Triangle { corners, sliders });
-                edges.extend([0, 1, 2].map(|i| [corners[i], corners[(i + 1) % 3]]));
-            }
-        }
-    }
-
-    /// Notes the sides of an outline that lie on limits.
-    fn rims(&self, piece: &[usize], numbers: &[u32], patch: &mut Patch) {
-        for (i, &a) in piece.iter().enumerate() {
-            let next = (i + 1) % piece.len();
-            let common = self.sites[a].on() & self.sites[piece[next]].on() & ((1 << LIMITS) - 1);
-            if common != 0 {
-                let limit = u8::try_from(common.trailing_zeros()).unwrap_or(u8::MAX);
-                patch.rims.push(Rim { ends: [numbers[i], numbers[next]], limit });
-            }
-        }
-    }
-
     /// A piece with the points by which its neighbours' sides were divided.
     fn with_divisions(&self, piece: &[usize]) -> Piece {
         let mut whole = Piece::with_capacity(piece.len());
@@ -296,39 +257,6 @@ impl<'a> Leaf<'a> {
             whole.push(between);
             self.side_divisions(between, b, whole);
         }
-    }
-
-    /// The sliders that bind the sheets on a piece.
-    fn sliders(&self, piece: &[usize]) -> [u8; 2] {
-        [CREASES, CREASES + 2].map(|first| {
-            if self.side(first, piece) > 0.0 {
-                0
-            } else if self.side(first + 1, piece) > 0.0 {
-                1
-            } else {
-                2
-            }
-        })
-    }
-}
-
-/// Takes out points that came to lie on their neighbours, and sides that go forth and back.
-fn without_spikes(piece: &mut Piece, numbers: &mut Vec<u32>) {
-    let mut i = 0;
-    while i < numbers.len() && numbers.len() > 2 {
-        let count = numbers.len();
-        let (before, after) = (numbers[(i + count - 1) % count], numbers[(i + 1) % count]);
-        if numbers[i] == after || before == after {
-            piece.remove(i);
-            numbers.remove(i);
-            i = 0;
-        } else {
-            i += 1;
-        }
-    }
-    if numbers.len() < 3 {
-        piece.clear();
-        numbers.clear();
     }
 }
 

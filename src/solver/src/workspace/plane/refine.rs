@@ -132,7 +132,9 @@ impl Refinement<'_> {
         }
     }
 
+    /// Of the edge alone, whichever way round it is given.
     fn edge(&self, a: &Site, middle: &Site, b: &Site) -> Edge {
+        let (a, b) = if b.precedes(a) { (b, a) } else { (a, b) };
         let mut doubtful = 0_u32;
         for limit in 0..LIMITS {
             match shape(a.values[limit], middle.values[limit], b.values[limit]) {

@@ -127,7 +127,7 @@ impl<'a> Contraction<'a> {
 }
 
 /// Takes out the triangles that are not kept and the vertices that nothing uses.
-fn compact(surface: &mut Surface, kept: &[bool]) {
+pub(super) fn compact(surface: &mut Surface, kept: &[bool]) {
     let mut keep = kept.iter().copied();
     surface.triangles.retain(|_| keep.next().unwrap_or(true));
     let mut keep = kept.iter().copied();

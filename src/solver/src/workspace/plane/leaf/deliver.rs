@@ -1,0 +1,90 @@
+//! A leaf's pieces as triangles and sides of the plane.
+
+use super::super::super::domain::LIMITS;
+use super::super::ears;
+use super::super::patch::{Patch, Rim, Triangle};
+use super::super::site::{CREASES, Site};
+use super::{Leaf, Piece};
+
+impl Leaf<'_> {
+    /// Triangles and sides of all pieces.
+    pub(super) fn deliver(self, patch: &mut Patch) {
+        let mut outlines = Vec::with_capacity(self.pieces.len());
+        let mut edges: Vec<[u32; 2]> = Vec::new();
+        for piece in &self.pieces {
+            let mut piece = self.with_divisions(piece);
+            let mut numbers: Vec<u32> =
+                piece.iter().map(|&site| patch.vertex(self.domain, &self.sites[site])).collect();
+            let mut limits = self.limits(&piece);
+            without_spikes(&mut piece, &mut numbers, &mut limits);
+            for (i, &a) in numbers.iter().enumerate() {
+                let ends = [a, numbers[(i + 1) % numbers.len()]];
+                edges.push(ends);
+                patch.rims.extend(limits[i].map(|limit| Rim { ends, limit }));
+            }
+            outlines.push((piece, numbers));
+        }
+        for (piece, numbers) in outlines {
+            let sliders = self.sliders(&piece);
+            let sites: Vec<&Site> = piece.iter().map(|&site| &self.sites[site]).collect();
+            let taken = |i: usize, j: usize| {
+                let (a, b) = (numbers[i], numbers[j]);
+                edges.contains(&[a, b]) || edges.contains(&[b, a])
+            };
+            let ears = ears::triangulate(&sites, taken).into_iter().map(|ear| ear.map(|i| numbers[i]));
+            for corners in ears {
+                patch.triangles.push(Triangle { corners, sliders });
+                edges.extend([0, 1, 2].map(|i| [corners[i], corners[(i + 1) % 3]]));
+            }
+        }
+    }
+
+    /// The limit on which each side of a piece lies, if on any.
+    fn limits(&self, piece: &[usize]) -> Vec<Option<u8>> {
+        let next = piece.iter().cycle().skip(1);
+        piece
+            .iter()
+            .zip(next)
+            .map(|(&a, &b)| {
+                let common = self.sites[a].on() & self.sites[b].on() & ((1 << LIMITS) - 1);
+                (common != 0).then(|| u8::try_from(common.trailing_zeros()).unwrap_or(u8::MAX))
+            })
+            .collect()
+    }
+
+    /// The sliders that bind the sheets on a piece.
+    fn sliders(&self, piece: &[usize]) -> [u8; 2] {
+        [CREASES, CREASES + 2].map(|first| {
+            if self.side(first, piece) > 0.0 {
+                0
+            } else if self.side(first + 1, piece) > 0.0 {
+                1
+            } else {
+                2
+            }
+        })
+    }
+}
+
+/// Takes out points that came to lie on their neighbours, and sides that go forth and back. What
+/// is left of the other sides keeps its limit, whichever of the points in one place stays.
+fn without_spikes(piece: &mut Piece, numbers: &mut Vec<u32>, limits: &mut Vec<Option<u8>>) {
+    let mut i = 0;
+    while i < numbers.len() && numbers.len() > 2 {
+        let count = numbers.len();
+        let (before, after) = (numbers[(i + count - 1) % count], numbers[(i + 1) % count]);
+        if numbers[i] == after || before == after {
+            piece.remove(i);
+            numbers.remove(i);
+            limits.remove(i);
+            i = 0;
+        } else {
+            i += 1;
+        }
+    }
+    if numbers.len() < 3 {
+        piece.clear();
+        numbers.clear();
+        limits.clear();
+    }
+}
