@@ -1,7 +1,7 @@
 //! Workspaces of several pieces, with holes, and of pieces that touch.
 
 use verne_solver::Machine;
-use verne_solver::workspace::{Kind, Surface, Unobserved, surface};
+use verne_solver::workspace::{Kind, Surface, Unobserved, slice, surface};
 
 use crate::brute;
 use crate::machines::{Random, changed, request};
@@ -78,6 +78,38 @@ fn several_are_closed_and_of_the_right_volume() {
         assert_eq!(topology.euler, 2 * i64::try_from(topology.components).unwrap(), "{topology:?}");
         columns_agree(&machine, &mesh, tolerance);
     }
+}
+
+/// A slice has holes, and at this tolerance the surface too.
+#[test]
+fn holes_are_holes() {
+    let machine = crossing([
+        -136.144_872_302_972_52,
+        397.326_595_616_152_25,
+        87.567_064_811_087_68,
+        -491.300_752_602_345_14,
+        171.910_684_183_442_04,
+        133.270_883_552_980_25,
+        356.535_988_620_696_57,
+        208.766_300_168_123_4,
+        1_158.657_181_917_979_8,
+        883.892_217_886_751_8,
+        104.602_174_174_086_73,
+        5.049_414_436_683_126,
+    ]);
+    let (_, topology) = made(&machine, 20.0);
+    assert!(topology.euler < 2 * i64::try_from(topology.components).unwrap(), "{topology:?}");
+    let (height, question) = (655.858_844_089_571_2, request(Kind::Platform, 0.0, 0.0, 4.0));
+    let cut = slice(&machine, &question, height, &[], &Unobserved).unwrap();
+    assert!(cut.polygons.iter().any(|polygon| !polygon.holes.is_empty()));
+    let (n, size) = (600_i32, 4.0);
+    let cells = (-n / 2..n / 2).flat_map(|i| (-n / 2..n / 2).map(move |j| [f64::from(i), f64::from(j)]));
+    let cut_through = |[i, j]: &[f64; 2]| {
+        brute::column(&machine, (i + 0.37) * size, (j + 0.61) * size)
+            .is_some_and(|[low, high]| (low..=high).contains(&height))
+    };
+    let area = size * size * cells.filter(cut_through).count() as f64;
+    assert!((cut.area() - area).abs() < 0.05 * area, "{} against {area}", cut.area());
 }
 
 /// Legs of every kind, those that cross too: none is answered with a surface that is not one.
