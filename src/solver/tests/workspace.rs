@@ -11,7 +11,11 @@ mod machines;
 mod measure;
 #[path = "workspace/membership.rs"]
 mod membership;
+#[path = "workspace/pieces.rs"]
+mod pieces;
 #[path = "workspace/slices.rs"]
 mod slices;
 #[path = "workspace/surface.rs"]
 mod surface;
+#[path = "workspace/topology.rs"]
+mod topology;
