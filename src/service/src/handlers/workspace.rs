@@ -10,7 +10,7 @@ use crate::delivery::{Conditions, Delivery};
 use crate::error::Error;
 use crate::extract::{Params, Single};
 use crate::negotiation::Accept;
-use crate::openapi::binary::Binary;
+use crate::openapi::binary::{Binary, SummaryOrMesh};
 use crate::openapi::problems::{WorkspaceBodyProblems, WorkspaceQueryProblems};
 use crate::results::Content;
 use crate::state::Shared;
@@ -18,7 +18,6 @@ use crate::wire::format::MeshFormat;
 use crate::wire::query::point_into_query;
 use crate::wire::workspace::WorkspaceRequest;
 use crate::wire::workspace_query::{MeshQuery, WorkspaceQuery};
-use crate::wire::workspace_summary::WorkspaceSummary;
 use crate::workers::{on_workers, on_workers_while_waited_for};
 
 /// The answer depends on the published machines, which change only with a restart.
@@ -33,7 +32,7 @@ const FOR_A_WHILE: &str = "public, max-age=300";
     get, path = "/workspace", operation_id = "workspace", tag = "workspace", params(WorkspaceQuery),
     responses(
         (status = 200, description = "The summary, or the mesh.", content(
-            (WorkspaceSummary = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
+            (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
             (Binary = "model/ply"),
         )),
         WorkspaceQueryProblems
@@ -61,7 +60,7 @@ pub(crate) async fn get_workspace(
     request_body(content = WorkspaceRequest, description = "Which workspace, how exactly."),
     responses(
         (status = 200, description = "The summary, or the mesh.", content(
-            (WorkspaceSummary = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
+            (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
             (Binary = "model/ply"),
         )),
         WorkspaceBodyProblems

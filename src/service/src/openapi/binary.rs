@@ -1,7 +1,7 @@
 //! Bodies that are not JSON.
 
-use utoipa::openapi::schema::{ObjectBuilder, Type};
-use utoipa::openapi::{KnownFormat, RefOr, Schema, SchemaFormat};
+use utoipa::openapi::schema::{AnyOfBuilder, ObjectBuilder, Type};
+use utoipa::openapi::{KnownFormat, Ref, RefOr, Schema, SchemaFormat};
 use utoipa::{PartialSchema, ToSchema};
 
 /// Bytes.
@@ -26,3 +26,15 @@ impl PartialSchema for Text {
 }
 
 impl ToSchema for Text {}
+
+/// A summary, or with `format=json` a mesh.
+pub(crate) struct SummaryOrMesh;
+
+impl PartialSchema for SummaryOrMesh {
+    fn schema() -> RefOr<Schema> {
+        let mesh = ObjectBuilder::new().schema_type(Type::Object).required("positions").required("indices");
+        AnyOfBuilder::new().item(Ref::from_schema_name("WorkspaceSummary")).item(mesh).into()
+    }
+}
+
+impl ToSchema for SummaryOrMesh {}
