@@ -39,7 +39,7 @@ impl Shape {
     /// One of the rows, or what is wrong with it.
     pub(super) fn row(self, rows: &Rows<'_>, i: usize) -> Result<Row, String> {
         let row = match rows {
-            Rows::Read(rows) => self.check(&rows[i]).map(|()| rows[i].clone()),
+            Rows::Read(rows) => check(&rows[i]).map(|()| rows[i].clone()),
             Rows::Text(rows) => self.read(rows[i]),
         }?;
         if self.lengths.contains(&row.len()) { Ok(row) } else { Err(self.expected()) }
@@ -47,10 +47,6 @@ impl Shape {
 
     fn expected(self) -> String {
         format!("expected {}", self.words)
-    }
-
-    fn check(self, row: &Row) -> Result<(), String> {
-        row.iter().enumerate().try_for_each(|(i, &number)| check_item(i, number))
     }
 
     fn read(self, text: &RawValue) -> Result<Row, String> {
@@ -71,6 +67,10 @@ impl Shape {
         }
         Ok(row)
     }
+}
+
+fn check(row: &Row) -> Result<(), String> {
+    row.iter().enumerate().try_for_each(|(i, &number)| check_item(i, number))
 }
 
 fn check_item(i: usize, number: f64) -> Result<(), String> {
