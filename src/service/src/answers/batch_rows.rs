@@ -7,7 +7,7 @@ use verne_solver::{DOMAIN, Machine, Margin, Margins, Posture, Refusal, TableAngl
 use super::solutions::unheld;
 use crate::error::Error;
 use crate::faults::{Faults, LARGEST_ANGLE, is_angle, is_length};
-use crate::wire::batch::{Counts, Row, RowError, RowReport, Status};
+use crate::wire::batch::{Counts, Row, RowError, RowReport, Rows, Status};
 use crate::wire::limit::Limit;
 
 /// Rows that one task takes at least: enough to outweigh the cost of handing them over.
@@ -28,28 +28,59 @@ pub(super) enum Verdict {
     Invalid(String),
 }
 
-/// Reads a row: `shape` tells the numbers apart; the last two of five are angles in degrees.
-pub(super) fn read_row(text: &RawValue, lengths: &[usize], shape: &str) -> Result<Row, String> {
-    let expected = || format!("expected {shape}");
-    let inside = text.get().strip_prefix('[').and_then(|rest| rest.strip_suffix(']')).ok_or_else(expected)?;
-    let mut row: Row = ArrayVec::new();
-    let mut rest = Some(inside);
-    while let Some(text) = rest {
-        let i = row.len();
-        let item;
-        (item, rest) = first_item(text);
-        // The text is JSON already, so what parses here is a JSON number.
-        let number: f64 =
-            item.trim_ascii().parse().map_err(|_| format!("item {i} is not a number; expected {shape}"))?;
-        if i < 3 && !is_length(number) {
-            return Err(format!("item {i} must be within ±{DOMAIN:e} mm"));
-        }
-        if i >= 3 && !is_angle(number) {
-            return Err(format!("item {i} must be within ±{LARGEST_ANGLE} degrees"));
-        }
-        row.try_push(number).map_err(|_| expected())?;
+/// What a row may hold, and how that is said: the last two of five numbers are angles in degrees.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape {
+    pub(super) lengths: &'static [usize],
+    pub(super) words: &'static str,
+}
+
+impl Shape {
+    /// One of the rows, or what is wrong with it.
+    pub(super) fn row(self, rows: &Rows<'_>, i: usize) -> Result<Row, String> {
+        let row = match rows {
+            Rows::Read(rows) => check(&rows[i]).map(|()| rows[i].clone()),
+            Rows::Text(rows) => self.read(rows[i]),
+        }?;
+        if self.lengths.contains(&row.len()) { Ok(row) } else { Err(self.expected()) }
     }
-    if lengths.contains(&row.len()) { Ok(row) } else { Err(expected()) }
+
+    fn expected(self) -> String {
+        format!("expected {}", self.words)
+    }
+
+    fn read(self, text: &RawValue) -> Result<Row, String> {
+        let bare = text.get().strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+        let mut row: Row = ArrayVec::new();
+        let mut rest = Some(bare.ok_or_else(|| self.expected())?);
+        while let Some(text) = rest {
+            let i = row.len();
+            let item;
+            (item, rest) = first_item(text);
+            // The text is JSON already, so what parses here is a JSON number.
+            let number: f64 = item
+                .trim_ascii()
+                .parse()
+                .map_err(|_| format!("item {i} is not a number; expected {}", self.words))?;
+            check_item(i, number)?;
+            row.try_push(number).map_err(|_| self.expected())?;
+        }
+        Ok(row)
+    }
+}
+
+fn check(row: &Row) -> Result<(), String> {
+    row.iter().enumerate().try_for_each(|(i, &number)| check_item(i, number))
+}
+
+fn check_item(i: usize, number: f64) -> Result<(), String> {
+    if i < 3 && !is_length(number) {
+        return Err(format!("item {i} must be within ±{DOMAIN:e} mm"));
+    }
+    if i >= 3 && !is_angle(number) {
+        return Err(format!("item {i} must be within ±{LARGEST_ANGLE} degrees"));
+    }
+    Ok(())
 }
 
 /// The text up to the first comma, and what follows it. Items are short: the standard library's search, made for long

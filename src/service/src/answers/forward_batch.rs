@@ -1,16 +1,16 @@
 //! `/fk/batch`: the working pose for many joint positions.
 
 use rayon::prelude::*;
-use serde_json::value::RawValue;
 use verne_solver::{Machine, TableAngles, forward_working, part_pose};
 
-use super::batch_rows::{CHUNK, ROW_BYTES, Verdict, check_batch, judge, read_row, refuse, report};
+use super::batch_rows::{CHUNK, ROW_BYTES, Shape, Verdict, check_batch, judge, refuse, report};
 use crate::error::Error;
 use crate::state::State;
-use crate::wire::batch::{FkBatchAnswer, FkBatchRequest, Row};
+use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Row, Rows};
 use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::json::write_json;
-use crate::wire::parse::parse_body;
+use crate::wire::machine_ref::MachineRef;
+use crate::wire::parse::{parse_body, parse_usual};
 
 /// One answered row.
 struct Answered {
@@ -25,17 +25,31 @@ impl Answered {
     }
 }
 
+/// A batch as it was read.
+struct Question<'a> {
+    machine: MachineRef,
+    tool_length: f64,
+    rows: Rows<'a>,
+}
+
+/// Reads a batch: at one go if every row is as it should be.
+fn read(body: &[u8]) -> Result<Question<'_>, Error> {
+    if let Some(FkBatchNumbers { machine, tool_length, joints }) = parse_usual(body) {
+        return Ok(Question { machine, tool_length, rows: Rows::Read(joints) });
+    }
+    let FkBatchRequest { machine, tool_length, joints } = parse_body(body)?;
+    Ok(Question { machine, tool_length, rows: Rows::Text(joints) })
+}
+
 /// Answers a batch, from its body to the answer's; to be called on the worker threads.
 pub(crate) fn answer_fk_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Error> {
-    let request: FkBatchRequest<'_> = parse_body(body)?;
-    check_batch(request.tool_length, request.joints.len(), state.limits.rows)?;
-    let published = state.machines.resolve(&request.machine)?;
-    let machine = &published.machine;
-    let rows: Vec<_> = request
-        .joints
-        .par_iter()
+    let question = read(body)?;
+    check_batch(question.tool_length, question.rows.len(), state.limits.rows)?;
+    let published = state.machines.resolve(&question.machine)?;
+    let rows: Vec<_> = (0..question.rows.len())
+        .into_par_iter()
         .with_min_len(CHUNK)
-        .map(|text| answer_row(machine, request.tool_length, text))
+        .map(|row| answer_row(&published.machine, &question, row))
         .collect();
     let (mut poses, mut parts) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
     let mut verdicts = Vec::with_capacity(rows.len());
@@ -49,8 +63,10 @@ pub(crate) fn answer_fk_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Err
     write_json(&answer, ROW_BYTES * answer.poses.len())
 }
 
-fn answer_row(machine: &Machine, tool_length: f64, text: &RawValue) -> Answered {
-    let row = match read_row(text, &[3, 5], "[rho1, rho2, rho3] or [rho1, rho2, rho3, theta1, theta2]") {
+fn answer_row(machine: &Machine, question: &Question<'_>, row: usize) -> Answered {
+    let tool_length = question.tool_length;
+    let words = "[rho1, rho2, rho3] or [rho1, rho2, rho3, theta1, theta2]";
+    let row = match (Shape { lengths: &[3, 5], words }).row(&question.rows, row) {
         Ok(row) => row,
         Err(detail) => return Answered::nothing(Verdict::Invalid(detail)),
     };

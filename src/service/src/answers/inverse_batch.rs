@@ -1,44 +1,59 @@
 //! `/ik/batch`: the working solution for many poses.
 
 use rayon::prelude::*;
-use serde_json::value::RawValue;
 use verne_solver::{
     Machine, PartPose, Posture, TableAngles, part_working, platform_working, table_angles, tool_working,
 };
 
-use super::batch_rows::{CHUNK, ROW_BYTES, Verdict, check_batch, judge, read_row, refuse, report};
+use super::batch_rows::{CHUNK, ROW_BYTES, Shape, Verdict, check_batch, judge, refuse, report};
 use crate::error::Error;
 use crate::state::State;
-use crate::wire::batch::{IkBatchAnswer, IkBatchRequest, Row};
+use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, Row, Rows};
 use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::json::write_json;
-use crate::wire::parse::parse_body;
+use crate::wire::machine_ref::MachineRef;
+use crate::wire::parse::{parse_body, parse_usual};
 use crate::wire::request::Frame;
+
+/// A batch as it was read.
+struct Question<'a> {
+    machine: MachineRef,
+    frame: Frame,
+    tool_length: f64,
+    rows: Rows<'a>,
+}
+
+/// Reads a batch: at one go if every row is as it should be.
+fn read(body: &[u8]) -> Result<Question<'_>, Error> {
+    if let Some(IkBatchNumbers { machine, frame, tool_length, poses }) = parse_usual(body) {
+        return Ok(Question { machine, frame, tool_length, rows: Rows::Read(poses) });
+    }
+    let IkBatchRequest { machine, frame, tool_length, poses } = parse_body(body)?;
+    Ok(Question { machine, frame, tool_length, rows: Rows::Text(poses) })
+}
 
 /// Answers a batch, from its body to the answer's; to be called on the worker threads.
 pub(crate) fn answer_ik_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Error> {
-    let request: IkBatchRequest<'_> = parse_body(body)?;
-    check_batch(request.tool_length, request.poses.len(), state.limits.rows)?;
-    let published = state.machines.resolve(&request.machine)?;
-    let machine = &published.machine;
-    let rows: Vec<_> = request
-        .poses
-        .par_iter()
+    let question = read(body)?;
+    check_batch(question.tool_length, question.rows.len(), state.limits.rows)?;
+    let published = state.machines.resolve(&question.machine)?;
+    let (joints, verdicts): (Vec<_>, Vec<_>) = (0..question.rows.len())
+        .into_par_iter()
         .with_min_len(CHUNK)
-        .map(|text| answer_row(machine, request.frame, request.tool_length, text))
-        .collect();
-    let (joints, verdicts): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
+        .map(|row| answer_row(&published.machine, &question, row))
+        .unzip();
     let answer =
         IkBatchAnswer { machine: published.id.clone(), joints, report: report(verdicts.into_iter()) };
     write_json(&answer, ROW_BYTES * answer.joints.len())
 }
 
-fn answer_row(machine: &Machine, frame: Frame, tool_length: f64, text: &RawValue) -> (Option<Row>, Verdict) {
-    let row = match frame {
-        Frame::Part => read_row(text, &[5], "[x, y, z, phi1, phi2]"),
-        Frame::Platform | Frame::Tool => read_row(text, &[3], "[x, y, z]"),
+fn answer_row(machine: &Machine, question: &Question<'_>, row: usize) -> (Option<Row>, Verdict) {
+    let &Question { frame, tool_length, .. } = question;
+    let shape = match frame {
+        Frame::Part => Shape { lengths: &[5], words: "[x, y, z, phi1, phi2]" },
+        Frame::Platform | Frame::Tool => Shape { lengths: &[3], words: "[x, y, z]" },
     };
-    let row = match row {
+    let row = match shape.row(&question.rows, row) {
         Ok(row) => row,
         Err(detail) => return (None, Verdict::Invalid(detail)),
     };

@@ -51,8 +51,52 @@ pub(crate) struct FkBatchRequest<'a> {
     pub joints: Vec<&'a RawValue>,
 }
 
-/// Numbers of one answered row.
+/// Numbers of one row.
 pub(crate) type Row = ArrayVec<f64, 5>;
+
+/// An [`IkBatchRequest`] all of whose rows are numbers, as nearly always: they are read with the rest of the body,
+/// which is several times as fast as finding their ends first.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct IkBatchNumbers {
+    #[serde(default)]
+    pub machine: MachineRef,
+    #[serde(default)]
+    pub frame: Frame,
+    #[serde(default)]
+    pub tool_length: f64,
+    pub poses: Vec<Row>,
+}
+
+/// An [`FkBatchRequest`] all of whose rows are numbers.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FkBatchNumbers {
+    #[serde(default)]
+    pub machine: MachineRef,
+    #[serde(default)]
+    pub tool_length: f64,
+    pub joints: Vec<Row>,
+}
+
+/// The rows of a batch.
+#[derive(Debug)]
+pub(crate) enum Rows<'a> {
+    /// Every one was read.
+    Read(Vec<Row>),
+    /// At least one cannot be read; each is still text.
+    Text(Vec<&'a RawValue>),
+}
+
+impl Rows<'_> {
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Read(rows) => rows.len(),
+            Self::Text(rows) => rows.len(),
+        }
+    }
+}
 
 /// Joints for every pose, in order.
 #[derive(Debug, Serialize, ToSchema)]

@@ -13,6 +13,11 @@ pub(crate) fn parse_body<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Result<T,
     serde_json::from_slice(body).map(|Object(request)| request).map_err(|_| explain_body::<T>(body))
 }
 
+/// Parses a JSON body that holds an object, if it is as expected; [`parse_body`] says what else it is.
+pub(crate) fn parse_usual<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Option<T> {
+    serde_json::from_slice(body).map(|Object(request)| request).ok()
+}
+
 /// Parses a query string.
 pub(crate) fn parse_query<'de, T: Deserialize<'de>>(query: &'de str) -> Result<T, Error> {
     let pairs = serde_urlencoded::Deserializer::new(form_urlencoded::parse(query.as_bytes()));
