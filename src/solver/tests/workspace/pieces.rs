@@ -1,7 +1,7 @@
 //! Workspaces of several pieces, with holes, and of pieces that touch.
 
 use verne_solver::Machine;
-use verne_solver::workspace::{Kind, Surface, Unobserved, slice, surface};
+use verne_solver::workspace::{Kind, Surface, Unobserved, Volume, measure, slice, surface};
 
 use crate::brute;
 use crate::machines::{Random, changed, request};
@@ -59,11 +59,15 @@ fn made(machine: &Machine, tolerance: f64) -> (Surface, Topology) {
     (mesh, topology)
 }
 
+/// A rectangle that holds a mesh of a few millimetres' tolerance and what it stands for.
+fn around(mesh: &Surface) -> [[f64; 2]; 2] {
+    let [low, high] = mesh.bounds().unwrap();
+    [[low[0] - 9.0, low[1] - 9.0], [high[0] + 9.0, high[1] + 9.0]]
+}
+
 /// A lattice of columns is off by about its cells cut: these pieces have long boundaries.
 fn columns_agree(machine: &Machine, mesh: &Surface, tolerance: f64) {
-    let [low, high] = mesh.bounds().unwrap();
-    let rectangle = [[low[0] - 9.0, low[1] - 9.0], [high[0] + 9.0, high[1] + 9.0]];
-    let [area, brute] = brute::area_and_volume(machine, rectangle, 500);
+    let [area, brute] = brute::area_and_volume(machine, around(mesh), 500);
     let off = (mesh.volume() - brute).abs();
     assert!(mesh.volume() > 0.0 && off < tolerance * 4.0 * area, "{} against {brute}", mesh.volume());
 }
@@ -81,6 +85,19 @@ fn several_are_closed_and_of_the_right_volume() {
 }
 
 /// A slice has holes, and at this tolerance the surface too.
+/// Pieces narrower than the first look's lines are apart are measured all the same.
+#[test]
+fn the_measure_misses_no_piece() {
+    for legs in [TOUCHING, SEVEN] {
+        let machine = crossing(legs);
+        let measure = measure(&machine, &request(Kind::Platform, 0.0, 0.0, 1.0), &Unobserved).unwrap();
+        let [area, volume] = brute::area_and_volume(&machine, around(&made(&machine, 4.0).0), 900);
+        let Volume::Value { value, .. } = measure.volume else { panic!("a platform's map cannot fold") };
+        assert!((measure.area / area - 1.0).abs() < 4e-3, "{measure:?} against {area}");
+        assert!((value / volume - 1.0).abs() < 4e-3, "{measure:?} against {volume}");
+    }
+}
+
 #[test]
 fn holes_are_holes() {
     let machine = crossing([

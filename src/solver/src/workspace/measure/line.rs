@@ -8,8 +8,6 @@ use super::super::path::{End, Path};
 use super::super::quadrature::{Integral, rule};
 use super::super::root;
 
-/// Segments of a line whose limits are looked at: odd, so that the symmetry plane is not an end.
-const PIECES: u32 = 13;
 /// Halvings of an interval whose integrand is not smooth.
 const DEPTH: u32 = 12;
 /// Part of the domain's area, or volume, per width, to which a line is integrated.
@@ -46,9 +44,15 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    pub(super) fn new(domain: &'a Domain<'a>, x: f64, range: [f64; 2]) -> Self {
+    /// The line at x over a range of y, looked at in so many pieces.
+    pub(super) fn new(domain: &'a Domain<'a>, x: f64, range: [f64; 2], pieces: u32) -> Self {
         let path = Path { domain, at: |y: f64| [x, y] };
-        Self { domain, x, intervals: path.intervals(range, PIECES) }
+        Self { domain, x, intervals: path.intervals(range, pieces) }
+    }
+
+    /// Whether the domain is in pieces here.
+    pub(super) fn is_parted(&self) -> bool {
+        self.intervals.len() > 1
     }
 
     pub(super) fn structure(&self) -> Structure {

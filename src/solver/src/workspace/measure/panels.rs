@@ -7,8 +7,10 @@ use super::super::quadrature::{Integral, rule};
 use super::super::request::WorkspaceError;
 use super::line::{Extremes, Line, Structure};
 
-/// Lines first looked at.
-const LINES: u32 = 40;
+/// Lines first looked at, and the pieces of each: odd, so that the symmetry plane is not an end.
+const COARSE: Look = Look { lines: 40, pieces: 13 };
+/// The same for a domain in several pieces, some of which may be narrow.
+const FINE: Look = Look { lines: 400, pieces: 53 };
 /// Width, as a part of the domain's, within which a change of structure is found.
 const RESOLUTION: f64 = 2e-9;
 /// Aim of the relative error of each integral.
@@ -23,11 +25,24 @@ pub(super) fn integrate(
     domain: &Domain<'_>,
     observer: &dyn Observer,
 ) -> Result<(Integral<2>, Extremes), WorkspaceError> {
-    let Some([[x0, y0], [x1, y1]]) = narrowed(domain) else {
+    let Some([[mut x0, mut y0], [mut x1, mut y1]]) = narrowed(domain) else {
         return Ok((Integral::ZERO, Extremes::default()));
     };
-    let mut outer = Outer { domain, range: [y0, y1], observer, extremes: Extremes::default() };
-    let (ends, rough) = outer.changes([x0, x1])?;
+    let mut outer = Outer {
+        domain,
+        range: [y0, y1],
+        observer,
+        look: COARSE,
+        parted: false,
+        extremes: Extremes::default(),
+    };
+    let (mut ends, mut rough) = outer.changes([x0, x1])?;
+    if outer.parted {
+        // A piece may also lie beside what the others occupy.
+        [[x0, y0], [x1, y1]] = domain.rectangle();
+        (outer.look, outer.range) = (FINE, [y0, y1]);
+        (ends, rough) = outer.changes([x0, x1])?;
+    }
     let mut total = Integral::ZERO;
     let allowed = rough.map(|r| r * ACCURACY);
     for panel in ends.windows(2) {
@@ -42,34 +57,47 @@ pub(super) fn integrate(
     Ok((total, outer.extremes))
 }
 
+/// How closely a domain is looked at.
+#[derive(Clone, Copy)]
+struct Look {
+    lines: u32,
+    pieces: u32,
+}
+
 struct Outer<'a> {
     domain: &'a Domain<'a>,
     range: [f64; 2],
     observer: &'a dyn Observer,
+    look: Look,
+    /// Whether a line crossed several pieces of the domain.
+    parted: bool,
     extremes: Extremes,
 }
 
 impl Outer<'_> {
     fn line(&self, x: f64) -> Result<Line<'_>, WorkspaceError> {
         go_on(self.observer)?;
-        Ok(Line::new(self.domain, x, self.range))
+        Ok(Line::new(self.domain, x, self.range, self.look.pieces))
     }
 
     /// The x between which the structure stays the same, and rough values of the integrals.
     fn changes(&mut self, [x0, x1]: [f64; 2]) -> Result<(Vec<f64>, [f64; 2]), WorkspaceError> {
-        let step = (x1 - x0) / f64::from(LINES);
+        let lines = self.look.lines;
+        let step = (x1 - x0) / f64::from(lines);
         let (mut found, mut rough) = (vec![], [0.0; 2]);
         let mut last: Option<(f64, Structure)> = None;
-        for number in 0..=LINES {
-            self.observer.progress(0.5 * f64::from(number) / f64::from(LINES));
+        for number in 0..=lines {
+            self.observer.progress(0.5 * f64::from(number) / f64::from(lines));
             let x = x0 + step * f64::from(number);
             let line = self.line(x)?;
+            let parted = line.is_parted();
             let structure = line.structure();
             let mut extremes = Extremes::default();
             let value = line.integrals(&[f64::INFINITY; 2], &mut extremes).value;
             for (rough, value) in rough.iter_mut().zip(value) {
                 *rough += step * value.abs();
             }
+            self.parted |= parted;
             if let Some((before, old)) = last {
                 self.change([before, x], [&old, &structure], RESOLUTION * (x1 - x0), &mut found)?;
             }
