@@ -4,12 +4,12 @@ use rayon::prelude::*;
 use verne_solver::Point;
 use verne_solver::workspace::{Membership, Observer, Request, contains};
 
-use super::batch_rows::{CHUNK, EXPLAINED, read_row};
+use super::batch_rows::{CHUNK, EXPLAINED, Shape};
 use super::workspace_question::{WorkspaceQuestion, workspace_error};
 use crate::error::Error;
 use crate::state::State;
 use crate::wire::answer::MachineId;
-use crate::wire::batch::RowError;
+use crate::wire::batch::{RowError, Rows};
 use crate::wire::contains::{ContainsAnswer, ContainsCounts, ContainsRequest};
 use crate::wire::json::write_json;
 use crate::wire::limit::Limit;
@@ -32,10 +32,11 @@ pub(crate) fn answer_contains(body: &[u8], state: &State, observer: &dyn Observe
     let ContainsRequest { machine, kind, tool_length, phi1, phi2, points } = asked;
     let whole = WorkspaceRequest { machine, kind, tool_length, phi1, phi2, tolerance: COARSE };
     let question = WorkspaceQuestion::new(&whole, &state.machines)?;
-    let read: Vec<Result<Point, String>> = points
-        .par_iter()
+    let (shape, points) = (Shape { lengths: &[3], words: "[x, y, z]" }, Rows::Text(points));
+    let read: Vec<Result<Point, String>> = (0..rows)
+        .into_par_iter()
         .with_min_len(CHUNK)
-        .map(|text| read_row(text, &[3], "[x, y, z]").map(|row| [row[0], row[1], row[2]]))
+        .map(|i| shape.row(&points, i).map(|row| [row[0], row[1], row[2]]))
         .collect();
     let good: Vec<Point> = read.iter().flatten().copied().collect();
     let request = Request::from(&question.request);
