@@ -1,12 +1,14 @@
 //! What is kept.
 
+use std::fmt;
+
 use bytes::Bytes;
 
 /// Up to here hashing takes less time than handing the bytes to another thread and waiting.
 const HASHED_IN_PLACE: usize = 64 << 10;
 
 /// Bytes that never change, with their BLAKE3 hash. Its clones share one buffer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Content {
     /// The bytes.
     pub bytes: Bytes,
@@ -27,5 +29,12 @@ impl Content {
             there.await.unwrap_or_else(|_| here())
         };
         Self { bytes, hash }
+    }
+}
+
+/// Not the bytes: there are megabytes of them.
+impl fmt::Debug for Content {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Content({} bytes, {})", self.bytes.len(), self.hash)
     }
 }

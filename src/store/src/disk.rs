@@ -31,7 +31,7 @@ pub(crate) struct Disk {
     /// Bytes of all objects are not more than this.
     bound: u64,
     /// Bytes of all objects, as the index last said.
-    total: AtomicU64,
+    total: Arc<AtomicU64>,
     /// The number of the next use.
     next_use: AtomicU64,
     /// The last use of each key that the index does not know of yet.
@@ -202,15 +202,14 @@ impl Disk {
         &self,
         work: impl FnOnce(&mut Index) -> rusqlite::Result<T> + Send + 'static,
     ) -> Result<T, DiskFault> {
-        let index = Arc::clone(&self.index);
-        let (answer, total) = tokio::task::spawn_blocking(move || {
+        let (index, total) = (Arc::clone(&self.index), Arc::clone(&self.total));
+        let answer = tokio::task::spawn_blocking(move || {
             let mut index = index.lock().unwrap_or_else(PoisonError::into_inner);
             let answer = work(&mut index);
-            (answer, index.total())
-        })
-        .await?;
-        self.total.store(total, Ordering::Relaxed);
-        Ok(answer?)
+            total.store(index.total(), Ordering::Relaxed);
+            answer
+        });
+        Ok(answer.await??)
     }
 }
 

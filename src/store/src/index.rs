@@ -3,6 +3,7 @@
 //! Every call blocks. A use is a number from a counter that only grows, not a time: clocks are set back.
 
 use std::collections::HashMap;
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -36,34 +37,35 @@ pub(crate) struct Found {
 impl Index {
     /// Opens the index of a directory, or makes one. One that cannot be understood is moved aside, for the
     /// objects say the same; the one moved aside before it is overwritten.
-    pub(crate) fn open(directory: &Path) -> rusqlite::Result<Found> {
+    pub(crate) fn open(directory: &Path) -> Result<Found, Box<dyn Error + Send + Sync>> {
         let path = directory.join("index.sqlite3");
         match Self::read(&path) {
-            Err(fault) if is_damage(&fault) => {
-                tracing::warn!(path = %path.display(), %fault, "the index is damaged: moved aside and made anew");
-                move_aside(&path)
-                    .map_err(|fault| rusqlite::Error::ToSqlConversionFailure(Box::new(fault)))?;
-                Self::read(&path)
-            }
-            found => found,
+            Ok(Some(found)) => return Ok(found),
+            Err(fault) if !is_damage(&fault) => return Err(fault.into()),
+            Ok(None) => tracing::warn!("the index is not sound or of another version: made anew"),
+            Err(fault) => tracing::warn!(%fault, "the index is damaged: made anew"),
         }
+        move_aside(&path)?;
+        Self::read(&path)?.ok_or_else(|| "a new index is not sound".into())
     }
 
-    fn read(path: &Path) -> rusqlite::Result<Found> {
-        let connection = connect(path)?;
+    /// `None` where a sound index of this version is not what lies there.
+    fn read(path: &Path) -> rusqlite::Result<Option<Found>> {
+        let Some(connection) = connect(path)? else { return Ok(None) };
         let mut sizes = HashMap::new();
-        let (mut total, mut next_use) = (0, 0);
+        let (mut total, mut next_use) = (0_u64, 0);
         {
             let mut rows = connection.prepare("SELECT key, size, used FROM objects")?;
             let mut rows = rows.query([])?;
             while let Some(row) = rows.next()? {
                 let size = row.get::<_, i64>(1)?.cast_unsigned();
+                let Some(sum) = total.checked_add(size) else { return Ok(None) };
+                total = sum;
                 sizes.insert(Key::from(row.get::<_, [u8; 32]>(0)?), size);
-                total += size;
-                next_use = next_use.max(row.get::<_, i64>(2)?.cast_unsigned() + 1);
+                next_use = next_use.max(row.get::<_, i64>(2)?.cast_unsigned().saturating_add(1));
             }
         }
-        Ok(Found { index: Self { connection, total }, sizes, next_use })
+        Ok(Some(Found { index: Self { connection, total }, sizes, next_use }))
     }
 
     /// Bytes of all objects.
@@ -185,7 +187,8 @@ fn size_of(connection: &Connection, key: &Key) -> rusqlite::Result<u64> {
     Ok(size.unwrap_or(0).cast_unsigned())
 }
 
-fn connect(path: &Path) -> rusqlite::Result<Connection> {
+/// `None` where the file is not sound or of another version.
+fn connect(path: &Path) -> rusqlite::Result<Option<Connection>> {
     let connection = Connection::open(path)?;
     // A row that a power cut takes back is entered again when the store is opened: nothing to wait for.
     connection.pragma_update(None, "journal_mode", "WAL")?;
@@ -194,12 +197,12 @@ fn connect(path: &Path) -> rusqlite::Result<Connection> {
     let version: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
     let tables: i64 = connection.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
     match (check.as_str(), version, tables) {
-        ("ok", VERSION, _) => Ok(connection),
+        ("ok", VERSION, _) => Ok(Some(connection)),
         ("ok", 0, 0) => {
             connection.execute_batch(&format!("BEGIN; {SCHEMA} COMMIT;"))?;
-            Ok(connection)
+            Ok(Some(connection))
         }
-        _ => Err(rusqlite::Error::InvalidQuery),
+        _ => Ok(None),
     }
 }
 

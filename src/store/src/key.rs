@@ -5,7 +5,7 @@ use std::fmt;
 use object_store::path::Path;
 
 /// What a result is kept under: 32 bytes that the caller derives, as a rule the hash of the question.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Key([u8; 32]);
 
 impl Key {

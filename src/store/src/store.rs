@@ -1,6 +1,6 @@
 //! The store: memory before disk.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use bytes::Bytes;
@@ -8,7 +8,7 @@ use object_store::ObjectStore;
 
 use crate::disk::Disk;
 use crate::held::Held;
-use crate::memory::{self, Memory};
+use crate::memory::Memory;
 use crate::stats::Counts;
 use crate::{Content, Key, OpenError, Stats};
 
@@ -28,7 +28,8 @@ pub struct Config {
 pub enum Kept {
     /// It is flushed to disk: a restart does not lose it, only the need for room.
     Durable,
-    /// It is in memory: there is no disk, the disk refused it, or it is larger than the disk's bound.
+    /// It is in memory until that needs the room: there is no disk, the disk refused it, or it is larger than the
+    /// disk's bound. What lay on disk under the key before still does.
     MemoryOnly,
 }
 
@@ -45,31 +46,41 @@ impl Store {
     /// Opens the configured directory, or a store in memory if there is none. After a crash the index is made to
     /// agree with the objects first.
     pub async fn open(config: &Config) -> Result<Self, OpenError> {
-        Self::build(config, None).await
+        match &config.directory {
+            Some(directory) => Self::build(directory, None, config.memory_bytes, config.disk_bytes).await,
+            None => Ok(Self::in_memory(config.memory_bytes)),
+        }
     }
 
-    /// The same with the objects elsewhere than in the directory, which holds the index of them. The index
+    /// Opens a store whose objects lie elsewhere than in the directory, which holds the index of them. The index
     /// knows of no other writer: one store at a time.
-    pub async fn open_over(config: &Config, objects: Arc<dyn ObjectStore>) -> Result<Self, OpenError> {
-        Self::build(config, Some(objects)).await
+    pub async fn open_over(
+        objects: Arc<dyn ObjectStore>,
+        directory: &Path,
+        memory_bytes: u64,
+        disk_bytes: u64,
+    ) -> Result<Self, OpenError> {
+        Self::build(directory, Some(objects), memory_bytes, disk_bytes).await
     }
 
     /// A store of so many bytes that lasts as long as the process.
     pub fn in_memory(memory_bytes: u64) -> Self {
         Self {
-            memory: memory::of_size(memory_bytes),
+            memory: Memory::of_size(memory_bytes),
             held: Held::default(),
             disk: None,
             counts: Arc::default(),
         }
     }
 
-    async fn build(config: &Config, objects: Option<Arc<dyn ObjectStore>>) -> Result<Self, OpenError> {
-        let mut store = Self::in_memory(config.memory_bytes);
-        if let Some(directory) = &config.directory {
-            let counts = Arc::clone(&store.counts);
-            store.disk = Some(Disk::open(directory, objects, config.disk_bytes, counts).await?);
-        }
+    async fn build(
+        directory: &Path,
+        objects: Option<Arc<dyn ObjectStore>>,
+        memory_bytes: u64,
+        disk_bytes: u64,
+    ) -> Result<Self, OpenError> {
+        let mut store = Self::in_memory(memory_bytes);
+        store.disk = Some(Disk::open(directory, objects, disk_bytes, Arc::clone(&store.counts)).await?);
         Ok(store)
     }
 
@@ -79,18 +90,13 @@ impl Store {
         if let Some(content) = self.remembered(key).await {
             return Some(content);
         }
-        let mut ran = false;
-        let content = self.memory.optionally_get_with(*key, async {
-            ran = true;
-            self.load(*key).await
-        });
-        let content = content.await;
-        if ran {
-            self.trim().await;
-        } else {
-            let count = if content.is_some() { &self.counts.memory_hits } else { &self.counts.misses };
-            count.add(1);
-        }
+        let (content, ran) = self.memory.get_or_find(*key, self.read(*key)).await;
+        let count = match (&content, ran) {
+            (None, _) => &self.counts.misses,
+            (Some(_), true) => &self.counts.disk_hits,
+            (Some(_), false) => &self.counts.memory_hits,
+        };
+        count.add(1);
         content
     }
 
@@ -99,7 +105,6 @@ impl Store {
     pub async fn put(&self, key: &Key, bytes: Bytes) -> (Content, Kept) {
         let content = self.held.share(*key, Content::of(bytes).await);
         self.memory.insert(*key, content.clone()).await;
-        self.trim().await;
         let kept = self.write(*key, &content).await;
         (content, kept)
     }
@@ -115,20 +120,16 @@ impl Store {
         if let Some(content) = self.remembered(key).await {
             return Ok(content);
         }
-        let mut ran = false;
-        let content = self.memory.try_get_with(*key, async {
-            ran = true;
+        let found_or_made = async {
             if let Some(content) = self.get(key).await {
                 return Ok(content);
             }
             let content = self.held.share(*key, Content::of(make.await?).await);
             self.write(*key, &content).await;
             Ok(content)
-        });
-        let content = content.await.map_err(Arc::unwrap_or_clone);
-        if ran {
-            self.trim().await;
-        } else if content.is_ok() {
+        };
+        let (content, ran) = self.memory.get_or_make(*key, found_or_made).await;
+        if content.is_ok() && !ran {
             self.counts.memory_hits.add(1);
         }
         content
@@ -141,7 +142,7 @@ impl Store {
             memory_hits: counts.memory_hits.get(),
             disk_hits: counts.disk_hits.get(),
             misses: counts.misses.get(),
-            memory_bytes: memory::size(&self.memory),
+            memory_bytes: self.memory.size(),
             disk_bytes: self.disk.as_ref().map_or(0, |disk| disk.total()),
             evictions: counts.evictions.get(),
             damaged: counts.damaged.get(),
@@ -158,30 +159,20 @@ impl Store {
         }
     }
 
-    /// What memory holds.
+    /// What memory holds, or somebody else.
     async fn remembered(&self, key: &Key) -> Option<Content> {
-        let content = self.memory.get(key).await?;
+        let content = match self.memory.get(key).await {
+            Some(content) => content,
+            None => self.held.get(key)?,
+        };
         self.counts.memory_hits.add(1);
         self.touch(*key).await;
         Some(content)
     }
 
-    /// What somebody holds though memory does not, or what lies on disk.
-    async fn load(&self, key: Key) -> Option<Content> {
-        if let Some(content) = self.held.get(&key) {
-            self.counts.memory_hits.add(1);
-            self.touch(key).await;
-            return Some(content);
-        }
-        let read = match &self.disk {
-            Some(disk) => disk.read(key).await,
-            None => None,
-        };
-        let Some(content) = read else {
-            self.counts.misses.add(1);
-            return None;
-        };
-        self.counts.disk_hits.add(1);
+    /// What lies on disk.
+    async fn read(&self, key: Key) -> Option<Content> {
+        let content = self.disk.as_ref()?.read(key).await?;
         self.touch(key).await;
         Some(self.held.share(key, content))
     }
@@ -197,10 +188,5 @@ impl Store {
         if let Some(disk) = &self.disk {
             disk.touch(key).await;
         }
-    }
-
-    /// Holds memory to its bound at once: moka would let go of what does not fit with some later call.
-    async fn trim(&self) {
-        self.memory.run_pending_tasks().await;
     }
 }

@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
+use bytes::Bytes;
 use futures_util::{StreamExt, TryStreamExt, future, stream};
 use object_store::local::LocalFileSystem;
 use object_store::{ObjectMeta, ObjectStore, ObjectStoreExt};
@@ -37,14 +38,14 @@ impl Disk {
         let place = directory.to_path_buf();
         let found = tokio::task::spawn_blocking(move || Index::open(&place)).await;
         let Found { index, sizes, next_use } = found
-            .map_err(DiskFault::from)
-            .and_then(|found| Ok(found?))
-            .map_err(|fault| refusal(directory, fault))?;
+            .map_err(Into::into)
+            .flatten()
+            .map_err(|source| OpenError::Index { directory: directory.to_path_buf(), source })?;
         let disk = Self {
             objects,
             index: Arc::new(Mutex::new(index)),
             bound,
-            total: AtomicU64::new(0),
+            total: Arc::default(),
             next_use: AtomicU64::new(next_use),
             uses: Mutex::default(),
             turn: tokio::sync::Mutex::default(),
@@ -97,7 +98,11 @@ impl Disk {
     /// Whether a file begins as its key's object and is as long as it says. What is left of a damaged object is
     /// removed; what never was an object is left alone.
     async fn is_object(&self, key: Key, file: &ObjectMeta) -> bool {
-        let start = self.objects.get_range(&file.location, 0..file.size.min(object::HEADER as u64)).await;
+        let start = match file.size.min(object::HEADER as u64) {
+            // An empty range is an error.
+            0 => Ok(Bytes::new()),
+            end => self.objects.get_range(&file.location, 0..end).await,
+        };
         let damage = match start {
             Ok(start) => match object::head(&key, &start, file.size) {
                 Ok(_) => return true,
@@ -139,7 +144,7 @@ async fn lock(directory: &Path) -> Result<File, OpenError> {
 
 /// The objects in a directory.
 async fn local(directory: &Path) -> Result<Arc<dyn ObjectStore>, OpenError> {
-    let root = directory.join("objects");
+    let (place, root) = (directory.to_path_buf(), directory.join("objects"));
     let objects = blocking(directory, move || {
         fs::create_dir_all(&root)?;
         remove_unfinished(&root)?;
@@ -149,6 +154,8 @@ async fn local(directory: &Path) -> Result<Arc<dyn ObjectStore>, OpenError> {
                 remove_unfinished(&place.path())?;
             }
         }
+        // Flushed with the first object otherwise: its own directory, but not this one's entry.
+        File::open(&place)?.sync_all()?;
         LocalFileSystem::new_with_prefix(&root).map_err(io::Error::other)
     });
     Ok(Arc::new(objects.await?.with_fsync(true)))
