@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::time::{Duration, Instant};
 
-use crate::{JobId, MAX_COST};
+use crate::JobId;
 
 /// Which jobs a lane takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,8 +102,7 @@ impl Queue {
         self.cost
     }
 
-    pub(super) fn push(&mut self, life: u64, mut job: Waiting) {
-        job.cost = told_apart(job.cost);
+    pub(super) fn push(&mut self, life: u64, job: Waiting) {
         let tag = self.next_tag(&job.client, job.cost);
         self.bytes += job.bytes;
         self.cost += job.cost;
@@ -183,9 +182,4 @@ impl Queue {
         self.bytes -= job.bytes;
         self.cost -= job.cost;
     }
-}
-
-/// A cost that sums well: what is not a number counts as the greatest.
-fn told_apart(cost: f64) -> f64 {
-    if cost.is_nan() { MAX_COST } else { cost.clamp(1e-3, MAX_COST) }
 }
