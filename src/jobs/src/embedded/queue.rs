@@ -67,7 +67,7 @@ pub(super) struct Queue {
     large: Band,
     /// What each client has queued; its last is the client's last tag.
     clients: HashMap<String, BTreeSet<Place>>,
-    /// Virtual time: the greatest tag taken.
+    /// Virtual time.
     now: Tag,
     bytes: usize,
     cost: f64,
@@ -131,10 +131,12 @@ impl Queue {
 
     /// The next job for `lane`, at `now`.
     pub(super) fn take(&mut self, lane: Lane, now: Instant) -> Option<(u64, Waiting)> {
-        let life = self.overdue(lane, now).or_else(|| self.least(lane))?;
+        let life = self.overdue(lane, now).or_else(|| self.least(lane).map(|(_, life)| life))?;
         let (job, tag) = self.extract(life)?;
         self.forget(&job);
-        self.now = self.now.max(tag);
+        // What has passed others, small or overdue, must not set back those who come after them.
+        let reached = self.least(Lane::Main).map_or(tag, |(waiting, _)| waiting.min(tag));
+        self.now = self.now.max(reached);
         Some((life, job))
     }
 
@@ -149,8 +151,8 @@ impl Queue {
         (now.saturating_duration_since(job.since) > self.rule.overdue).then_some(*life)
     }
 
-    fn least(&self, lane: Lane) -> Option<u64> {
-        self.bands(lane).filter_map(|band| band.by_tag.first()).min().map(|(_, life)| *life)
+    fn least(&self, lane: Lane) -> Option<Place> {
+        self.bands(lane).filter_map(|band| band.by_tag.first()).min().copied()
     }
 
     fn next_tag(&self, client: &str, cost: f64) -> Tag {

@@ -13,6 +13,7 @@ for_each_backend!(
     a_joined_job_does_not_move_back,
     a_small_job_passes_a_long_one,
     a_large_job_does_not_take_the_express_lane,
+    what_passes_by_the_express_lane_does_not_set_others_back,
 );
 
 async fn held(open: Open) -> Stand {
@@ -95,4 +96,18 @@ async fn a_large_job_does_not_take_the_express_lane(open: Open) {
     stand.leave(costing(2.5, job("ada", "large", "pass"))).await;
     stand.submit(costing(2.0, job("bob", "small", "pass"))).await.finished().await;
     assert_eq!(stand.get("large").await.state, State::Queued);
+}
+
+async fn what_passes_by_the_express_lane_does_not_set_others_back(open: Open) {
+    let stand = held(open).await;
+    for number in 0..10 {
+        stand.leave(job("ada", &format!("a{number}"), "pass")).await;
+    }
+    for number in 0..60 {
+        stand.submit(costing(2.0, job("eve", &format!("e{number}"), "pass"))).await.finished().await;
+    }
+    stand.leave(job("bob", "b", "pass")).await;
+    stand.stage.open("first");
+    let begun = stand.stage.begun(72).await;
+    assert_eq!(begun[61..64], ["a0", "a1", "b"]);
 }
