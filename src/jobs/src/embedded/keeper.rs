@@ -96,7 +96,11 @@ impl Keeper {
         };
         match submission.deadline.and_then(after) {
             Some(later) if later <= deadline => {}
-            later => self.set_deadline(board, submission.id, life, later),
+            later => {
+                self.set_deadline(board, submission.id, life, later);
+                let write = Write::Postpone { life, deadline: submission.deadline };
+                self.recorder.write(write, Box::new(drop));
+            }
         }
     }
 

@@ -99,6 +99,27 @@ async fn a_deadline_counts_anew() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn the_latest_deadline_holds_after_a_restart() {
+    within_a_minute(async {
+        let directory = TempDir::new().unwrap();
+        let before = stand(directory.path());
+        before.leave(job("ada", "running", "hold")).await;
+        let hurried = |name, seconds| Submission {
+            deadline: Some(Duration::from_secs(seconds)),
+            ..job("ada", name, "pass")
+        };
+        before.leave(hurried("patient", 1)).await;
+        before.leave(job("bob", "patient", "pass")).await;
+        before.leave(hurried("a", 2)).await;
+        let after_copy = killed(directory.path());
+        let after = stand(after_copy.path());
+        assert_eq!(after.end("a").await.failure, Some(Failure::DeadlinePassed));
+        assert_eq!(after.get("patient").await.state, State::Queued);
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn finished_jobs_are_forgotten() {
     within_a_minute(async {
         let retention = Retention { count: 2, age: Duration::from_mins(10) };
