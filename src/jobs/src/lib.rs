@@ -11,12 +11,12 @@
 //!
 //! # Which job is next
 //!
-//! Self-clocked fair queueing (Golestani 1994): a job's tag is the greater of the virtual time and its client's last tag,
-//! plus its cost. The least tag is next, and the virtual time is the greatest tag that was taken. So a job of cost c waits
-//! for what runs and, of each other client, for no more than c and one job beyond it, however much they have queued.
-//! A job that several clients ask for stands where the best placed of them would have put it. A job
-//! that has waited longer than a set time ([`overdue`](embedded::Config::overdue)) goes before all that have
-//! not, the oldest first; so none waits for ever.
+//! Self-clocked fair queueing (Golestani 1994): a job's tag is the greater of the virtual time and its client's last tag in
+//! the queue, plus its cost. The least tag is next; the virtual time is the greatest tag taken, but passes none
+//! that still waits. So a job of cost c waits for what runs and, of each other client, for no more than c and one job beyond
+//! it, however much they have queued. A job that several clients ask for stands where the best placed of them would have
+//! put it, and is charged to that one. A job that has waited longer than a set time
+//! ([`overdue`](embedded::Config::overdue)) goes before all that have not, the oldest first; so none waits for ever.
 //!
 //! # Which threads it has
 //!

@@ -14,7 +14,7 @@ pub struct Config {
     pub threads: usize,
     /// How many jobs run at once in the main lane; between one and `threads`, which are dealt out among them.
     pub slots: usize,
-    /// Most jobs in the queue.
+    /// Most jobs in the queue; at least one.
     pub queue: usize,
     /// Most bytes of payload in the queue.
     pub queue_bytes: usize,
@@ -45,6 +45,11 @@ impl Default for Config {
 }
 
 impl Config {
+    /// The default with a database in `directory`.
+    pub fn in_directory(directory: impl Into<PathBuf>) -> Self {
+        Self { directory: Some(directory.into()), ..Self::default() }
+    }
+
     pub(super) fn rule(&self) -> Rule {
         Rule { small: self.small, overdue: self.overdue }
     }

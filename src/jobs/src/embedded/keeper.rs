@@ -21,7 +21,7 @@ use super::records::{Record, Write};
 use super::run::{End, Outcome, Told};
 use super::turn::Turn;
 use crate::feed::Feeder;
-use crate::{Claim, Job, JobId, State, Submission, SubmitError, Work};
+use crate::{Claim, Job, JobId, MAX_COST, State, Submission, SubmitError, Work};
 use claims::Stake;
 
 pub(super) struct Keeper {
@@ -96,7 +96,11 @@ impl Keeper {
         };
         match submission.deadline.and_then(after) {
             Some(later) if later <= deadline => {}
-            later => self.set_deadline(board, submission.id, life, later),
+            later => {
+                self.set_deadline(board, submission.id, life, later);
+                let write = Write::Postpone { life, deadline: submission.deadline };
+                self.recorder.write(write, Box::new(drop));
+            }
         }
     }
 
@@ -127,7 +131,7 @@ impl Keeper {
 
     fn check_room(&self, board: &Board, bytes: usize) -> Result<(), SubmitError> {
         let (jobs, queued) = (board.queue.len(), board.queue.bytes());
-        if jobs < self.config.queue && queued.saturating_add(bytes) <= self.config.queue_bytes {
+        if jobs < self.config.queue.max(1) && queued.saturating_add(bytes) <= self.config.queue_bytes {
             return Ok(());
         }
         // About as long as the mean job takes, after which one place is free.
@@ -200,7 +204,7 @@ fn queued(submission: Submission) -> Job {
     Job {
         id: submission.id,
         client: submission.client,
-        cost: submission.cost,
+        cost: told_apart(submission.cost),
         payload: submission.payload,
         state: State::Queued,
         progress: 0.0,
@@ -219,4 +223,9 @@ fn finish(job: &mut Job, outcome: Outcome) {
         Outcome::Failed(failure) => (job.state, job.failure) = (State::Failed, Some(failure)),
         Outcome::Cancelled => job.state = State::Cancelled,
     }
+}
+
+/// A cost that sums well: what is not a number counts as the greatest.
+fn told_apart(cost: f64) -> f64 {
+    if cost.is_nan() { MAX_COST } else { cost.clamp(1e-3, MAX_COST) }
 }

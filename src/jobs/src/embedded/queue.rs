@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::time::{Duration, Instant};
 
-use crate::{JobId, MAX_COST};
+use crate::JobId;
 
 /// Which jobs a lane takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +67,7 @@ pub(super) struct Queue {
     large: Band,
     /// What each client has queued; its last is the client's last tag.
     clients: HashMap<String, BTreeSet<Place>>,
-    /// Virtual time: the greatest tag taken.
+    /// Virtual time.
     now: Tag,
     bytes: usize,
     cost: f64,
@@ -102,8 +102,7 @@ impl Queue {
         self.cost
     }
 
-    pub(super) fn push(&mut self, life: u64, mut job: Waiting) {
-        job.cost = told_apart(job.cost);
+    pub(super) fn push(&mut self, life: u64, job: Waiting) {
         let tag = self.next_tag(&job.client, job.cost);
         self.bytes += job.bytes;
         self.cost += job.cost;
@@ -132,10 +131,12 @@ impl Queue {
 
     /// The next job for `lane`, at `now`.
     pub(super) fn take(&mut self, lane: Lane, now: Instant) -> Option<(u64, Waiting)> {
-        let life = self.overdue(lane, now).or_else(|| self.least(lane))?;
+        let life = self.overdue(lane, now).or_else(|| self.least(lane).map(|(_, life)| life))?;
         let (job, tag) = self.extract(life)?;
         self.forget(&job);
-        self.now = self.now.max(tag);
+        // What has passed others, small or overdue, must not set back those who come after them.
+        let reached = self.least(Lane::Main).map_or(tag, |(waiting, _)| waiting.min(tag));
+        self.now = self.now.max(reached);
         Some((life, job))
     }
 
@@ -150,8 +151,8 @@ impl Queue {
         (now.saturating_duration_since(job.since) > self.rule.overdue).then_some(*life)
     }
 
-    fn least(&self, lane: Lane) -> Option<u64> {
-        self.bands(lane).filter_map(|band| band.by_tag.first()).min().map(|(_, life)| *life)
+    fn least(&self, lane: Lane) -> Option<Place> {
+        self.bands(lane).filter_map(|band| band.by_tag.first()).min().copied()
     }
 
     fn next_tag(&self, client: &str, cost: f64) -> Tag {
@@ -183,9 +184,4 @@ impl Queue {
         self.bytes -= job.bytes;
         self.cost -= job.cost;
     }
-}
-
-/// A cost that sums well: what is not a number counts as the greatest.
-fn told_apart(cost: f64) -> f64 {
-    if cost.is_nan() { MAX_COST } else { cost.clamp(1e-3, MAX_COST) }
 }

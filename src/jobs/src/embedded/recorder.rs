@@ -124,7 +124,9 @@ impl Server {
         for ((write, reply), result) in writes.into_iter().zip(results) {
             match (write.as_ref(), result) {
                 (Write::Finish { .. }, Err(fault)) => {
-                    tracing::warn!(%fault, "the end of a job is not recorded yet");
+                    if self.failed.is_empty() {
+                        tracing::warn!(%fault, "ends of jobs are not recorded yet");
+                    }
                     self.failed.push((write, reply));
                 }
                 (_, result) => reply(result),

@@ -28,6 +28,11 @@ pub(super) struct Record {
 pub(super) enum Write {
     /// In place of an earlier life.
     Submit(Record),
+    /// Another asks for it who waits longer.
+    Postpone {
+        life: u64,
+        deadline: Option<Duration>,
+    },
     Start {
         life: u64,
         attempts: u32,

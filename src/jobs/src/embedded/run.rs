@@ -120,3 +120,49 @@ fn message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().copied();
     text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message").to_owned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::embedded::pools::seats;
+    use crate::{Job, State};
+
+    fn run(lane: Lane, turn: &Arc<Turn>) -> Run {
+        let id = JobId::from_bytes([0; 32]);
+        let created = std::time::SystemTime::UNIX_EPOCH;
+        let job = Job {
+            id,
+            client: String::new(),
+            cost: 1.0,
+            payload: bytes::Bytes::new(),
+            state: State::Running,
+            progress: 0.0,
+            created,
+            started: Some(created),
+            finished: None,
+            attempts: 1,
+            failure: None,
+        };
+        let seat = seats(1, 1).into_iter().flatten().find(|seat| seat.lane == lane);
+        #[expect(clippy::unwrap_used, reason = "test")]
+        Run::new(id, 1, seat.unwrap(), Feeder::new(job), Arc::clone(turn))
+    }
+
+    fn rests(run: &Run) -> bool {
+        run.rested.iter().any(|rested| rested.load(Ordering::Relaxed) > 0)
+    }
+
+    #[test]
+    fn a_long_job_rests_while_a_small_one_runs() {
+        let turn = Arc::new(Turn::default());
+        let (long, small) = (run(Lane::Main, &turn), run(Lane::Express, &turn));
+        long.seat.pool.install(|| assert!(!long.cancelled()));
+        assert!(!rests(&long));
+        let passing = turn.express();
+        long.seat.pool.install(|| assert!(!long.cancelled()));
+        assert!(rests(&long));
+        small.seat.pool.install(|| assert!(!small.cancelled()));
+        assert!(!rests(&small));
+        drop(passing);
+    }
+}

@@ -56,3 +56,56 @@ impl Drop for Passing<'_> {
         self.0.wake();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::thread;
+
+    use super::*;
+
+    const LONG: Duration = Duration::from_hours(1);
+
+    #[test]
+    fn a_thread_rests_until_the_small_job_has_ended() {
+        let turn = Turn::default();
+        let passing = turn.express();
+        thread::scope(|scope| {
+            let rest = scope.spawn(|| {
+                let rested = turn.rest(LONG, || false);
+                (rested, turn.is_express())
+            });
+            while !*turn.resting.lock() {
+                thread::yield_now();
+            }
+            // One is enough.
+            assert!(!turn.rest(LONG, || false));
+            drop(passing);
+            assert_eq!(rest.join().unwrap_or_default(), (true, false));
+        });
+    }
+
+    #[test]
+    fn a_rest_has_an_end() {
+        let turn = Turn::default();
+        let _passing = turn.express();
+        assert!(turn.rest(Duration::from_millis(1), || false));
+        assert!(turn.is_express());
+        assert!(!*turn.resting.lock());
+    }
+
+    #[test]
+    fn a_job_that_is_told_to_stop_does_not_rest() {
+        let turn = Turn::default();
+        let told = AtomicBool::new(false);
+        let _passing = turn.express();
+        thread::scope(|scope| {
+            scope.spawn(|| turn.rest(LONG, || told.load(Ordering::Acquire)));
+            while !*turn.resting.lock() {
+                thread::yield_now();
+            }
+            told.store(true, Ordering::Release);
+            turn.wake();
+        });
+        assert!(!*turn.resting.lock());
+    }
+}

@@ -2,7 +2,6 @@
 
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use rusqlite::{Connection, ErrorCode, named_params};
 
@@ -35,9 +34,8 @@ impl From<rusqlite::Error> for Fault {
         use rusqlite::Error as E;
         let code = fault.sqlite_error_code();
         let damaged = matches!(code, Some(ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase))
-            // Another's table of that name, or a value that was never written.
-            || matches!(fault, E::InvalidColumnName(_) | E::InvalidColumnType(..) | E::FromSqlConversionFailure(..))
-            || code == Some(ErrorCode::Unknown);
+            // Tables that are not these, or a value that was never written.
+            || matches!(fault, E::SqlInputError { .. } | E::InvalidColumnType(..) | E::FromSqlConversionFailure(..));
         if damaged { Self::Corrupt(fault.to_string()) } else { Self::Other(fault.to_string()) }
     }
 }
@@ -110,17 +108,13 @@ fn set_aside(directory: &Path) -> std::io::Result<PathBuf> {
 }
 
 fn take_over(mut connection: Connection, retention: Retention, max_attempts: u32) -> Result<Opened, Fault> {
-    connection.busy_timeout(Duration::from_secs(1))?;
     connection.pragma_update(None, "locking_mode", "EXCLUSIVE")?;
+    let is_new = is_new(&connection)?;
     connection.pragma_update(None, "journal_mode", "WAL")?;
     connection.pragma_update(None, "synchronous", "FULL")?;
-    check(&connection)?;
     let transaction = connection.transaction()?;
-    let version: i64 = transaction.pragma_query_value(None, "user_version", |row| row.get(0))?;
-    match version {
-        0 => transaction.execute_batch(schema::CREATE)?,
-        schema::VERSION => {}
-        newer => return Err(Fault::Newer(newer)),
+    if is_new {
+        transaction.execute_batch(schema::CREATE)?;
     }
     // Written each time: a disk that takes no writes is found now.
     transaction.pragma_update(None, "user_version", schema::VERSION)?;
@@ -136,7 +130,17 @@ fn take_over(mut connection: Connection, retention: Retention, max_attempts: u32
     Ok(Opened { records, live, last_life, set_aside: None })
 }
 
-fn check(connection: &Connection) -> Result<(), Fault> {
+/// Whether the tables are yet to be made. Only reads: what is not ours is left as it is.
+fn is_new(connection: &Connection) -> Result<bool, Fault> {
     let found: String = connection.query_row("PRAGMA quick_check(1)", [], |row| row.get(0))?;
-    if found == "ok" { Ok(()) } else { Err(Fault::Corrupt(found)) }
+    if found != "ok" {
+        return Err(Fault::Corrupt(found));
+    }
+    let tables: i64 = connection.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
+    match connection.pragma_query_value(None, "user_version", |row| row.get(0))? {
+        schema::VERSION => Ok(false),
+        0 if tables == 0 => Ok(true),
+        0 => Err(Fault::Corrupt("a database of something else".to_owned())),
+        version => Err(Fault::Newer(version)),
+    }
 }

@@ -13,6 +13,11 @@ use crate::{Failure, Job, JobId, State};
 pub(super) fn write(connection: &Connection, write: &Write) -> rusqlite::Result<()> {
     match write {
         Write::Submit(record) => submit(connection, record),
+        Write::Postpone { life, deadline } => {
+            let parameters =
+                named_params! { ":life": life.cast_signed(), ":deadline": deadline.map(to_millis) };
+            connection.prepare_cached(schema::POSTPONE)?.execute(parameters).map(drop)
+        }
         Write::Start { life, attempts, started } => {
             let parameters = named_params! {
                 ":life": life.cast_signed(), ":attempts": attempts, ":started": to_micros(*started),
@@ -27,12 +32,15 @@ pub(super) fn write(connection: &Connection, write: &Write) -> rusqlite::Result<
 }
 
 fn submit(connection: &Connection, Record { life, job, deadline }: &Record) -> rusqlite::Result<()> {
-    let deadline = deadline.map(|limit| i64::try_from(limit.as_millis()).unwrap_or(i64::MAX));
     let parameters = named_params! {
         ":life": life.cast_signed(), ":id": job.id.as_bytes(), ":client": job.client, ":cost": job.cost,
-        ":payload": job.payload.as_ref(), ":deadline": deadline, ":created": to_micros(job.created),
+        ":payload": job.payload.as_ref(), ":deadline": deadline.map(to_millis), ":created": to_micros(job.created),
     };
     connection.prepare_cached(schema::SUBMIT)?.execute(parameters).map(drop)
+}
+
+fn to_millis(limit: Duration) -> i64 {
+    i64::try_from(limit.as_millis()).unwrap_or(i64::MAX)
 }
 
 fn finish(connection: &Connection, life: u64, job: &Job) -> rusqlite::Result<()> {

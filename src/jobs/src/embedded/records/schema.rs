@@ -29,6 +29,8 @@ pub(super) const SUBMIT: &str = "
 INSERT OR REPLACE INTO jobs (life, id, client, cost, payload, deadline, state, progress, created, attempts)
 VALUES (:life, :id, :client, :cost, :payload, :deadline, 'queued', 0.0, :created, 0)";
 
+pub(super) const POSTPONE: &str = "UPDATE jobs SET deadline = :deadline WHERE life = :life";
+
 pub(super) const START: &str = "
 UPDATE jobs SET state = 'running', attempts = :attempts, started = :started WHERE life = :life";
 
