@@ -121,12 +121,13 @@ fn meet(nearest: &mut Nearest, ends: &[[f64; 3]; 6], rods: &Rods, [i, j]: [usize
 }
 
 /// Squared distance of a parallelogram's two rods, `width` apart along x: a foot of the
-/// perpendicular where there is one, else an end.
+/// perpendicular where there is one, else an end. It is the same to the last bit for legs II and
+/// III of one length, which are always equally bad.
 #[inline]
-fn square_parallel(width: f64, length: f64, [x, y, z]: &[f64; 3]) -> f64 {
+fn square_parallel(width: f64, length: f64, [x, ..]: &[f64; 3]) -> f64 {
     let along = width * x.abs();
     if along <= length {
-        width * width * (y * y + z * z)
+        width * width * (1.0 - x * x)
     } else {
         width * width - length * (2.0 * along - length)
     }
