@@ -7,18 +7,25 @@
 //! the point is reached, with phi1 = alpha - theta1. All that follows are intervals of that angle,
 //! cut at zeros of the limits: nothing is sampled in phi1.
 
+mod angles;
+mod arc;
+mod crossings;
 mod grid;
+mod merge;
 mod orientations;
 mod region;
+mod section;
 mod slab;
+mod volumes;
 
 pub use grid::Grid;
+pub use merge::merge;
 pub use orientations::{Interval, orientations};
 pub use region::Region;
-pub use slab::{Slab, merge, slab};
+pub use slab::{Crossing, Slab, slab};
+pub use volumes::volumes;
 
-use super::measure::Volume;
-use super::observer::{Observer, go_on};
+use super::observer::Observer;
 use super::request::WorkspaceError;
 use crate::limit::DOMAIN;
 use crate::machine::Machine;
@@ -37,7 +44,10 @@ pub struct DexterityRequest {
 }
 
 /// Most nodes of a grid.
-pub const MOST_NODES: u64 = 20_000_000;
+pub const MOST_NODES: f64 = 2e7;
+
+/// The volumes' part of the work.
+const BY_VOLUMES: f64 = 0.2;
 
 /// Where a part can be machined with which inclinations.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,22 +74,27 @@ pub fn dexterity(
     observer: &dyn Observer,
 ) -> Result<Dexterity, WorkspaceError> {
     let grid = Grid::new(machine, request, observer)?;
-    let whole = slab(machine, request, &grid, 0..grid.counts[0], observer)?;
-    let volumes = volumes(machine, request, observer)?;
-    observer.progress(1.0);
-    merge(&grid, vec![whole], volumes)
+    let share = |from, to| Share { observer, from, to };
+    let volumes = volumes(machine, request, &share(0.0, BY_VOLUMES))?;
+    let whole = slab(machine, request, &grid, 0..grid.counts[0], &share(BY_VOLUMES, 1.0))?;
+    merge(request, &grid, vec![whole], volumes, observer)
 }
 
-/// Volumes of what is reachable and of what is dexterous.
-pub fn volumes(
-    machine: &Machine,
-    request: &DexterityRequest,
-    observer: &dyn Observer,
-) -> Result<[Volume; 2], WorkspaceError> {
-    request.check()?;
-    go_on(observer)?;
-    let _ = machine;
-    Ok([Volume::Value { value: 0.0, error: 0.0 }; 2])
+/// A part of the work, watched as a part of the whole.
+struct Share<'a> {
+    observer: &'a dyn Observer,
+    from: f64,
+    to: f64,
+}
+
+impl Observer for Share<'_> {
+    fn progress(&self, part: f64) {
+        self.observer.progress(self.from + part * (self.to - self.from));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.observer.cancelled()
+    }
 }
 
 impl DexterityRequest {
@@ -97,6 +112,14 @@ impl DexterityRequest {
             None => Ok(()),
         }
     }
+}
+
+fn count(n: usize) -> f64 {
+    f64::from(u32::try_from(n).unwrap_or(u32::MAX))
+}
+
+fn ratio(part: usize, whole: usize) -> f64 {
+    count(part) / count(whole.max(1))
 }
 
 /// Least step of a grid, mm.

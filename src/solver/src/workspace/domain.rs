@@ -133,6 +133,11 @@ impl<'a> Domain<'a> {
         }
     }
 
+    /// Middle and half of the range of alpha that the tilting range leaves; `None` for a whole turn.
+    pub(super) fn tilted(&self) -> Option<[f64; 2]> {
+        self.tilt
+    }
+
     /// How far theta1 is above its least value, or below its greatest.
     fn tilt(&self, end: usize, column: &Column) -> f64 {
         let Some([middle, half]) = self.tilt else { return half_turn() };

@@ -35,7 +35,7 @@ pub struct Request {
 pub(super) const FINEST: f64 = 1e-3;
 
 /// Why a workspace was not computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WorkspaceError {
     /// A number is not finite, beyond [`DOMAIN`] or, for the tolerance, below 0.001 mm.
     OutOfDomain {
@@ -49,7 +49,7 @@ pub enum WorkspaceError {
     /// A grid would have more nodes than [`MOST_NODES`](super::dexterity::MOST_NODES).
     TooManyNodes {
         /// Their number.
-        nodes: u64,
+        nodes: f64,
     },
     /// The surface or the slice could not be closed: nothing is answered rather than a mesh with
     /// a gap.
