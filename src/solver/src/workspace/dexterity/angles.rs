@@ -62,8 +62,8 @@ fn dexterous(arc: &Arc<'_>, [from, to]: [f64; 2], [low, high]: [f64; 2], found: 
 
 /// The parts of an interval of beta on which alpha is within a range.
 fn inclined(circle: Circle<'_>, ends: [f64; 2], [least, greatest]: [f64; 2]) -> Vec<[f64; 2]> {
-    // In the working mode the platform is inclined by less than a quarter of a turn.
-    if least <= -FRAC_PI_2 && greatest >= FRAC_PI_2 {
+    let [low, high] = circle.piece.alphas;
+    if least <= low && high <= greatest {
         return vec![ends];
     }
     let limits = Inclination { circle, least, greatest };
