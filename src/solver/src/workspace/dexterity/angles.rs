@@ -10,7 +10,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::super::path::{Limits, intervals};
-use super::arc::{Arc, Circle, arcs, looks};
+use super::arc::{Arc, Circle, arcs, looks, turns};
 use super::section::{Piece, Setting};
 
 /// The angles, rad, of what is reachable and of what is dexterous.
@@ -29,11 +29,8 @@ pub(super) fn angles(setting: &Setting<'_>, section: &[Piece], radius: f64, phi1
 fn tilts(setting: &Setting<'_>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let Some([middle, half]) = setting.tilt else { return vec![[f64::NEG_INFINITY, f64::INFINITY]] };
     let (least, greatest) = (-FRAC_PI_2 - to, FRAC_PI_2 - from);
-    let first = ((least - middle - half) / TAU).ceil();
-    (0..)
-        .map(|n| middle + (first + f64::from(n)) * TAU)
-        .take_while(|middle| middle - half <= greatest)
-        .map(|middle| [middle - half, middle + half])
+    turns(least - middle - half, greatest - middle + half)
+        .map(|turn| [middle + turn - half, middle + turn + half])
         .collect()
 }
 

@@ -4,7 +4,7 @@
 //! at (V1, Z - dt) = (-r sin psi, r cos psi) comes to beta where theta1 = beta - psi, by Eq (26), and
 //! then phi1 = alpha - beta + psi.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use super::super::domain::{Binding, stroke_binding};
 use super::super::path::{Limits, intervals};
@@ -101,13 +101,18 @@ impl<'a> Circle<'a> {
 const SLIDERS: [u8; 3] = [0, 1, 2];
 
 /// Looks for an interval of the angle.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
 pub(super) fn looks([from, to]: [f64; 2]) -> u32 {
-    let count = (LOOKS * (to - from) / (2.0 * PI)).ceil().max(LEAST).min(4.0 * LOOKS);
-    // Of a positive number of this size nothing is lost.
-    (1..).find(|&n| f64::from(n) >= count).unwrap_or(1)
+    (LOOKS * (to - from) / TAU).ceil().clamp(LEAST, 4.0 * LOOKS) as u32
 }
 
-impl<'a> Arc<'a> {
+/// Whole turns between two angles.
+pub(super) fn turns(from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let first = (from / TAU).ceil() * TAU;
+    std::iter::successors(Some(first), |turn| Some(turn + TAU)).take_while(move |turn| *turn <= to)
+}
+
+impl Arc<'_> {
     /// The arc, cut where the part's map folds.
     fn unfolded(self, found: &mut Vec<Self>) {
         for folded in [false, true] {

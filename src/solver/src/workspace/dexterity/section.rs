@@ -222,10 +222,10 @@ impl Look {
         let t = ((eta - self.eta) / width).clamp(0.0, 1.0);
         let rest = 1.0 - t;
         let mut values = self.values;
-        for n in 0..values.len() {
+        for (n, value) in values.iter_mut().enumerate() {
             let rise = next.values[n] - self.values[n];
             let (first, second) = (self.slopes[n] * width - rise, next.slopes[n] * width - rise);
-            values[n] += t * (rise + rest * (rest * first - t * second));
+            *value += t * (rise + rest * (rest * first - t * second));
         }
         values
     }

@@ -18,9 +18,9 @@ use crate::machine::Machine;
 const SECTIONS: u32 = 96;
 /// Panels along x and along the radius, halved where they have to be.
 const PANELS: [u32; 2] = [8, 4];
-const DEPTH: [u32; 2] = [3, 6];
+const DEPTH: [u32; 2] = [2, 6];
 /// Aim of the relative error.
-const ACCURACY: f64 = 1e-4;
+const ACCURACY: f64 = 5e-4;
 /// Errors are given larger than they are estimated.
 const SAFETY: f64 = 2.0;
 /// Halvings of the place where the set begins or ends along x.
@@ -162,7 +162,7 @@ impl Work<'_> {
     fn area(&self, x: f64, allowed: &[f64; 2]) -> Result<(Integral<2>, bool), WorkspaceError> {
         let section = self.setting.section(x);
         let mut sum = Integral::ZERO;
-        let Some([least, greatest]) = self.radii(&section) else { return Ok((sum, false)) };
+        let Some([least, greatest]) = radii(&section) else { return Ok((sum, false)) };
         let step = (greatest - least) / f64::from(PANELS[1]);
         let allowed = allowed.map(|allowed| allowed / f64::from(PANELS[1]));
         for panel in 0..PANELS[1] {
@@ -192,20 +192,20 @@ impl Work<'_> {
         sum.add(&self.ring(section, [middle, radii[1]], &allowed, depth - 1)?);
         Ok(sum)
     }
+}
 
-    /// The least and the greatest distance of a section's outline from the axis, and some room.
-    fn radii(&self, section: &[Piece]) -> Option<[f64; 2]> {
-        let mut found: Option<[f64; 2]> = None;
-        for piece in section {
-            let [low, high] = piece.zetas;
-            let [from, to] = piece.range();
-            let beside = |[low, high]: [f64; 2]| f64::max(0.0, f64::max(low, -high));
-            let far = |[low, high]: [f64; 2]| f64::max(low.abs(), high.abs());
-            let least = beside([from, to]).hypot(beside([low, high]));
-            let greatest = far([from, to]).hypot(far([low, high]));
-            let [a, b] = found.unwrap_or([least, greatest]);
-            found = Some([a.min(least), b.max(greatest)]);
-        }
-        found
+/// The least and the greatest distance of a section's outline from the axis, and some room.
+fn radii(section: &[Piece]) -> Option<[f64; 2]> {
+    let mut found: Option<[f64; 2]> = None;
+    for piece in section {
+        let [low, high] = piece.zetas;
+        let [from, to] = piece.range();
+        let beside = |[low, high]: [f64; 2]| f64::max(0.0, f64::max(low, -high));
+        let far = |[low, high]: [f64; 2]| f64::max(low.abs(), high.abs());
+        let least = beside([from, to]).hypot(beside([low, high]));
+        let greatest = far([from, to]).hypot(far([low, high]));
+        let [a, b] = found.unwrap_or([least, greatest]);
+        found = Some([a.min(least), b.max(greatest)]);
     }
+    found
 }
