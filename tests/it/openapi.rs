@@ -2,8 +2,8 @@
 
 use axum::Router;
 use axum::body::Body;
-use axum::http::{Method, Request};
 use axum::http::header::CONTENT_TYPE;
+use axum::http::{Method, Request};
 use serde_json::Value;
 
 use crate::http::{Reply, get, json_request, send_to, service};

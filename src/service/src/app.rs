@@ -93,8 +93,7 @@ pub async fn serve(config: &ServeConfig) -> Result<(), StartError> {
     tracing::info!("listening on http://{}", listener.local_addr().map_err(failed)?);
     let stopping = service.state.stopping.clone();
     let router = service.router.clone().into_make_service_with_connect_info::<SocketAddr>();
-    let serving =
-        axum::serve(listener, router).with_graceful_shutdown(stopping.clone().cancelled_owned());
+    let serving = axum::serve(listener, router).with_graceful_shutdown(stopping.clone().cancelled_owned());
     let limit = Duration::from_secs(config.drain);
     let told = async {
         told_to_stop().await;

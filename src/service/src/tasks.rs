@@ -4,8 +4,8 @@ use tokio::runtime::Handle;
 use verne_jobs::{JobId, Stop, Watch, Work};
 use verne_solver::workspace::Observer;
 
-use crate::answers::{FamilyQuestion, FamilyTable, Question, TaskFault, compute_workspace, part_of};
 use crate::answers::WorkspaceQuestion;
+use crate::answers::{FamilyQuestion, FamilyTable, Question, TaskFault, compute_workspace, part_of};
 use crate::error::Error;
 use crate::result_id::ResultId;
 use crate::results::Results;

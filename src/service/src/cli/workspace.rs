@@ -57,7 +57,9 @@ impl WorkspaceCommand {
                 .map_err(|error| in_flags(named(error)))
         };
         let bytes = match &wanted {
-            Some(Wanted::Mesh(format)) => write_mesh(&question, &workspace.mesh, *format).map_err(in_flags)?,
+            Some(Wanted::Mesh(format)) => {
+                write_mesh(&question, &workspace.mesh, *format).map_err(in_flags)?
+            }
             Some(Wanted::Slice(format)) => slice(*format)?,
             None if self.slice.is_some() => slice(SliceFormat::Json)?,
             None => workspace.summary,

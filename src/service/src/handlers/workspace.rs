@@ -147,7 +147,9 @@ pub(super) async fn mesh(
     }
     let mut mesh = state.results.mesh(id).await;
     if mesh.is_none() {
-        if let Obtained::Pending(job) = state.compute(&Question::Workspace(question.clone()), patience).await? {
+        if let Obtained::Pending(job) =
+            state.compute(&Question::Workspace(question.clone()), patience).await?
+        {
             return Ok(Obtained::Pending(job));
         }
         mesh = state.results.mesh(id).await;

@@ -16,10 +16,10 @@ use crate::prefer::Prefer;
 use crate::results::{Record, content};
 use crate::state::Shared;
 use crate::wire::format::{MeshFormat, SliceFormat};
+use crate::wire::job::JobObject;
 use crate::wire::query::point_into_query;
 use crate::wire::slice::SliceObject;
 use crate::wire::workspace_query::{MeshQuery, SliceQuery};
-use crate::wire::job::JobObject;
 use crate::workers::on_workers_while_waited_for;
 
 type Id = Result<Path<String>, PathRejection>;

@@ -149,9 +149,9 @@ fn of_workspaces(machines: &Registry) -> Vec<Example> {
     let question = parse_body(asked.to_string().as_bytes())
         .and_then(|body: WorkspaceBody| body.single().ok_or(Error::Internal))
         .and_then(|request| WorkspaceQuestion::new(&request, machines));
-    let computed = question.clone().and_then(|question| {
-        compute_workspace(&question, &Unobserved).map(|computed| (question, computed))
-    });
+    let computed = question
+        .clone()
+        .and_then(|question| compute_workspace(&question, &Unobserved).map(|computed| (question, computed)));
     let summary = computed.as_ref().map_err(Clone::clone).and_then(|(_, found)| parse_body(&found.summary));
     let slice = computed.as_ref().map_err(Clone::clone).and_then(|(question, found)| {
         let alphas = Alphas::These(vec![0.0]);
@@ -168,7 +168,12 @@ fn of_workspaces(machines: &Registry) -> Vec<Example> {
         get("/jobs", json!({"state": "failed", "limit": 10}), Some(json!({"jobs": [], "next": null}))),
         get("/jobs/{id}", json!({"id": id}), None),
         get("/jobs/{id}/events", json!({"id": id}), None),
-        Example { method: "delete", path: "/jobs/{id}", asked: Asked::Parameters(json!({"id": id})), answer: None },
+        Example {
+            method: "delete",
+            path: "/jobs/{id}",
+            asked: Asked::Parameters(json!({"id": id})),
+            answer: None,
+        },
         get("/workspace/{id}", json!({"id": id}), Some(summary.clone())),
         get("/workspace/{id}/mesh", json!({"id": id, "format": "glb"}), None),
         get("/workspace/{id}/slice", json!({"id": id, "z": 300, "alpha": "0"}), Some(slice)),
