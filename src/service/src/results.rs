@@ -90,6 +90,13 @@ impl Results {
         on_workers(move || packed::unpack(&content.bytes).map_err(|_| Error::Internal)).await.ok()
     }
 
+    /// Whether a workspace's mesh is there. To be asked on the queue's threads: they must not wait for work that rayon
+    /// would give to their own pool, so what is packed is read where this is polled.
+    pub(crate) async fn has_mesh(&self, id: ResultId) -> bool {
+        let content = self.0.get(&id.key(MESH)).await;
+        content.is_some_and(|content| packed::unpack(&content.bytes).is_ok())
+    }
+
     /// A mesh in a format, if it has been written.
     pub(crate) async fn file(&self, id: ResultId, format: MeshFormat) -> Option<Content> {
         self.0.get(&id.key(format.name())).await

@@ -1,5 +1,7 @@
 //! Jobs: how they are asked for, waited for and followed, and that equal questions are one job.
 
+use std::num::NonZeroUsize;
+
 use axum::Router;
 use axum::body::Body;
 use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, LOCATION, RETRY_AFTER};
@@ -14,9 +16,9 @@ use super::{Reply, config, get_from, json_request, opened, send_to, service};
 
 const PREFER: HeaderName = HeaderName::from_static("prefer");
 
-/// Settings with one core for jobs: of two long ones the second waits.
+/// Settings with one core for jobs, of which a second long one waits for the first, and with patience for a busy machine.
 pub(super) fn one_core() -> ServeConfig {
-    ServeConfig { job_threads: Some(std::num::NonZeroUsize::MIN), ..config(None) }
+    ServeConfig { job_threads: Some(NonZeroUsize::MIN), wait: 500, timeout: 600, ..config(None) }
 }
 
 /// A question of minutes; another one for another `first` of the same hundred.

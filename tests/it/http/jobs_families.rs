@@ -4,9 +4,9 @@ use axum::Router;
 use axum::http::StatusCode;
 use serde_json::{Value, json};
 
-use super::jobs::metric;
+use super::jobs::{metric, one_core};
 use super::workspace::ask;
-use super::{get_from, json_request, post, send_to, service};
+use super::{get_from, json_request, opened, post, send_to, service};
 
 fn numbers(table: &Value, name: &str) -> Vec<f64> {
     let members = table["members"].as_array().unwrap().iter();
@@ -62,11 +62,32 @@ async fn every_member_is_kept_by_itself() {
 
 #[tokio::test]
 async fn a_member_that_was_asked_for_before_is_in_the_table() {
-    let service = service().await;
+    let service = opened(&one_core()).await;
     let alone = ask(&service, json!({"kind": "tool", "tool_length": 50, "tolerance": 20})).await.json;
     let found = table(&service, json!({"kind": "tool", "tool_length": [50], "tolerance": 20})).await;
     assert_eq!(found["members"][0]["id"], alone["id"]);
     assert_ne!(found["id"], alone["id"], "a list of one is a table");
+}
+
+#[tokio::test]
+async fn tables_that_show_other_lists_have_other_ids() {
+    let service = service().await;
+    for [one, other] in [
+        [json!({"kind": "platform", "tool_length": [50]}), json!({"kind": "platform", "tool_length": [60]})],
+        [
+            json!({"kind": "part", "tool_length": [5, 5], "phi1": 0}),
+            json!({"kind": "part", "tool_length": 5, "phi1": [0, 0]}),
+        ],
+    ] {
+        let coarse = |mut question: Value| {
+            question["tolerance"] = 100.into();
+            question
+        };
+        let [one, other] = [table(&service, coarse(one)).await, table(&service, coarse(other)).await];
+        assert_eq!(one["members"], other["members"]);
+        assert_ne!(one["request"], other["request"]);
+        assert_ne!(one["id"], other["id"]);
+    }
 }
 
 #[tokio::test]
@@ -78,7 +99,7 @@ async fn bad_families_name_the_field() {
         (json!({"kind": "part", "tool_length": []}), "/tool_length"),
         (json!({"kind": "part", "phi1": [0, 1e9]}), "/phi1"),
         (json!({"kind": "part", "phi2": {"from": 0, "to": 10, "step": 0}}), "/phi2"),
-        (json!({"kind": "part", "phi2": {"from": 0, "to": 10}}), "/phi2"),
+        (json!({"kind": "part", "phi2": {"from": 0, "to": 10}}), "/phi2/step"),
         (json!({"kind": "part", "phi2": {"from": 0, "to": 10, "step": 1, "by": 1}}), "/phi2/by"),
         (json!({"kind": "part", "phi2": {"from": 0, "to": "x", "step": 1}}), "/phi2/to"),
         (json!({"kind": "part", "phi2": [0, 1], "tolerance": 0}), "/tolerance"),
