@@ -77,13 +77,18 @@ impl Results {
     ) -> Result<(), Error> {
         let id = question.id();
         for (name, bytes) in parts {
-            self.0.put(&id.key(name), bytes.into()).await;
+            self.keep_part(id, name, bytes).await;
         }
         let (question, summary) = (raw(&question.written()?)?, raw(summary)?);
         let kept = Kept { question: &question, summary: &summary, inclination };
         let bytes = serde_json::to_vec(&kept).map_err(|_| Error::Internal)?;
-        self.0.put(&id.key(RECORD), bytes.into()).await;
+        self.keep_part(id, RECORD, bytes).await;
         Ok(())
+    }
+
+    /// Keeps a part of a result.
+    pub(crate) async fn keep_part(&self, id: ResultId, name: &str, bytes: Vec<u8>) -> Content {
+        self.0.put(&id.key(name), bytes.into()).await.0
     }
 
     /// A part of a result.

@@ -1,18 +1,25 @@
 //! What jobs compute: the answer to a written question, kept among the results.
 
+use axum::body::Bytes;
 use tokio::runtime::Handle;
-use verne_jobs::{JobId, Stop, Watch, Work};
+use verne_jobs::{JobId, Stop, Submission, Watch, Work};
 use verne_solver::workspace::Observer;
 
 use crate::answers::{
-    DexterityQuestion, FamilyQuestion, FamilyTable, Question, TaskFault, WorkspaceQuestion,
-    compute_dexterity, compute_workspace, part_of,
+    DexterityQuestion, FamilyQuestion, FamilyTable, Piece, Question, TaskFault, WorkspaceQuestion,
+    compute_slab, compute_volumes, compute_workspace, merge_dexterity, part_of,
 };
 use crate::error::Error;
 use crate::result_id::ResultId;
 use crate::results::{CELLS, MESH, Record, Results, packed_mesh};
 use crate::wire::dexterity::SetName;
 use crate::wire::json::write_json;
+
+/// The parts of a dexterity map.
+const MAP: [&str; 3] = [SetName::Reachable.name(), SetName::Dexterous.name(), CELLS];
+
+/// The one part of a piece.
+const PIECE: &str = "piece";
 
 /// About the bytes of a failure.
 const FAULT_BYTES: usize = 256;
@@ -34,7 +41,8 @@ impl Tasks {
         match question {
             Question::Workspace(workspace) => self.workspace(workspace, observer).map(drop),
             Question::Family(family) => self.family(family, observer),
-            Question::Dexterity(dexterity) => self.dexterity(dexterity, observer),
+            Question::Dexterity(map) => self.dexterity(map, observer),
+            Question::Piece(piece) => self.piece(piece, observer).map(drop),
         }
     }
 
@@ -55,11 +63,32 @@ impl Tasks {
         Ok(computed.summary)
     }
 
+    /// A member's summary, or why it has none, which is a result as well.
+    fn member(
+        &self,
+        member: &WorkspaceQuestion,
+        observer: &dyn Observer,
+    ) -> Result<Result<Vec<u8>, Error>, Error> {
+        let piece = Piece::Member(member.clone()).id();
+        if let Some(fault) = self.kept(piece) {
+            let fault: TaskFault = serde_json::from_slice(&fault).map_err(|_| Error::Internal)?;
+            return Ok(Err(fault.into()));
+        }
+        match self.workspace(member, observer) {
+            Err(Error::Fields(faults)) => {
+                let fault = write_json(&TaskFault::Fields(faults.clone()), FAULT_BYTES)?;
+                self.keep(piece, fault);
+                Ok(Err(Error::Fields(faults)))
+            }
+            summary => summary.map(Ok),
+        }
+    }
+
     fn family(&self, family: &FamilyQuestion, observer: &dyn Observer) -> Result<(), Error> {
         let members = family.members.len();
         let mut table = FamilyTable::with_room(members);
         for (i, member) in family.members.iter().enumerate() {
-            let summary = self.workspace(member, &part_of(observer, i, members));
+            let summary = self.member(member, &part_of(observer, i, members))?;
             table.add(member, summary.as_deref().map_err(Clone::clone))?;
         }
         let summary = table.written(family)?;
@@ -67,18 +96,55 @@ impl Tasks {
         self.runtime.block_on(self.results.keep(&question, &summary, Vec::new(), None))
     }
 
-    fn dexterity(&self, asked: &DexterityQuestion, observer: &dyn Observer) -> Result<(), Error> {
-        let names = SetName::ALL.map(SetName::name);
-        if self.known(asked.id, &[names[0], names[1], CELLS]).is_some() {
+    /// A piece's bytes, kept or made. Of a member there are none unless it failed.
+    fn piece(&self, piece: &Piece, observer: &dyn Observer) -> Result<Bytes, Error> {
+        if let Some(kept) = self.kept(piece.id()) {
+            return Ok(kept);
+        }
+        let made = match piece {
+            Piece::Member(member) => return self.member(member, observer).map(|_| Bytes::new()),
+            Piece::Slab { of, number, count } => compute_slab(of, [*number, *count], observer)?,
+            Piece::Volumes(map) => compute_volumes(map, observer)?,
+        };
+        Ok(self.keep(piece.id(), made))
+    }
+
+    /// Merges a map from its pieces; one that has made room for others is made again.
+    fn dexterity(&self, map: &DexterityQuestion, observer: &dyn Observer) -> Result<(), Error> {
+        if self.known(map.id, &MAP).is_some() {
             return Ok(());
         }
-        let computed = compute_dexterity(asked, observer)?;
-        let mut parts = vec![(CELLS, computed.cells)];
-        for (name, mesh) in names.into_iter().zip(&computed.meshes) {
-            parts.push((name, packed_mesh(mesh)?));
-        }
-        let question = Question::Dexterity(asked.clone());
+        let pieces = Piece::of_map(map);
+        let made = pieces
+            .iter()
+            .enumerate()
+            .map(|(i, piece)| self.piece(piece, &part_of(observer, i, pieces.len())));
+        let made = made.collect::<Result<Vec<Bytes>, Error>>()?;
+        let Some((volumes, slabs)) = made.split_last() else { return Err(Error::Internal) };
+        let computed = merge_dexterity(map, slabs, volumes, observer)?;
+        let [reachable, dexterous] = &computed.meshes;
+        let parts = [packed_mesh(reachable)?, packed_mesh(dexterous)?, computed.cells];
+        let parts = MAP.into_iter().zip(parts).collect();
+        let question = Question::Dexterity(map.clone());
         self.runtime.block_on(self.results.keep(&question, &computed.summary, parts, None))
+    }
+
+    fn kept(&self, piece: ResultId) -> Option<Bytes> {
+        self.runtime.block_on(self.results.part(piece, PIECE)).map(|content| content.bytes)
+    }
+
+    fn keep(&self, piece: ResultId, bytes: Vec<u8>) -> Bytes {
+        self.runtime.block_on(self.results.keep_part(piece, PIECE, bytes)).bytes
+    }
+
+    /// What a question's answer is merged from, unless the answer is there.
+    fn pieces(&self, question: &Question) -> Vec<Piece> {
+        let (pieces, parts): (_, &[&str]) = match question {
+            Question::Workspace(_) | Question::Piece(_) => return Vec::new(),
+            Question::Family(family) => (Piece::of_family(family), &[]),
+            Question::Dexterity(map) => (Piece::of_map(map), &MAP),
+        };
+        if self.known(question.id(), parts).is_some() { Vec::new() } else { pieces }
     }
 
     /// The record of a result that is there with these parts.
@@ -94,16 +160,28 @@ impl Tasks {
 }
 
 impl Work for Tasks {
+    fn parts(&self, job: &JobId, payload: &[u8]) -> Result<Vec<Submission>, Stop> {
+        let question = Question::read(payload, ResultId::from(*job)).map_err(stop)?;
+        let pieces = self.pieces(&question).into_iter();
+        // The job's own deadline holds for all of them.
+        let submission = |piece| Question::Piece(piece).submission(String::new(), None);
+        pieces.map(submission).collect::<Result<_, Error>>().map_err(stop)
+    }
+
     fn run(&self, job: &JobId, payload: &[u8], watch: &dyn Watch) -> Result<(), Stop> {
-        let answer = Question::read(payload, ResultId::from(*job))
-            .and_then(|question| self.answer(&question, &Watched(watch)));
-        answer.map_err(|error| match error {
-            Error::Cancelled => Stop::Cancelled,
-            error => {
-                let fault = write_json(&TaskFault::from(error), FAULT_BYTES);
-                Stop::Failed(fault.unwrap_or_default().into())
-            }
-        })
+        Question::read(payload, ResultId::from(*job))
+            .and_then(|question| self.answer(&question, &Watched(watch)))
+            .map_err(stop)
+    }
+}
+
+fn stop(error: Error) -> Stop {
+    match error {
+        Error::Cancelled => Stop::Cancelled,
+        error => {
+            let fault = write_json(&TaskFault::from(error), FAULT_BYTES);
+            Stop::Failed(fault.unwrap_or_default().into())
+        }
     }
 }
 

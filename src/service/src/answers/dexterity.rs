@@ -1,10 +1,11 @@
 //! `/workspace/dexterity`: inclinations at the points of a grid, and the sets that they make.
 
 use verne_mesh::{Mesh, Swatch};
-use verne_solver::workspace::dexterity::{Dexterity, DexterityRequest, Grid, Region, dexterity};
+use verne_solver::workspace::dexterity::{Dexterity, DexterityRequest, Region, merge};
 use verne_solver::workspace::{Observer, Volume};
 
-use super::dexterity_question::{DexterityQuestion, POINTS};
+use super::dexterity_pieces::{grid, read_slab, read_volumes};
+use super::dexterity_question::DexterityQuestion;
 use super::workspace_question::workspace_error;
 use crate::error::{Error, Fault};
 use crate::wire::degrees::to_degrees;
@@ -21,6 +22,9 @@ const SUMMARY_BYTES: usize = 2048;
 /// About the bytes of a point with its intervals.
 const POINT_BYTES: usize = 32;
 
+/// Most points of a grid: their intervals are a file of some 50 MB then.
+pub(super) const POINTS: usize = 2_000_000;
+
 /// A computed map.
 pub(crate) struct DexterityMap {
     /// The figures, as they are sent.
@@ -31,17 +35,17 @@ pub(crate) struct DexterityMap {
     pub meshes: [Mesh; 2],
 }
 
-/// Computes a map; to be called on the worker threads.
-pub(crate) fn compute_dexterity(
+/// A map from its slabs, in any order, and its volumes.
+pub(crate) fn merge_dexterity(
     question: &DexterityQuestion,
+    slabs: &[impl AsRef<[u8]>],
+    volumes: &[u8],
     observer: &dyn Observer,
 ) -> Result<DexterityMap, Error> {
-    let (machine, request) = (&question.published.machine, DexterityRequest::from(&question.request));
-    let grid = Grid::new(machine, &request, observer).map_err(workspace_error)?;
-    if grid.nodes() > POINTS {
-        return Err(too_many_points(grid.nodes()));
-    }
-    let map = dexterity(machine, &request, observer).map_err(workspace_error)?;
+    let request = DexterityRequest::from(&question.request);
+    let slabs = slabs.iter().map(|slab| read_slab(slab.as_ref())).collect::<Result<_, _>>()?;
+    let map = merge(&request, &grid(question, observer)?, slabs, read_volumes(volumes)?, observer)
+        .map_err(workspace_error)?;
     let meshes = [meshed(&map.reachable, SetName::Reachable)?, meshed(&map.dexterous, SetName::Dexterous)?];
     let summary = write_json(&summarised(question, &map, &meshes), SUMMARY_BYTES)?;
     let bytes = POINT_BYTES * map.offsets.len();

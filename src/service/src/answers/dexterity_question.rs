@@ -16,9 +16,6 @@ use super::workspace_question::longest;
 /// Finest and coarsest grid, mm.
 const CELLS: [f64; 2] = [1.0, 1000.0];
 
-/// Most points of a grid: their intervals are a file of some 50 MB then.
-pub(super) const POINTS: usize = 2_000_000;
-
 /// About the seconds that a point takes.
 const POINT_COST: f64 = 1e-4;
 

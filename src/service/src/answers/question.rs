@@ -1,11 +1,14 @@
 //! A checked question whose answer is kept, and how it is written down for a job.
 
+use std::time::Duration;
+
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use verne_jobs::Submission;
 
 use super::dexterity_question::DexterityQuestion;
 use super::family_question::FamilyQuestion;
+use super::piece::{Piece, WrittenPiece};
 use super::workspace_question::WorkspaceQuestion;
 use crate::error::{Error, Fault};
 use crate::registry::Published;
@@ -22,6 +25,8 @@ pub(crate) enum Question {
     Family(FamilyQuestion),
     /// A dexterity map.
     Dexterity(DexterityQuestion),
+    /// A piece of one of these.
+    Piece(Piece),
 }
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -30,6 +35,7 @@ enum Asked {
     Workspace,
     Family,
     Dexterity,
+    Piece,
 }
 
 /// A question with its machine, as text: all that another process needs to answer it.
@@ -49,6 +55,7 @@ impl Question {
             Self::Workspace(question) => question.id,
             Self::Family(question) => question.id,
             Self::Dexterity(question) => question.id,
+            Self::Piece(piece) => piece.id(),
         }
     }
 
@@ -57,6 +64,7 @@ impl Question {
             Self::Workspace(question) => &question.published,
             Self::Family(question) => &question.published,
             Self::Dexterity(question) => &question.published,
+            Self::Piece(piece) => piece.published(),
         }
     }
 
@@ -66,6 +74,7 @@ impl Question {
             Self::Workspace(question) => question.cost(),
             Self::Family(question) => question.members.iter().map(WorkspaceQuestion::cost).sum(),
             Self::Dexterity(question) => question.cost(),
+            Self::Piece(piece) => piece.cost(),
         }
     }
 
@@ -75,6 +84,7 @@ impl Question {
             Self::Workspace(question) => (Asked::Workspace, raw(&question.request)?),
             Self::Family(question) => (Asked::Family, raw(&question.request)?),
             Self::Dexterity(question) => (Asked::Dexterity, raw(&question.request)?),
+            Self::Piece(piece) => (Asked::Piece, raw(&piece.written())?),
         };
         let published = self.published();
         let machine = MachineObject::from(published.machine.data());
@@ -94,22 +104,21 @@ impl Question {
                 .map(|request| Self::Family(FamilyQuestion::of(&published, request))),
             Asked::Dexterity => serde_json::from_str(request)
                 .map(|request| Self::Dexterity(DexterityQuestion::of(published, request))),
+            Asked::Piece => {
+                serde_json::from_str::<WrittenPiece>(request).map(|piece| Self::Piece(piece.read(published)))
+            }
         };
         question.ok().filter(|question| question.id() == id).ok_or(Error::OtherVersion)
     }
 
     /// The question as a job for a client.
-    pub(crate) fn submission(
-        &self,
-        client: String,
-        deadline: std::time::Duration,
-    ) -> Result<Submission, Error> {
+    pub(crate) fn submission(&self, client: String, deadline: Option<Duration>) -> Result<Submission, Error> {
         Ok(Submission {
             id: self.id().job(),
             client,
             cost: self.cost(),
             payload: self.written()?.into(),
-            deadline: Some(deadline),
+            deadline,
         })
     }
 }

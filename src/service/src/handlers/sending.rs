@@ -35,7 +35,7 @@ fn surface(question: &Question, set: Option<SetName>) -> Result<(&'static str, D
             let detail = "is for dexterity maps: a workspace has one mesh";
             Err(Error::Fields(vec![Fault::new("/query/set", detail)]))
         }
-        (Question::Family(family), _) => Err(Error::NoMesh(family.id.to_string())),
+        (Question::Family(_) | Question::Piece(_), _) => Err(Error::NoMesh(question.id().to_string())),
         (Question::Dexterity(dexterity), set) => {
             let set = set.unwrap_or(SetName::Reachable);
             Ok((set.name(), Described::set(dexterity, set)))

@@ -145,6 +145,6 @@ pub(super) async fn kept(state: &crate::state::State, Path(id): Path<String>) ->
 fn workspace(record: Record) -> Result<(WorkspaceQuestion, Option<f64>), Error> {
     match record.question {
         Question::Workspace(question) => Ok((question, record.inclination)),
-        Question::Family(_) | Question::Dexterity(_) => Err(Error::NoSlice(record.question.id().to_string())),
+        _ => Err(Error::NoSlice(record.question.id().to_string())),
     }
 }

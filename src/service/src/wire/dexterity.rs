@@ -81,11 +81,8 @@ pub(crate) enum SetName {
 }
 
 impl SetName {
-    /// Both.
-    pub(crate) const ALL: [Self; 2] = [Self::Reachable, Self::Dexterous];
-
     /// The name.
-    pub(crate) fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Reachable => "reachable",
             Self::Dexterous => "dexterous",
