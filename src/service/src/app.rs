@@ -14,7 +14,7 @@ use crate::config::ServeConfig;
 use crate::registry::{BadFile, Registry};
 use crate::results::Results;
 use crate::state::State;
-use crate::{layers, openapi, router};
+use crate::{layers, openapi, router, viewer};
 
 /// Why the service cannot run.
 #[derive(Debug)]
@@ -55,7 +55,7 @@ pub fn service(config: &ServeConfig) -> Result<Router, StartError> {
     let results = Results::within(config.cache_bytes);
     let state = State { machines, limits: config.limits(), results, openapi: document };
     let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
-    let routes = routes.with_state(Arc::new(state)).merge(docs);
+    let routes = routes.with_state(Arc::new(state)).merge(docs).merge(viewer::routes());
     Ok(layers::wrap(routes, Duration::from_secs(config.timeout)))
 }
 

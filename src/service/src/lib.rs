@@ -21,5 +21,6 @@ mod registry;
 mod results;
 mod router;
 mod state;
+mod viewer;
 mod wire;
 mod workers;

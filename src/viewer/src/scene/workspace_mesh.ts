@@ -1,0 +1,84 @@
+/** The workspace's surface, coloured by what limits each piece, and cut where a section is wanted. */
+
+import { BackSide, FrontSide, Group, Matrix4, Mesh, MeshLambertMaterial, Plane, Vector3, type BufferGeometry } from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { BASE, type WorkspaceSummary } from "../api/client";
+import type { Surface } from "../state/store";
+import { shares } from "../geometry/shares";
+
+export class WorkspaceMesh {
+  readonly group = new Group();
+  private readonly loader = new GLTFLoader();
+  private readonly inside = new MeshLambertMaterial({ vertexColors: true, side: BackSide });
+  private readonly outside = new MeshLambertMaterial({ vertexColors: true, side: FrontSide });
+  private readonly plane = new Plane();
+  private shown: string | null = null;
+  /** In the GLB's own frame, metres: what lies below it is shown. */
+  private height: number | null = null;
+
+  constructor() {
+    this.group.matrixAutoUpdate = false;
+    this.solid(false);
+  }
+
+  solid(solid: boolean): void {
+    for (const [material, opacity] of [[this.inside, 0.22], [this.outside, 0.36]] as const) {
+      material.transparent = !solid;
+      material.opacity = solid ? 1 : opacity;
+      material.depthWrite = solid;
+      material.needsUpdate = true;
+    }
+  }
+
+  /** Loads and shows; answers the pieces of the surface, or null if something newer came between. */
+  async show(summary: WorkspaceSummary | null): Promise<Surface[] | null> {
+    this.shown = summary?.id ?? null;
+    if (!summary || summary.triangles === 0) {
+      this.clear();
+      return [];
+    }
+    const loaded = await this.loader.loadAsync(`${BASE}${summary.links.mesh}?format=glb`);
+    if (this.shown !== summary.id) return null;
+    this.clear();
+    let pieces: Surface[] = [];
+    loaded.scene.traverse((node) => {
+      if (!(node instanceof Mesh)) return;
+      const geometry = node.geometry as BufferGeometry;
+      pieces = shares(geometry, (node.userData["palette"] ?? []) as Omit<Surface, "share">[]);
+      for (const [order, material] of [this.inside, this.outside].entries()) {
+        const side = new Mesh(geometry, material);
+        side.position.copy(node.position);
+        side.renderOrder = 10 + order;
+        this.group.add(side);
+      }
+    });
+    return pieces;
+  }
+
+  /** Where the GLB's frame stands in the scene. */
+  stand(sceneFromGlb: Matrix4): void {
+    this.group.matrix.copy(sceneFromGlb);
+    this.group.matrixWorldNeedsUpdate = true;
+    this.turnPlane();
+  }
+
+  /** Cuts at a height of the GLB's frame, metres, and shows what lies below; null: whole. */
+  cut(height: number | null): void {
+    this.height = height;
+    const planes = height === null ? [] : [this.plane];
+    this.inside.clippingPlanes = planes;
+    this.outside.clippingPlanes = planes;
+    this.turnPlane();
+  }
+
+  private turnPlane(): void {
+    if (this.height === null) return;
+    this.plane.setFromNormalAndCoplanarPoint(new Vector3(0, -1, 0), new Vector3(0, this.height, 0));
+    this.plane.applyMatrix4(this.group.matrix);
+  }
+
+  private clear(): void {
+    for (const side of this.group.children) if (side instanceof Mesh) (side.geometry as BufferGeometry).dispose();
+    this.group.clear();
+  }
+}
