@@ -3,7 +3,7 @@ import { ask, expect, figure, open, test } from "./viewer.mjs";
 
 test("the four assembly modes of the paper's Fig. 6; one is picked and followed", async ({ page, request }) => {
   await open(page, "#joints=674,685,250,0,0");
-  await page.getByText("same sliders").click();
+  await page.getByRole("radio", { name: "sliders", exact: true }).check();
   const list = page.getByRole("list", { name: "Assembly modes" });
   await expect(list.getByRole("listitem")).toHaveCount(4);
   const { solutions } = await ask(request, "/fk", { joints: { rho: [674, 685, 250], theta1: 0, theta2: 0 }, tool_length: 50, solutions: "all" });
@@ -20,7 +20,14 @@ test("the four assembly modes of the paper's Fig. 6; one is picked and followed"
   await expect(figure(page, "Platform tilt")).toHaveText(`${moved.solutions[0].platform.alpha.toFixed(2).replace("-", "−")}°`);
 });
 
-test("every inverse solution of the tool's pose", async ({ page, request }) => {
+test("the sixteen inverse solutions of the paper's Fig. 5", async ({ page }) => {
+  await open(page, "#joints=287.7175,4.604,94.2422,0,0&ghosts=platform");
+  const list = page.getByRole("list", { name: "Inverse solutions" });
+  await expect(list.getByRole("listitem")).toHaveCount(16);
+  await expect(list.getByText("working", { exact: true })).toHaveCount(1);
+});
+
+test("every inverse solution of the tool's pose; one is picked", async ({ page, request }) => {
   await open(page, "#joints=287.718,4.604,94.242,0,0&tool=0&ghosts=inverse");
   const list = page.getByRole("list", { name: "Inverse solutions" });
   await expect(list.getByRole("listitem")).not.toHaveCount(0);

@@ -1,9 +1,8 @@
 /** Which machine: a published one, or a file from this computer. */
 
-import { machine, published, view } from "../state/store";
-import { takePublished } from "../state/machines";
-import { failure } from "../state/store";
 import { inWords } from "../api/client";
+import { takePublished } from "../state/machines";
+import { failure, machine, published, view } from "../state/store";
 import { offer } from "./machine_file";
 
 const OWN = "\u0000own";
@@ -16,18 +15,18 @@ export function MachinePicker() {
   const known = machine.value?.definition;
   return (
     <div class="machine">
-      <label>
-        <span class="quiet">Machine</span>
-        <select value={own ? OWN : name} onChange={(event) => choose(event.currentTarget.value)}>
+      <span>
+        <label class="quiet" for="machine">Machine</label>
+        <select id="machine" value={own ? OWN : name} onChange={(event) => choose(event.currentTarget.value)}>
           {published.value.map((entry) => (
             <option key={entry.name} value={entry.name}>{entry.name}</option>
           ))}
           {own && <option value={OWN}>{own.name} (own file)</option>}
         </select>
-      </label>
+      </span>
       <label class="button">
-        Open a machine file
-        <input type="file" accept=".json,application/json" onChange={(event) => {
+        Open file …
+        <input type="file" aria-label="Open a machine file" accept=".json,application/json" onChange={(event) => {
           const file = event.currentTarget.files?.[0];
           if (file) void offer(file);
           event.currentTarget.value = "";

@@ -4,7 +4,7 @@ import { useState } from "preact/hooks";
 import { machine, position } from "../state/store";
 import { bars, type Bar } from "../words/margins";
 
-const FEW = 6;
+const FEW = 4;
 
 export function MarginsPanel() {
   const [all, setAll] = useState(false);

@@ -79,8 +79,8 @@ function CopyLink() {
     setCopied(true);
   };
   return (
-    <button type="button" onClick={() => void copy()} onBlur={() => setCopied(false)}>
-      {copied ? "Link copied" : "Copy link to this view"}
+    <button type="button" title="An address that shows this view" onClick={() => void copy()} onBlur={() => setCopied(false)}>
+      {copied ? "Link copied" : "Copy link"}
     </button>
   );
 }

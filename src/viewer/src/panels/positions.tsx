@@ -1,4 +1,4 @@
-/** Every position with the same sliders, or with the same tool pose: shown as ghosts, and picked. */
+/** Every position with the same sliders, or with the same tool pose: the same platform position, shown as ghosts, and picked. */
 
 import type { Position } from "../state/store";
 import { change, ghosts, pointed, position, view } from "../state/store";
@@ -9,8 +9,9 @@ import { Choice } from "./fields";
 
 const SHOWN = [
   ["none", "none"],
-  ["assembly", "same sliders"],
-  ["inverse", "same tool pose"],
+  ["assembly", "sliders"],
+  ["platform", "platform"],
+  ["inverse", "tool pose"],
 ] as const;
 
 export function PositionsPanel() {
@@ -23,7 +24,7 @@ export function PositionsPanel() {
         <h2 id="positions">Other solutions</h2>
         {kind !== "none" && <output data-testid="ghost-count">{found.length}</output>}
       </header>
-      <Choice legend="Ghosts with" name="ghosts" value={kind} options={SHOWN} choose={(ghosts) => change({ ghosts })} />
+      <Choice legend="Ghosts with the same" name="ghosts" value={kind} options={SHOWN} choose={(ghosts) => change({ ghosts })} />
       {found.length > 0 && (
         <ul class="ghosts" aria-label={kind === "assembly" ? "Assembly modes" : "Inverse solutions"}>
           {found.map((ghost, i) => (

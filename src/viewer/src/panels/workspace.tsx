@@ -79,27 +79,28 @@ function Progress() {
 }
 
 function Figures({ found }: { found: WorkspaceSummary }) {
-  const stale = computing.value !== null;
-  const span = (axis: 0 | 1 | 2) => {
-    const [low, high] = [found.bounds?.min[axis], found.bounds?.max[axis]];
-    return low === undefined || high === undefined ? "none" : `${number(low, 0)} … ${number(high, 0)} mm`;
-  };
+  const stale = computing.value !== null ? " stale" : "";
+  const up = found.frame === "base" ? "z down" : "z from the table";
   return (
-    <dl class={stale ? "figures stale" : "figures"}>
-      <dt>Volume</dt>
-      <dd class="main">
-        {found.volume == null ? "none" : <data data-testid="volume" value={found.volume}>{cubicMetres(found.volume)}</data>}
-      </dd>
-      <dt>Plan area</dt>
-      <dd>{squareMetres(found.area)}</dd>
-      <dt>x</dt>
-      <dd>{span(0)}</dd>
-      <dt>y</dt>
-      <dd>{span(1)}</dd>
-      <dt>{found.frame === "base" ? "z (down)" : "z (up from the table)"}</dt>
-      <dd>{span(2)}</dd>
-      <dt>Mesh</dt>
-      <dd>{number(found.triangles, 0)} triangles within {number(found.request.tolerance, 2)} mm</dd>
-    </dl>
+    <>
+      <dl class={`figures${stale}`}>
+        <dt>Volume</dt>
+        <dd class="main">
+          {found.volume == null ? "none" : <data data-testid="volume" value={found.volume}>{cubicMetres(found.volume)}</data>}
+        </dd>
+        <dt>Plan area</dt>
+        <dd>{squareMetres(found.area)}</dd>
+        <dt>Mesh</dt>
+        <dd>{number(found.triangles, 0)} triangles</dd>
+      </dl>
+      <dl class={`bounds${stale}`} aria-label="Bounds">
+        {["x", "y", up].map((axis, i) => (
+          <div key={axis}>
+            <dt>{axis}, mm</dt>
+            <dd>{found.bounds ? `${number(found.bounds.min[i] ?? 0, 0)} … ${number(found.bounds.max[i] ?? 0, 0)}` : "none"}</dd>
+          </div>
+        ))}
+      </dl>
+    </>
   );
 }

@@ -3,15 +3,18 @@
 import { DoubleSide, LineBasicMaterial, MeshBasicMaterial, MeshLambertMaterial } from "three";
 import type { Palette } from "./palette";
 
+/** Edges lie on the faces: faces step back a little. */
+const FACE = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+
 export class Materials {
-  readonly frame = new MeshLambertMaterial();
-  readonly metal = new MeshLambertMaterial();
-  readonly rod = new MeshLambertMaterial();
-  readonly platform = new MeshLambertMaterial();
-  readonly table = new MeshLambertMaterial();
-  readonly tool = new MeshLambertMaterial();
-  readonly warn = new MeshLambertMaterial();
-  readonly bad = new MeshLambertMaterial();
+  readonly frame = new MeshLambertMaterial(FACE);
+  readonly metal = new MeshLambertMaterial(FACE);
+  readonly rod = new MeshLambertMaterial(FACE);
+  readonly platform = new MeshLambertMaterial(FACE);
+  readonly table = new MeshLambertMaterial(FACE);
+  readonly tool = new MeshLambertMaterial(FACE);
+  readonly warn = new MeshLambertMaterial(FACE);
+  readonly bad = new MeshLambertMaterial(FACE);
   readonly marker = new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.9 });
   readonly edge = new LineBasicMaterial({ transparent: true, opacity: 0.45 });
   readonly slot = new LineBasicMaterial();

@@ -43,7 +43,7 @@ export class World {
   private readonly handle: Handle;
   private readonly labels: CSS2DRenderer;
   private readonly baseTriad = new Triad(["x", "y", "z down"], 260);
-  private readonly partTriad = new Triad(["X", "Y", "Z up, from the table"], 170);
+  private readonly partTriad = new Triad(["X", "Y", "Z up, from the table"], 370);
   private mechanism: Mechanism | null = null;
   private surroundings: Surroundings | null = null;
 

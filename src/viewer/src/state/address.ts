@@ -5,7 +5,7 @@ import { INITIAL, type Camera, type Ghosts, type Joints, type View } from "./vie
 import { packed, unpacked } from "./packed";
 
 const KINDS: readonly WorkspaceKind[] = ["platform", "tool", "part"];
-const GHOSTS: readonly Ghosts[] = ["none", "assembly", "inverse"];
+const GHOSTS: readonly Ghosts[] = ["none", "assembly", "platform", "inverse"];
 
 export async function toAddress(view: View): Promise<string> {
   const { workspace: ws } = view;

@@ -97,14 +97,22 @@ async function others({ joints, solution }: Position): Promise<Position[]> {
       const answer = unwrap(await client.POST("/fk", { body }));
       return answer.solutions.map((other) => ({ joints, solution: other }));
     }
+    case "platform": {
+      const { x, y, z } = solution.platform;
+      return inverse("platform", { x, y, z }, joints);
+    }
     case "inverse": {
       if (!solution.part) return [];
       const { x, y, z, phi1, phi2 } = solution.part;
-      const body = { ...question(), pose: { x, y, z, phi1, phi2 }, solutions: "all" as const };
-      const answer = unwrap(await client.POST("/ik", { body }));
-      return answer.solutions.map((other) => ({ joints: asJoints(other.joints, joints), solution: other }));
+      return inverse("part", { x, y, z, phi1, phi2 }, joints);
     }
   }
+}
+
+async function inverse(frame: "platform" | "part", pose: TargetPose, here: Joints): Promise<Position[]> {
+  const body = { ...question(), frame, pose, solutions: "all" as const };
+  const answer = unwrap(await client.POST("/ik", { body }));
+  return answer.solutions.map((solution) => ({ joints: asJoints(solution.joints, here), solution }));
 }
 
 async function forward(joints: Joints, mode: PlatformPose | null): Promise<Answer> {

@@ -2,7 +2,8 @@
 
 import type { Machine, PlatformPose, WorkspaceKind } from "../api/client";
 
-export type Ghosts = "none" | "assembly" | "inverse";
+/** Solutions with the same sliders (assembly), the same platform position, or the same tool pose. */
+export type Ghosts = "none" | "assembly" | "platform" | "inverse";
 
 export interface View {
   /** A published machine's name, unless `own` is there. */

@@ -10,9 +10,9 @@ export function boundary(constraint: Constraint, element: string): string {
   if (slider) return `slider ${slider[1]} at its ${end(slider[2])} end`;
   switch (constraint) {
     case "slider_joint":
-      return `joint of ${rods(element)} at the slider`;
+      return `slider joint, ${rods(element)}`;
     case "platform_joint":
-      return `joint of ${rods(element)} at the platform`;
+      return `platform joint, ${rods(element)}`;
     case "rod_interference":
       return `${rods(element)} touch`;
     case "rod_crossing":
