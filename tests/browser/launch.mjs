@@ -1,6 +1,10 @@
-// Debian's Chromium, drawing in software, asking nobody else.
+// Debian's Chromium (or the one that CHROMIUM names), drawing in software, asking nobody else.
+import { execFileSync } from "node:child_process";
+
+const chromium = execFileSync("sh", ["-c", 'command -v "${CHROMIUM:-chromium}"'], { encoding: "utf8" }).trim();
+
 export const LAUNCH = {
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  executablePath: chromium,
   args: [
     "--no-sandbox",
     "--disable-quic",

@@ -1,4 +1,4 @@
-// The viewer of the built binary, in Debian's Chromium. VERNE names the binary, CHROMIUM the browser.
+// The viewer of the built binary, in Chromium. VERNE names the binary; VERNE_ADDRESS a service that runs already.
 import { defineConfig } from "@playwright/test";
 import { LAUNCH } from "./launch.mjs";
 
@@ -22,5 +22,5 @@ export default defineConfig({
   },
   webServer: process.env.VERNE_ADDRESS
     ? undefined
-    : { command: `${verne} serve --listen ${address}`, url: `http://${address}/readyz`, reuseExistingServer: false },
+    : { command: `${verne} serve --memory-only --listen ${address}`, url: `http://${address}/readyz`, reuseExistingServer: false },
 });

@@ -1,9 +1,9 @@
-// Pictures of the viewer, to be looked at: `npm run screenshots -- http://127.0.0.1:8080 out/`.
+// Pictures of the viewer, to be looked at: `npm run screenshots -- http://127.0.0.1:8080 out/ [name ...]`.
 import { chromium } from "@playwright/test";
 import { mkdir } from "node:fs/promises";
 import { LAUNCH } from "./launch.mjs";
 
-const [address = "http://127.0.0.1:8080", out = "../../target/screenshots"] = process.argv.slice(2);
+const [address = "http://127.0.0.1:8080", out = "../../target/screenshots", ...only] = process.argv.slice(2);
 
 const DESK = { width: 1280, height: 720 };
 const TABLET = { width: 1024, height: 768 };
@@ -21,6 +21,7 @@ const PICTURES = [
 await mkdir(out, { recursive: true });
 const browser = await chromium.launch(LAUNCH);
 for (const [name, viewport, colorScheme, view] of PICTURES) {
+  if (only.length > 0 && !only.includes(name)) continue;
   const page = await browser.newPage({ viewport, colorScheme });
   page.on("console", (message) => {
     if (message.type() === "error") console.error(`${name}: ${message.text()}`);

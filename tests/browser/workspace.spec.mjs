@@ -39,3 +39,31 @@ test("the legend names what limits the boundary, and its shares are the whole", 
   expect(sum).toBeGreaterThan(99);
   expect(sum).toBeLessThan(101);
 });
+
+test("a long computation shows its progress and is cancelled", async ({ page, request }) => {
+  await open(page);
+  const machine = await verne(request);
+  // Nine times the machine, meshed to a hundredth of a millimetre: minutes of work.
+  for (const name of Object.keys(machine.geometry)) machine.geometry[name] *= 9;
+  machine.name = "ninefold";
+  machine.table = { da: 13500, dt: 1800 };
+  machine.limits.stroke = [[0, 6750], [0, 6750], [0, 6750]];
+  await drop(page, "ninefold.json", JSON.stringify(machine));
+  await expect(page.getByLabel("Machine", { exact: true })).toContainText("ninefold");
+  const tolerance = page.getByLabel("Tolerance of the mesh");
+  await tolerance.fill("0.01");
+  await tolerance.press("Enter");
+  const progress = page.getByTestId("progress");
+  await expect(progress).toContainText("%");
+  await progress.getByRole("button", { name: "Cancel" }).click();
+  await expect(page.getByTestId("workspace-note")).toHaveText("Cancelled.");
+  await expect(page.getByTestId("progress")).toHaveCount(0);
+  const { jobs } = await (await request.get("/jobs")).json();
+  expect(jobs[0].state).toBe("cancelled");
+  expect(jobs[0].machine.name).toBe("ninefold");
+
+  // What is asked next is computed.
+  await tolerance.fill("50");
+  await tolerance.press("Enter");
+  await expect(page.getByTestId("volume")).toBeVisible();
+});

@@ -6,6 +6,7 @@ mod kinematics;
 mod machines;
 mod part_frame;
 mod transport;
+mod viewer;
 mod workspace;
 mod workspace_contains;
 mod workspace_delivery;
@@ -20,6 +21,7 @@ use axum::http::{HeaderMap, HeaderName, Method, Request, StatusCode, header};
 use http_body_util::BodyExt;
 use serde_json::Value;
 use tower::ServiceExt;
+use verne_service::app::Service;
 use verne_service::config::ServeConfig;
 
 /// An answer, its body parsed where it is JSON.
@@ -38,19 +40,32 @@ pub(crate) fn config(machines: Option<PathBuf>) -> ServeConfig {
         machines,
         max_body_bytes: 1024 * 1024,
         max_rows: 2_000,
+        data: None,
+        memory_only: true,
         cache_bytes: 64 * 1024 * 1024,
+        disk_bytes: 64 * 1024 * 1024,
+        job_threads: None,
+        queue: 100,
+        job_limit: 600,
+        wait: 20,
         timeout: 30,
+        drain: 5,
     }
 }
 
 /// The service.
-pub(crate) fn service() -> Router {
-    verne_service::app::service(&config(None)).unwrap()
+pub(crate) async fn service() -> Router {
+    opened(&config(None)).await
+}
+
+/// The service with settings.
+pub(crate) async fn opened(config: &ServeConfig) -> Router {
+    Service::open(config).await.unwrap().router
 }
 
 /// Sends a request to a fresh service.
 pub(crate) async fn send(request: Request<Body>) -> Reply {
-    send_to(service(), request).await
+    send_to(service().await, request).await
 }
 
 /// Sends a request.

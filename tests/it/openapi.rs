@@ -1,11 +1,12 @@
 //! The OpenAPI document: committed as generated, and true.
 
 use axum::Router;
-use axum::http::Method;
+use axum::body::Body;
+use axum::http::{Method, Request};
 use axum::http::header::CONTENT_TYPE;
 use serde_json::Value;
 
-use crate::http::{Reply, get, get_from, json_request, send_to, service};
+use crate::http::{Reply, get, json_request, send_to, service};
 
 const COMMITTED: &str = include_str!("../../openapi/openapi.json");
 
@@ -24,7 +25,7 @@ async fn the_committed_document_is_the_generated_one() {
 async fn every_example_gets_its_documented_answer() {
     let document = get("/openapi.json").await.json;
     // One service for all: results are asked for after /workspace has computed them.
-    let service = service();
+    let service = service().await;
     let mut sent = 0;
     for (path, operations) in document["paths"].as_object().unwrap() {
         for (method, operation) in operations.as_object().unwrap() {
@@ -38,16 +39,17 @@ async fn every_example_gets_its_documented_answer() {
             let reply = send_example(&service, path, method, operation).await;
             assert_eq!(reply.status, 200, "{method} {path}: {}", reply.json);
             let content = &operation["responses"]["200"]["content"];
-            let media = reply.headers[CONTENT_TYPE].to_str().unwrap();
+            let media = reply.headers[CONTENT_TYPE].to_str().unwrap().split(';').next().unwrap();
             assert!(content.get(media).is_some(), "{method} {path}: {media} is not documented");
-            if media == "application/json" {
+            // A job says when it was made.
+            if media == "application/json" && !path.starts_with("/jobs/") {
                 let documented = &content[media]["example"];
                 assert_eq!(difference("", &reply.json, documented), None, "{method} {path}");
             }
             sent += 1;
         }
     }
-    assert_eq!(sent, 17);
+    assert_eq!(sent, 22);
 }
 
 async fn send_example(service: &Router, path: &str, method: &str, operation: &Value) -> Reply {
@@ -68,7 +70,8 @@ async fn send_example(service: &Router, path: &str, method: &str, operation: &Va
             separator = '&';
         }
     }
-    get_from(service, &uri, &[]).await
+    let method = Method::from_bytes(method.to_ascii_uppercase().as_bytes()).unwrap();
+    send_to(service.clone(), Request::builder().method(method).uri(uri).body(Body::empty()).unwrap()).await
 }
 
 /// Where two documents differ. Numbers may differ by rounding: sines are not the same everywhere.

@@ -14,6 +14,7 @@ pub mod glb;
 pub mod json;
 mod measure;
 mod mesh;
+pub mod packed;
 mod palette;
 pub mod ply;
 mod section;

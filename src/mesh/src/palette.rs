@@ -1,9 +1,9 @@
 //! What a tag means to a reader and how it is painted.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// One tag's name and colour. A mesh's tags index its list of swatches.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Swatch {
     /// What the tag stands for.
     pub name: String,

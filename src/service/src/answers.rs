@@ -2,25 +2,33 @@
 
 mod batch_rows;
 mod contains;
+mod family;
+mod family_question;
 mod forward;
 mod forward_batch;
 mod inverse;
 mod inverse_batch;
 mod near;
 mod orientation;
+mod question;
 mod slice;
 mod solutions;
+mod stage;
 mod workspace;
 mod workspace_colours;
 mod workspace_files;
 mod workspace_question;
 
 pub(crate) use contains::answer_contains;
+pub(crate) use family::FamilyTable;
+pub(crate) use family_question::FamilyQuestion;
 pub(crate) use forward::answer_fk;
 pub(crate) use forward_batch::answer_fk_batch;
 pub(crate) use inverse::answer_ik;
 pub(crate) use inverse_batch::answer_ik_batch;
+pub(crate) use question::{Gist, Question, TaskFault};
 pub(crate) use slice::answer_slice;
-pub(crate) use workspace::{Workspace, compute_workspace};
+pub(crate) use stage::part_of;
+pub(crate) use workspace::compute_workspace;
 pub(crate) use workspace_files::write_mesh;
 pub(crate) use workspace_question::WorkspaceQuestion;

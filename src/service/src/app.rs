@@ -1,6 +1,7 @@
 //! Puts the service together, and runs it until it is told to stop.
 
 use std::fmt;
+use std::net::SocketAddr;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
@@ -8,12 +9,14 @@ use axum::Router;
 use axum::body::Bytes;
 use serde_json::Value;
 use tokio::net::TcpListener;
+use tokio_util::sync::CancellationToken;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
 use crate::config::ServeConfig;
+use crate::metrics::Metrics;
 use crate::registry::{BadFile, Registry};
-use crate::results::Results;
-use crate::state::State;
+use crate::state::{Shared, State};
+use crate::storage::{Storage, StorageError};
 use crate::{layers, openapi, router, viewer};
 
 /// Why the service cannot run.
@@ -21,14 +24,17 @@ use crate::{layers, openapi, router, viewer};
 pub enum StartError {
     /// A machine's file.
     Machine(BadFile),
+    /// The data directory.
+    Storage(StorageError),
     /// The address, or the listener later on.
-    Listen(std::net::SocketAddr, std::io::Error),
+    Listen(SocketAddr, std::io::Error),
 }
 
 impl fmt::Display for StartError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Machine(bad) => bad.fmt(f),
+            Self::Storage(error) => error.fmt(f),
             Self::Listen(address, error) => write!(f, "cannot serve on {address}: {error}"),
         }
     }
@@ -44,28 +50,68 @@ pub fn document() -> Value {
 /// The document as it is sent. It is the same for every service: its examples are computed once.
 static DOCUMENT: OnceLock<Bytes> = OnceLock::new();
 
-/// The whole service, ready for requests.
-pub fn service(config: &ServeConfig) -> Result<Router, StartError> {
-    let mut machines = Registry::default();
-    if let Some(directory) = &config.machines {
-        machines.publish_directory(directory).map_err(StartError::Machine)?;
-    }
-    let (routes, api) = router::routes().split_for_parts();
-    let document = DOCUMENT.get_or_init(|| Bytes::from(openapi::complete(&api).to_string())).clone();
-    let results = Results::within(config.cache_bytes);
-    let state = State { machines, limits: config.limits(), results, openapi: document };
-    let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
-    let routes = routes.with_state(Arc::new(state)).merge(docs).merge(viewer::routes());
-    Ok(layers::wrap(routes, Duration::from_secs(config.timeout)))
+/// The whole service.
+pub struct Service {
+    /// Ready for requests.
+    pub router: Router,
+    state: Shared,
 }
 
-/// Serves until SIGTERM or ctrl-c; requests under way are finished.
+impl Service {
+    /// Opens what the settings name.
+    pub async fn open(config: &ServeConfig) -> Result<Self, StartError> {
+        let mut machines = Registry::default();
+        if let Some(directory) = &config.machines {
+            machines.publish_directory(directory).map_err(StartError::Machine)?;
+        }
+        let (routes, api) = router::routes().split_for_parts();
+        let openapi = DOCUMENT.get_or_init(|| Bytes::from(openapi::complete(&api).to_string())).clone();
+        let Storage { results, jobs } = Storage::open(config).await.map_err(StartError::Storage)?;
+        let stopping = CancellationToken::new();
+        let metrics = Metrics::of(Arc::clone(&jobs), results.store());
+        let limits = config.limits();
+        let state = Arc::new(State { machines, limits, results, jobs, metrics, stopping, openapi });
+        let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
+        let routes = routes.with_state(Arc::clone(&state)).merge(docs).merge(viewer::routes());
+        let router = layers::wrap(routes, Duration::from_secs(config.timeout));
+        Ok(Self { router, state })
+    }
+
+    /// Stops: whoever waits for a job is told so, and jobs go back to the queue. Returns within about `limit`.
+    pub async fn stop(&self, limit: Duration) {
+        self.state.stopping.cancel();
+        self.state.jobs.drain(limit).await;
+    }
+}
+
+/// Serves until SIGTERM or ctrl-c. Then requests under way are finished and jobs go back to the queue, all within a
+/// bounded time.
 pub async fn serve(config: &ServeConfig) -> Result<(), StartError> {
     let failed = |error| StartError::Listen(config.listen, error);
-    let service = service(config)?;
     let listener = TcpListener::bind(config.listen).await.map_err(failed)?;
+    let service = Service::open(config).await?;
     tracing::info!("listening on http://{}", listener.local_addr().map_err(failed)?);
-    axum::serve(listener, service).with_graceful_shutdown(told_to_stop()).await.map_err(failed)
+    let stopping = service.state.stopping.clone();
+    let router = service.router.clone().into_make_service_with_connect_info::<SocketAddr>();
+    let serving =
+        axum::serve(listener, router).with_graceful_shutdown(stopping.clone().cancelled_owned());
+    let limit = Duration::from_secs(config.drain);
+    let told = async {
+        told_to_stop().await;
+        service.stop(limit).await;
+    };
+    // A client that reads nothing must not keep the process: what is open after the limit is cut.
+    let cut = async {
+        stopping.cancelled().await;
+        tokio::time::sleep(limit).await;
+    };
+    let ((), served) = tokio::join!(told, async {
+        tokio::select! {
+            served = serving => served,
+            () = cut => Ok(()),
+        }
+    });
+    served.map_err(failed)
 }
 
 async fn told_to_stop() {
@@ -79,7 +125,7 @@ async fn told_to_stop() {
         () = interrupted => {}
         () = terminated() => {}
     }
-    tracing::info!("stopping: requests under way are finished");
+    tracing::info!("stopping: requests under way are finished, jobs go back to the queue");
 }
 
 #[cfg(unix)]

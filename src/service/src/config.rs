@@ -1,7 +1,9 @@
 //! Settings of `verne serve`, from flags and environment.
 
 use std::net::SocketAddr;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Args;
 
@@ -22,16 +24,53 @@ pub struct ServeConfig {
     /// Most rows in a batch.
     #[arg(long, env = "VERNE_MAX_ROWS", default_value_t = 100_000)]
     pub max_rows: usize,
-    /// Most bytes of workspaces, meshes included, that are kept in memory.
+    /// Directory in which jobs and results outlive the process; by default the user's own directory for data.
+    #[arg(long, env = "VERNE_DATA", value_name = "DIR", conflicts_with = "memory_only")]
+    pub data: Option<PathBuf>,
+    /// Keep jobs and results in memory, for as long as the process lives.
+    #[arg(long, env = "VERNE_MEMORY_ONLY")]
+    pub memory_only: bool,
+    /// Most bytes of results that are kept in memory.
     #[arg(long, env = "VERNE_CACHE_BYTES", default_value_t = 256 * 1024 * 1024)]
     pub cache_bytes: u64,
+    /// Most bytes of results that are kept in the data directory; the longest unused leave first.
+    #[arg(long, env = "VERNE_DISK_BYTES", default_value_t = 4 * 1024 * 1024 * 1024)]
+    pub disk_bytes: u64,
+    /// Cores that jobs keep busy; by default all but one, at least one.
+    #[arg(long, env = "VERNE_JOB_THREADS", value_name = "CORES")]
+    pub job_threads: Option<NonZeroUsize>,
+    /// Most jobs that wait for their turn.
+    #[arg(long, env = "VERNE_QUEUE", default_value_t = 10_000, value_name = "JOBS")]
+    pub queue: usize,
+    /// Seconds after which a job is given up, its time in the queue included.
+    #[arg(long, env = "VERNE_JOB_LIMIT", default_value_t = 86_400, value_name = "SECONDS")]
+    pub job_limit: u64,
+    /// Seconds for which an answer is waited for before the address of its job is answered.
+    #[arg(long, env = "VERNE_WAIT", default_value_t = 10, value_name = "SECONDS")]
+    pub wait: u64,
     /// Seconds after which a request is given up.
     #[arg(long, env = "VERNE_TIMEOUT", default_value_t = 30, value_name = "SECONDS")]
     pub timeout: u64,
+    /// Seconds that requests under way and jobs have to come to an end when the service is told to stop.
+    #[arg(long, env = "VERNE_DRAIN", default_value_t = 10, value_name = "SECONDS")]
+    pub drain: u64,
 }
 
 impl ServeConfig {
     pub(crate) fn limits(&self) -> RequestLimits {
-        RequestLimits { body_bytes: self.max_body_bytes, rows: self.max_rows }
+        let longest_wait = Duration::from_secs(self.timeout.saturating_sub(1));
+        RequestLimits {
+            body_bytes: self.max_body_bytes,
+            rows: self.max_rows,
+            wait: Duration::from_secs(self.wait).min(longest_wait),
+            longest_wait,
+            job: Duration::from_secs(self.job_limit),
+        }
+    }
+
+    /// Cores for jobs: what is interactive keeps one.
+    pub(crate) fn job_cores(&self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        self.job_threads.map_or(cores.saturating_sub(1).max(1), NonZeroUsize::get)
     }
 }

@@ -13,9 +13,10 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode};
 use axum::response::{IntoResponse, Response};
 use headers::{ETag, HeaderMapExt, IfNoneMatch, IfRange};
+use verne_store::Content;
 
 use crate::error::Error;
-use crate::results::Content;
+
 
 /// For what lies under its own id.
 pub(crate) const FOR_EVER: &str = "public, max-age=31536000, immutable";

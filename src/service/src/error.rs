@@ -2,8 +2,11 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+use verne_jobs::{SubmitError, Unavailable};
+
 /// One bad field: where it is and what would be accepted.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Fault {
     /// JSON Pointer into the body; `/query/<name>` for a query parameter.
     pub pointer: String,
@@ -42,6 +45,28 @@ pub(crate) enum Error {
     NoSuchMachine(String),
     /// No workspace is kept under this id.
     NoSuchWorkspace(String),
+    /// This result has no mesh.
+    NoMesh(String),
+    /// No job is known under this id.
+    NoSuchJob(String),
+    /// The queue is full; after so many seconds a place is likely to be free.
+    QueueFull(u64),
+    /// The service is stopping; jobs go on when it is started again.
+    Stopping,
+    /// The records of jobs cannot be read or written.
+    JobsUnavailable,
+    /// The disk takes no results.
+    DiskFailing,
+    /// The computation was to stop.
+    Cancelled,
+    /// Somebody cancelled the job that was waited for.
+    JobCancelled,
+    /// The job took longer than jobs may.
+    JobTooLong,
+    /// Another version of the service asked for it.
+    OtherVersion,
+    /// The result was computed and could be kept nowhere.
+    NoRoom,
     /// None of the media types that Accept names can be had; these can.
     NotAcceptable(Vec<&'static str>),
     /// The range starts beyond the end of so many bytes.
@@ -80,6 +105,29 @@ impl fmt::Display for Error {
                     "No workspace is kept as {id:?} (any more): ask /workspace again, the id will be the same."
                 )
             }
+            Self::NoMesh(id) => {
+                write!(f, "{id:?} is a table of workspaces: each of its members has a mesh and slices.")
+            }
+            Self::NoSuchJob(id) => {
+                write!(f, "No job is known as {id:?} (any more); GET /jobs lists them.")
+            }
+            Self::QueueFull(seconds) => write!(f, "The queue is full; try again in {seconds} s."),
+            Self::Stopping => {
+                write!(f, "The service is stopping; what was asked for goes on when it is started again.")
+            }
+            Self::JobsUnavailable => {
+                write!(f, "The records of jobs cannot be written now; the service's log says why.")
+            }
+            Self::DiskFailing => write!(f, "The disk takes no results now; the service's log says why."),
+            Self::Cancelled => write!(f, "The computation was cancelled."),
+            Self::JobCancelled => {
+                write!(f, "The job was cancelled while it was waited for; asked again, it starts anew.")
+            }
+            Self::JobTooLong => write!(f, "The computation took longer than the time allowed for a job."),
+            Self::OtherVersion => {
+                write!(f, "Another version of the service was asked this; ask again, the id will be another.")
+            }
+            Self::NoRoom => write!(f, "The result is larger than all the room there is for results."),
             Self::NotAcceptable(media) => {
                 write!(f, "Accept names nothing that can be had here: {}.", media.join(", "))
             }
@@ -97,3 +145,21 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+impl From<SubmitError> for Error {
+    fn from(error: SubmitError) -> Self {
+        match error {
+            SubmitError::Full { retry_after } => Self::QueueFull(retry_after.as_secs().max(1)),
+            SubmitError::Draining => Self::Stopping,
+            SubmitError::Unavailable(unavailable) => unavailable.into(),
+        }
+    }
+}
+
+impl From<Unavailable> for Error {
+    fn from(unavailable: Unavailable) -> Self {
+        // The reason may name paths of this machine: it is for the log.
+        tracing::error!(%unavailable, "jobs");
+        Self::JobsUnavailable
+    }
+}

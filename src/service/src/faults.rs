@@ -42,7 +42,7 @@ impl Faults {
 
     /// The length of the tool, from P to its tip.
     pub(crate) fn tool_length(&mut self, value: f64) {
-        if !(0.0..=DOMAIN).contains(&value) {
+        if !is_tool_length(value) {
             self.add("/tool_length", format!("must be a number from 0 to {DOMAIN:e} mm"));
         }
     }
@@ -61,4 +61,9 @@ pub(crate) fn is_length(value: f64) -> bool {
 /// Whether a number can be an angle in a question.
 pub(crate) fn is_angle(degrees: f64) -> bool {
     degrees.abs() <= LARGEST_ANGLE
+}
+
+/// Whether a number can be the length of a tool.
+pub(crate) fn is_tool_length(value: f64) -> bool {
+    (0.0..=DOMAIN).contains(&value)
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod batch;
 pub(crate) mod contains;
+pub(crate) mod jobs;
 pub(crate) mod kinematics;
 pub(crate) mod machines;
 pub(crate) mod service;

@@ -10,6 +10,9 @@ use utoipa::ToSchema;
 
 use crate::error::{Error, Fault};
 
+/// Seconds after which a service that is being restarted is worth asking again.
+const PAUSE: u64 = 5;
+
 /// Media type of every failure.
 pub(crate) const PROBLEM_JSON: &str = "application/problem+json";
 
@@ -59,6 +62,16 @@ fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
         Error::TooManyRows { .. } => (StatusCode::PAYLOAD_TOO_LARGE, "too_many_rows"),
         Error::NoSuchMachine(_) => (StatusCode::NOT_FOUND, "machine_not_found"),
         Error::NoSuchWorkspace(_) => (StatusCode::NOT_FOUND, "workspace_not_found"),
+        Error::NoMesh(_) => (StatusCode::NOT_FOUND, "no_mesh"),
+        Error::NoSuchJob(_) => (StatusCode::NOT_FOUND, "job_not_found"),
+        Error::QueueFull(_) => (StatusCode::SERVICE_UNAVAILABLE, "queue_full"),
+        Error::Stopping => (StatusCode::SERVICE_UNAVAILABLE, "stopping"),
+        Error::JobsUnavailable => (StatusCode::SERVICE_UNAVAILABLE, "jobs_unavailable"),
+        Error::DiskFailing => (StatusCode::SERVICE_UNAVAILABLE, "disk_failing"),
+        Error::Cancelled | Error::JobCancelled => (StatusCode::CONFLICT, "job_cancelled"),
+        Error::JobTooLong => (StatusCode::SERVICE_UNAVAILABLE, "job_too_long"),
+        Error::OtherVersion => (StatusCode::CONFLICT, "other_version"),
+        Error::NoRoom => (StatusCode::INSUFFICIENT_STORAGE, "no_room"),
         Error::NotAcceptable(_) => (StatusCode::NOT_ACCEPTABLE, "not_acceptable"),
         Error::RangeNotSatisfiable(_) => (StatusCode::RANGE_NOT_SATISFIABLE, "range_not_satisfiable"),
         Error::NoSuchPath => (StatusCode::NOT_FOUND, "not_found"),
@@ -110,9 +123,17 @@ impl IntoResponse for Problem {
 impl IntoResponse for Error {
     fn into_response(self) -> Response {
         let length = if let Self::RangeNotSatisfiable(length) = self { Some(length) } else { None };
+        let pause = match self {
+            Self::QueueFull(seconds) => Some(seconds),
+            Self::Stopping | Self::JobsUnavailable | Self::DiskFailing => Some(PAUSE),
+            _ => None,
+        };
         let mut response = Problem::from(self).into_response();
         if let Some(length) = length {
             response.headers_mut().typed_insert(ContentRange::unsatisfied_bytes(length));
+        }
+        if let Some(pause) = pause {
+            response.headers_mut().insert(header::RETRY_AFTER, pause.into());
         }
         response
     }

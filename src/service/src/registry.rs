@@ -30,7 +30,8 @@ impl Published {
         Self { machine, id }
     }
 
-    fn from_object(object: &MachineObject) -> Result<Self, Vec<MachineFault>> {
+    /// Checks a machine.
+    pub(crate) fn from_object(object: &MachineObject) -> Result<Self, Vec<MachineFault>> {
         Machine::new(MachineData::from(object)).map(Self::new)
     }
 

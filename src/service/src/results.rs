@@ -1,77 +1,125 @@
-//! Workspaces and their files, kept in memory under their ids: bounded in bytes, the longest unused leave first, and
-//! equal questions at the same moment are computed once.
+//! What has been answered, under its id: the question with its figures, the mesh, and each file that was asked for.
 
-use std::future::Future;
-use std::sync::Arc;
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+use verne_mesh::{Mesh, packed};
+use verne_store::{Content, Store};
 
-use axum::body::Bytes;
-use moka::future::Cache;
-use moka::policy::EvictionPolicy;
-
-use crate::answers::Workspace;
+use crate::answers::Question;
 use crate::error::Error;
+use crate::result_id::ResultId;
 use crate::wire::format::MeshFormat;
+use crate::workers::on_workers;
 
-/// Bytes that never change, and the strong entity tag that says so.
-#[derive(Clone, Debug)]
-pub(crate) struct Content {
-    /// The bytes.
-    pub bytes: Bytes,
-    /// Their hash.
-    pub hash: blake3::Hash,
-}
-
-impl From<Vec<u8>> for Content {
-    fn from(bytes: Vec<u8>) -> Self {
-        Self { hash: blake3::hash(&bytes), bytes: bytes.into() }
-    }
-}
-
-/// The results that are kept.
+/// An answered question.
 #[derive(Debug)]
-pub(crate) struct Results {
-    workspaces: Cache<String, Arc<Workspace>>,
-    files: Cache<(String, MeshFormat), Content>,
+pub(crate) struct Record {
+    /// The question.
+    pub question: Question,
+    /// The figures, as they are sent.
+    pub summary: Content,
+    /// Greatest |alpha|, rad, of a workspace that is not empty.
+    pub inclination: Option<f64>,
 }
+
+/// A record as it is kept.
+#[derive(Serialize, Deserialize)]
+struct Kept<'a> {
+    #[serde(borrow)]
+    question: &'a RawValue,
+    #[serde(borrow)]
+    summary: &'a RawValue,
+    inclination: Option<f64>,
+}
+
+const RECORD: &str = "record";
+const MESH: &str = "mesh";
+
+/// The results that are kept. Its clones are one.
+#[derive(Clone)]
+pub(crate) struct Results(Store);
 
 impl Results {
-    /// Room for so many bytes, half of them for files: a file is about as large as the workspace it is written from.
-    pub(crate) fn within(bytes: u64) -> Self {
-        let weight = |bytes: usize| u32::try_from(bytes).unwrap_or(u32::MAX);
-        // By use alone: the default policy may turn away what is new, and its id has just been handed out.
-        let workspaces = Cache::builder()
-            .max_capacity(bytes / 2)
-            .eviction_policy(EvictionPolicy::lru())
-            .weigher(move |_, workspace: &Arc<Workspace>| weight(workspace.bytes()));
-        let files = Cache::builder()
-            .max_capacity(bytes / 2)
-            .eviction_policy(EvictionPolicy::lru())
-            .weigher(move |_, content: &Content| weight(content.bytes.len()));
-        Self { workspaces: workspaces.build(), files: files.build() }
+    /// The results of a store.
+    pub(crate) fn new(store: Store) -> Self {
+        Self(store)
     }
 
-    /// The workspace with this id, computed if it is not kept.
-    pub(crate) async fn workspace(
+    /// Where they are kept.
+    pub(crate) fn store(&self) -> Store {
+        self.0.clone()
+    }
+
+    /// Whether more can be kept.
+    pub(crate) async fn healthy(&self) -> Result<(), Error> {
+        self.0.healthy().await.map_err(|reason| {
+            tracing::error!(reason, "results cannot be kept");
+            Error::DiskFailing
+        })
+    }
+
+    /// The record of an answered question. One that cannot be read is as if not there: another version wrote it.
+    pub(crate) async fn record(&self, id: ResultId) -> Option<Record> {
+        let content = self.0.get(&id.key(RECORD)).await?;
+        read(&content.bytes, id)
+    }
+
+    /// Keeps an answer, its mesh first: where there is a record, there was a mesh.
+    pub(crate) async fn keep(
         &self,
-        id: &str,
-        compute: impl Future<Output = Result<Workspace, Error>>,
-    ) -> Result<Arc<Workspace>, Error> {
-        let computed = async { compute.await.map(Arc::new) };
-        self.workspaces.try_get_with(id.to_owned(), computed).await.map_err(|error| (*error).clone())
+        question: &Question,
+        summary: &[u8],
+        mesh: Option<(&Mesh, Option<f64>)>,
+    ) -> Result<(), Error> {
+        let id = question.id();
+        if let Some((mesh, _)) = mesh {
+            let bytes = packed::pack(mesh).map_err(|_| Error::Internal)?;
+            self.0.put(&id.key(MESH), bytes.into()).await;
+        }
+        let (question, summary) = (raw(&question.written()?)?, raw(summary)?);
+        let inclination = mesh.and_then(|(_, inclination)| inclination);
+        let kept = Kept { question: &question, summary: &summary, inclination };
+        let bytes = serde_json::to_vec(&kept).map_err(|_| Error::Internal)?;
+        self.0.put(&id.key(RECORD), bytes.into()).await;
+        Ok(())
     }
 
-    /// The workspace with this id, if it is kept.
-    pub(crate) async fn kept(&self, id: &str) -> Result<Arc<Workspace>, Error> {
-        self.workspaces.get(id).await.ok_or_else(|| Error::NoSuchWorkspace(id.to_owned()))
+    /// A workspace's mesh.
+    pub(crate) async fn mesh(&self, id: ResultId) -> Option<Mesh> {
+        let content = self.0.get(&id.key(MESH)).await?;
+        on_workers(move || packed::unpack(&content.bytes).map_err(|_| Error::Internal)).await.ok()
     }
 
-    /// The mesh of a workspace in a format, written if it is not kept.
-    pub(crate) async fn file(
+    /// A mesh in a format, if it has been written.
+    pub(crate) async fn file(&self, id: ResultId, format: MeshFormat) -> Option<Content> {
+        self.0.get(&id.key(format.name())).await
+    }
+
+    /// A mesh in a format, written if it has not been.
+    pub(crate) async fn file_or(
         &self,
-        id: &str,
+        id: ResultId,
         format: MeshFormat,
-        write: impl Future<Output = Result<Content, Error>>,
+        write: impl Future<Output = Result<Vec<u8>, Error>> + Send,
     ) -> Result<Content, Error> {
-        self.files.try_get_with((id.to_owned(), format), write).await.map_err(|error| (*error).clone())
+        let write = async { write.await.map(Into::into) };
+        self.0.get_or_make(&id.key(format.name()), write).await
     }
+}
+
+fn raw(json: &[u8]) -> Result<Box<RawValue>, Error> {
+    let text = std::str::from_utf8(json).map_err(|_| Error::Internal)?;
+    RawValue::from_string(text.to_owned()).map_err(|_| Error::Internal)
+}
+
+fn read(bytes: &[u8], id: ResultId) -> Option<Record> {
+    let kept: Kept<'_> = serde_json::from_slice(bytes).ok()?;
+    let question = Question::read(kept.question.get().as_bytes(), id).ok()?;
+    let summary = content(kept.summary.get().as_bytes().to_vec());
+    Some(Record { question, summary, inclination: kept.inclination })
+}
+
+/// Bytes with their hash; for what is small, or on the worker threads.
+pub(crate) fn content(bytes: Vec<u8>) -> Content {
+    Content { hash: blake3::hash(&bytes), bytes: bytes.into() }
 }

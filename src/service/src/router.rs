@@ -4,7 +4,7 @@ use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use crate::handlers::{batch, contains, kinematics, machines, service, workspace, workspace_results};
+use crate::handlers::{batch, contains, jobs, kinematics, machines, service, workspace, workspace_results};
 use crate::openapi::Document;
 use crate::state::Shared;
 
@@ -20,11 +20,15 @@ pub(crate) fn routes() -> OpenApiRouter<Shared> {
         .routes(routes!(workspace_results::get_summary))
         .routes(routes!(workspace_results::get_mesh))
         .routes(routes!(workspace_results::get_slice))
+        .routes(routes!(jobs::get_jobs))
+        .routes(routes!(jobs::get_job, jobs::delete_job))
+        .routes(routes!(jobs::get_events))
         .routes(routes!(machines::get_machines))
         .routes(routes!(machines::get_machine_schema))
         .routes(routes!(machines::get_machine))
         .routes(routes!(service::get_openapi))
         .routes(routes!(service::get_livez))
         .routes(routes!(service::get_readyz))
+        .routes(routes!(service::get_metrics))
         .fallback(service::nothing_here)
 }

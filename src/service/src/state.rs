@@ -1,30 +1,45 @@
 //! What every handler shares.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use axum::body::Bytes;
+use tokio_util::sync::CancellationToken;
+use verne_jobs::Backend;
 
+use crate::metrics::Metrics;
 use crate::registry::Registry;
 use crate::results::Results;
 
-/// The largest requests that are answered.
+/// The largest requests that are answered, and the longest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RequestLimits {
     /// Bytes in a batch's body.
     pub body_bytes: usize,
     /// Rows in a batch.
     pub rows: usize,
+    /// How long an answer is waited for unless the request says so.
+    pub wait: Duration,
+    /// How long it may at most.
+    pub longest_wait: Duration,
+    /// How long a job may take, queue included.
+    pub job: Duration,
 }
 
-/// Shared state; only the results change.
-#[derive(Debug)]
+/// Shared state.
 pub(crate) struct State {
     /// The published machines.
     pub machines: Registry,
     /// The largest requests that are answered.
     pub limits: RequestLimits,
-    /// The workspaces computed so far.
+    /// What has been answered.
     pub results: Results,
+    /// What is being computed.
+    pub jobs: Arc<dyn Backend>,
+    /// What is measured.
+    pub metrics: Metrics,
+    /// Cancelled when the service is told to stop.
+    pub stopping: CancellationToken,
     /// The OpenAPI document, as it is sent.
     pub openapi: Bytes,
 }

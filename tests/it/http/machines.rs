@@ -6,7 +6,9 @@ use axum::body::Body;
 use axum::http::Request;
 use serde_json::{Value, json};
 
-use super::{config, get, post, send_to};
+use verne_service::app::Service;
+
+use super::{config, get, opened, post, send_to};
 
 const REFERENCE: &str = include_str!("../../reference/machine-verne.json");
 
@@ -59,15 +61,15 @@ async fn a_directory_of_machines_is_published() {
     let tight = REFERENCE.replace("\"verne\"", "\"tight\"").replace("[0, 750]", "[100, 400]");
     std::fs::write(directory.join("tight.json"), tight).unwrap();
     std::fs::write(directory.join("notes.txt"), "not a machine").unwrap();
-    let service = verne_service::app::service(&config(Some(directory))).unwrap();
+    let service = opened(&config(Some(directory))).await;
     let request = Request::get("/fk?rho=674,685,250&machine=tight").body(Body::empty()).unwrap();
     let reply = send_to(service, request).await;
     assert_eq!(reply.json["machine"]["name"], "tight");
     assert_eq!(reply.solutions()[0]["feasible"], false);
 }
 
-#[test]
-fn a_bad_machine_file_is_an_error_that_names_file_and_field() {
+#[tokio::test]
+async fn a_bad_machine_file_is_an_error_that_names_file_and_field() {
     for (name, text, expected) in [
         ("range", REFERENCE.replace("\"verne\"", "\"x\"").replace("[-90, 90]", "[90, -90]"), "/limits/tilt"),
         ("missing", REFERENCE.replace("\"dt\"", "\"dd\""), "/table/dd"),
@@ -77,10 +79,10 @@ fn a_bad_machine_file_is_an_error_that_names_file_and_field() {
     ] {
         let directory = scratch(name);
         std::fs::write(directory.join("bad.json"), text).unwrap();
-        let error = verne_service::app::service(&config(Some(directory))).unwrap_err().to_string();
+        let error = Service::open(&config(Some(directory))).await.err().unwrap().to_string();
         assert!(error.contains("bad.json") && error.contains(expected), "{error}");
     }
-    let error = verne_service::app::service(&config(Some("/no/such/directory".into()))).unwrap_err();
+    let error = Service::open(&config(Some("/no/such/directory".into()))).await.err().unwrap();
     assert!(error.to_string().contains("/no/such/directory"));
 }
 

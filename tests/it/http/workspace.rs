@@ -20,7 +20,7 @@ fn assert_close(found: &Value, wanted: f64, relative: f64) {
 /// Published figures: a sweep of columns, good to about 1e-5.
 #[tokio::test]
 async fn figures_are_those_of_an_independent_sweep() {
-    let service = service();
+    let service = service().await;
     for (question, volume) in [
         (json!({}), 2.33692e8),
         (json!({"kind": "tool", "tool_length": 50}), 2.44325e8),
@@ -45,7 +45,7 @@ async fn figures_are_those_of_an_independent_sweep() {
 
 #[tokio::test]
 async fn bounds_are_within_the_tolerance() {
-    let bounds = &ask(&service(), json!({})).await.json["bounds"];
+    let bounds = &ask(&service().await, json!({})).await.json["bounds"];
     let wanted = [("min", [-407.0, -540.5, 870.6]), ("max", [392.0, 540.5, 1627.0])];
     for (end, numbers) in wanted {
         for (axis, wanted) in numbers.into_iter().enumerate() {
@@ -57,7 +57,7 @@ async fn bounds_are_within_the_tolerance() {
 
 #[tokio::test]
 async fn equal_questions_have_equal_ids() {
-    let service = service();
+    let service = service().await;
     let id = async |question| ask(&service, question).await.json["id"].as_str().unwrap().to_owned();
     let part = id(json!({"kind": "part", "tool_length": 50})).await;
     assert_eq!(part.len(), 64);
@@ -77,7 +77,7 @@ async fn equal_questions_have_equal_ids() {
 #[tokio::test]
 async fn another_machine_has_another_id_and_its_name() {
     let mut machine = get("/machines/verne").await.json["definition"].clone();
-    let service = service();
+    let service = service().await;
     let original = ask(&service, json!({"machine": machine, "tolerance": 20})).await.json;
     assert_eq!(original, ask(&service, json!({"tolerance": 20})).await.json);
     machine["name"] = "mine".into();
@@ -97,7 +97,7 @@ async fn another_machine_has_another_id_and_its_name() {
 async fn an_empty_workspace_is_an_answer() {
     let mut machine = get("/machines/verne").await.json["definition"].clone();
     machine["geometry"]["rod_radius"] = 1000.into();
-    let service = service();
+    let service = service().await;
     let answer = ask(&service, json!({"machine": machine})).await.json;
     assert_eq!(answer["volume"], 0.0);
     assert_eq!((&answer["bounds"], &answer["triangles"]), (&Value::Null, &json!(0)));
@@ -112,7 +112,7 @@ async fn an_empty_workspace_is_an_answer() {
 #[tokio::test]
 async fn a_folded_workspace_has_no_volume_and_says_why() {
     let question = json!({"kind": "tool", "tool_length": 5000});
-    let answer = ask(&service(), question).await.json;
+    let answer = ask(&service().await, question).await.json;
     let jacobian_changes_sign = answer["folded"] == true;
     assert_eq!(answer["volume"].is_null(), jacobian_changes_sign);
     assert_eq!(answer["explanation"].is_string(), jacobian_changes_sign);
@@ -120,7 +120,7 @@ async fn a_folded_workspace_has_no_volume_and_says_why() {
 
 #[tokio::test]
 async fn accept_and_format_choose() {
-    let service = service();
+    let service = service().await;
     for (accept, format, media) in [
         (None, None, "application/json"),
         (Some("*/*"), None, "application/json"),

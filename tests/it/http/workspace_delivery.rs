@@ -13,7 +13,7 @@ use super::workspace::ask;
 use super::{get, get_from, json_request, send_to, service};
 
 async fn computed() -> (Router, String) {
-    let service = service();
+    let service = service().await;
     let summary = ask(&service, json!({"kind": "part", "tool_length": 50, "tolerance": 5})).await.json;
     let mesh = summary["links"]["mesh"].as_str().unwrap().to_owned();
     (service, mesh)
@@ -126,7 +126,7 @@ async fn an_unknown_id_says_how_to_get_it() {
         assert!(reply.json["detail"].as_str().unwrap().contains("ask /workspace again"));
     }
     get("/workspace/contains").await.assert_problem(405, "method_not_allowed");
-    let accept = get_from(&service(), &format!("/workspace/{id}"), &[(ACCEPT, "image/png")]).await;
+    let accept = get_from(&service().await, &format!("/workspace/{id}"), &[(ACCEPT, "image/png")]).await;
     accept.assert_problem(406, "not_acceptable");
 }
 
@@ -135,9 +135,9 @@ async fn an_unknown_id_says_how_to_get_it() {
 async fn equal_questions_at_once_are_computed_once() {
     let question = || json_request(Method::POST, "/workspace", json!({"kind": "part", "tolerance": 0.1}));
     let started = Instant::now();
-    send_to(service(), question()).await;
+    send_to(service().await, question()).await;
     let alone = started.elapsed();
-    let service = service();
+    let service = service().await;
     let started = Instant::now();
     let asking: Vec<_> = (0..16).map(|_| tokio::spawn(send_to(service.clone(), question()))).collect();
     let mut bytes = Vec::new();

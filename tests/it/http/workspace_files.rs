@@ -9,7 +9,7 @@ use super::workspace::ask;
 use super::{Reply, get_from, service};
 
 async fn mesh(question: Value, format: &str) -> (Reply, Value) {
-    let service = service();
+    let service = service().await;
     let summary = ask(&service, question).await.json;
     let uri = format!("{}?format={format}", summary["links"]["mesh"].as_str().unwrap());
     (get_from(&service, &uri, &[]).await, summary)

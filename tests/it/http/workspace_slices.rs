@@ -7,7 +7,7 @@ use super::workspace::ask;
 use super::{Reply, get, get_from, service};
 
 async fn cut(kind: &str, query: &str) -> Reply {
-    let service = service();
+    let service = service().await;
     let summary = ask(&service, json!({"kind": kind, "tolerance": 0.1})).await.json;
     let uri = format!("{}/slice?{query}", summary["links"]["self"].as_str().unwrap());
     get_from(&service, &uri, &[]).await
@@ -20,7 +20,7 @@ fn points(ring: &Value) -> Vec<[f64; 2]> {
 
 #[tokio::test]
 async fn slices_add_up_to_the_volume() {
-    let service = service();
+    let service = service().await;
     let summary = ask(&service, json!({"tolerance": 0.1})).await.json;
     let bound = |end: &str| summary["bounds"][end][2].as_f64().unwrap();
     let (low, high) = (bound("min"), bound("max"));
@@ -91,7 +91,7 @@ async fn drawings() {
 
 #[tokio::test]
 async fn slices_are_negotiated_and_tagged() {
-    let service = service();
+    let service = service().await;
     let summary = ask(&service, json!({"tolerance": 20})).await.json;
     let uri = format!("{}/slice?z=1200", summary["links"]["self"].as_str().unwrap());
     for (accept, media) in [

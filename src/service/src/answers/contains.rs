@@ -7,7 +7,7 @@ use verne_solver::workspace::{Membership, Observer, Request, contains};
 use super::batch_rows::{CHUNK, EXPLAINED, Shape};
 use super::workspace_question::{WorkspaceQuestion, workspace_error};
 use crate::error::Error;
-use crate::state::State;
+use crate::registry::Registry;
 use crate::wire::answer::MachineId;
 use crate::wire::batch::{RowError, Rows};
 use crate::wire::contains::{ContainsAnswer, ContainsCounts, ContainsRequest};
@@ -23,15 +23,20 @@ const COARSE: f64 = 1000.0;
 const POINT_BYTES: usize = 96;
 
 /// Answers a batch of points, from its body to the answer's; to be called on the worker threads.
-pub(crate) fn answer_contains(body: &[u8], state: &State, observer: &dyn Observer) -> Result<Vec<u8>, Error> {
+pub(crate) fn answer_contains(
+    body: &[u8],
+    machines: &Registry,
+    most_rows: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<u8>, Error> {
     let asked: ContainsRequest<'_> = parse_body(body)?;
-    let (rows, limit) = (asked.points.len(), state.limits.rows);
+    let (rows, limit) = (asked.points.len(), most_rows);
     if rows > limit {
         return Err(Error::TooManyRows { rows, limit });
     }
     let ContainsRequest { machine, kind, tool_length, phi1, phi2, points } = asked;
     let whole = WorkspaceRequest { machine, kind, tool_length, phi1, phi2, tolerance: COARSE };
-    let question = WorkspaceQuestion::new(&whole, &state.machines)?;
+    let question = WorkspaceQuestion::new(&whole, machines)?;
     let (shape, points) = (Shape { lengths: &[3], words: "[x, y, z]" }, Rows::Text(points));
     let read: Vec<Result<Point, String>> = (0..rows)
         .into_par_iter()

@@ -5,7 +5,7 @@ use verne_solver::{Machine, TableAngles, forward_working, part_pose};
 
 use super::batch_rows::{CHUNK, ROW_BYTES, Shape, Verdict, check_batch, judge, refuse, report};
 use crate::error::Error;
-use crate::state::State;
+use crate::registry::Registry;
 use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Row, Rows};
 use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::json::write_json;
@@ -42,10 +42,10 @@ fn read(body: &[u8]) -> Result<Question<'_>, Error> {
 }
 
 /// Answers a batch, from its body to the answer's; to be called on the worker threads.
-pub(crate) fn answer_fk_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Error> {
+pub(crate) fn answer_fk_batch(body: &[u8], machines: &Registry, most_rows: usize) -> Result<Vec<u8>, Error> {
     let question = read(body)?;
-    check_batch(question.tool_length, question.rows.len(), state.limits.rows)?;
-    let published = state.machines.resolve(&question.machine)?;
+    check_batch(question.tool_length, question.rows.len(), most_rows)?;
+    let published = machines.resolve(&question.machine)?;
     let rows: Vec<_> = (0..question.rows.len())
         .into_par_iter()
         .with_min_len(CHUNK)

@@ -7,7 +7,7 @@ use verne_solver::{
 
 use super::batch_rows::{CHUNK, ROW_BYTES, Shape, Verdict, check_batch, judge, refuse, report};
 use crate::error::Error;
-use crate::state::State;
+use crate::registry::Registry;
 use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, Row, Rows};
 use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::json::write_json;
@@ -33,10 +33,10 @@ fn read(body: &[u8]) -> Result<Question<'_>, Error> {
 }
 
 /// Answers a batch, from its body to the answer's; to be called on the worker threads.
-pub(crate) fn answer_ik_batch(body: &[u8], state: &State) -> Result<Vec<u8>, Error> {
+pub(crate) fn answer_ik_batch(body: &[u8], machines: &Registry, most_rows: usize) -> Result<Vec<u8>, Error> {
     let question = read(body)?;
-    check_batch(question.tool_length, question.rows.len(), state.limits.rows)?;
-    let published = state.machines.resolve(&question.machine)?;
+    check_batch(question.tool_length, question.rows.len(), most_rows)?;
+    let published = machines.resolve(&question.machine)?;
     let (joints, verdicts): (Vec<_>, Vec<_>) = (0..question.rows.len())
         .into_par_iter()
         .with_min_len(CHUNK)

@@ -2,8 +2,7 @@
 
 use verne_solver::workspace::{Observer, Request, slice};
 
-use super::workspace::Workspace;
-use super::workspace_question::workspace_error;
+use super::workspace_question::{WorkspaceQuestion, workspace_error};
 use crate::drawing;
 use crate::error::Error;
 use crate::faults::Faults;
@@ -21,7 +20,8 @@ const SLICE_BYTES: usize = 16 * 1024;
 
 /// Cuts a workspace; to be called on the worker threads.
 pub(crate) fn answer_slice(
-    workspace: &Workspace,
+    question: &WorkspaceQuestion,
+    inclination: Option<f64>,
     z: f64,
     alphas: &Alphas,
     format: SliceFormat,
@@ -30,11 +30,10 @@ pub(crate) fn answer_slice(
     let mut faults = Faults::default();
     faults.length("/z", z);
     faults.into_result()?;
-    let question = &workspace.question;
-    let alphas = angles(alphas, workspace.inclination);
+    let alphas = angles(alphas, inclination);
     let (request, z) = (Request::from(&question.request), z + 0.0);
     let cut = slice(&question.published.machine, &request, z, &alphas, observer).map_err(workspace_error)?;
-    let cut = SliceObject::new(&question.id, question.request.kind.frame(), z, request.tolerance, cut);
+    let cut = SliceObject::new(question.id, question.request.kind.frame(), z, request.tolerance, cut);
     let title =
         format!("{}: {} workspace at z = {z} mm", question.published.id.name, question.request.kind.name());
     match format {

@@ -1,13 +1,12 @@
 //! `/workspace`: volume, area, surface.
 
-use serde_json::{Value, json};
 use verne_mesh::Mesh;
 use verne_solver::workspace::{Measure, Observer, Request, Surface, Volume, measure, surface};
 
+use super::stage::Stage;
 use super::workspace_colours::coloured;
 use super::workspace_question::{WorkspaceQuestion, workspace_error};
 use crate::error::Error;
-use crate::results::Content;
 use crate::wire::json::write_json;
 use crate::wire::numbers::Exactly;
 use crate::wire::workspace_summary::{BoundsObject, Links, WorkspaceSummary};
@@ -24,10 +23,8 @@ const FOLDED: &str = "the workspace folds: some of its positions are reached fro
 /// A computed workspace.
 #[derive(Debug)]
 pub(crate) struct Workspace {
-    /// The question.
-    pub question: WorkspaceQuestion,
     /// The figures, as they are sent.
-    pub summary: Content,
+    pub summary: Vec<u8>,
     /// The surface.
     pub mesh: Mesh,
     /// Greatest |alpha|, rad; nothing for an empty workspace.
@@ -36,16 +33,16 @@ pub(crate) struct Workspace {
 
 /// Computes a workspace; to be called on the worker threads.
 pub(crate) fn compute_workspace(
-    question: WorkspaceQuestion,
+    question: &WorkspaceQuestion,
     observer: &dyn Observer,
 ) -> Result<Workspace, Error> {
     let (machine, request) = (&question.published.machine, Request::from(&question.request));
-    let measuring = Stage { observer, start: 0.0, end: MEASURING };
+    let measuring = Stage::of(observer, 0.0, MEASURING);
     let measure = measure(machine, &request, &measuring).map_err(workspace_error)?;
-    let meshing = Stage { observer, start: MEASURING, end: 1.0 };
+    let meshing = Stage::of(observer, MEASURING, 1.0);
     let mesh = meshed(surface(machine, &request, &meshing).map_err(workspace_error)?)?;
-    let summary = write_json(&summarised(&question, &measure, &mesh), SUMMARY_BYTES)?.into();
-    Ok(Workspace { question, summary, mesh, inclination: measure.inclination })
+    let summary = write_json(&summarised(question, &measure, &mesh), SUMMARY_BYTES)?;
+    Ok(Workspace { summary, mesh, inclination: measure.inclination })
 }
 
 fn meshed(surface: Surface) -> Result<Mesh, Error> {
@@ -63,7 +60,7 @@ fn summarised(question: &WorkspaceQuestion, measure: &Measure, mesh: &Mesh) -> W
     let bounds =
         mesh.bounds().map(|bounds| BoundsObject { min: Exactly(bounds.min), max: Exactly(bounds.max) });
     WorkspaceSummary {
-        id: question.id.clone(),
+        id: question.id.to_string(),
         kind: question.request.kind,
         frame: question.request.kind.frame(),
         request: question.request,
@@ -77,54 +74,6 @@ fn summarised(question: &WorkspaceQuestion, measure: &Measure, mesh: &Mesh) -> W
         triangles: mesh.triangles().len(),
         folded: measure.folded(),
         explanation: measure.folded().then_some(FOLDED),
-        links: Links::of(&question.id),
-    }
-}
-
-impl Workspace {
-    /// About the bytes that it takes in memory.
-    pub(crate) fn bytes(&self) -> usize {
-        let (vertices, triangles) = (self.mesh.positions(), self.mesh.triangles());
-        size_of_val(vertices)
-            + size_of_val(triangles)
-            + triangles.len()
-            + self.summary.bytes.len()
-            + size_of::<Self>()
-    }
-
-    /// What files say about themselves.
-    pub(crate) fn about(&self) -> Value {
-        let WorkspaceQuestion { published, request, id } = &self.question;
-        json!({
-            "unit": "mm",
-            "frame": request.kind.frame(),
-            "kind": request.kind,
-            "request": request,
-            "machine": {
-                "name": published.id.name,
-                "hash": published.id.hash,
-                "description": published.machine.data().description,
-            },
-            "id": id,
-            "solver": concat!("verne ", env!("CARGO_PKG_VERSION")),
-            "constraints": self.mesh.palette(),
-        })
-    }
-}
-
-/// One of several computations: its progress is a part of the whole.
-struct Stage<'a> {
-    observer: &'a dyn Observer,
-    start: f64,
-    end: f64,
-}
-
-impl Observer for Stage<'_> {
-    fn progress(&self, part: f64) {
-        self.observer.progress(self.start + part * (self.end - self.start));
-    }
-
-    fn cancelled(&self) -> bool {
-        self.observer.cancelled()
+        links: Links::of(question.id),
     }
 }

@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use serde_json::Value;
-use verne_mesh::{glb, json, ply, stl};
+use serde_json::{Value, json};
+use verne_mesh::{Mesh, glb, ply, stl};
 
-use super::workspace::Workspace;
+use super::workspace_question::WorkspaceQuestion;
 use crate::error::Error;
 use crate::wire::format::MeshFormat;
 use crate::wire::workspace::FrameName;
@@ -17,32 +17,54 @@ const CREASE: f64 = std::f64::consts::PI / 6.0;
 const TRIANGLE_BYTES: usize = 64;
 
 /// The mesh as a file.
-pub(crate) fn write_mesh(workspace: &Workspace, format: MeshFormat) -> Result<Vec<u8>, Error> {
-    let (mesh, about) = (&workspace.mesh, workspace.about());
+pub(crate) fn write_mesh(
+    question: &WorkspaceQuestion,
+    mesh: &Mesh,
+    format: MeshFormat,
+) -> Result<Vec<u8>, Error> {
+    let about = about(question, mesh);
     let mut file = Vec::with_capacity(TRIANGLE_BYTES * mesh.triangles().len());
     let written = match format {
-        MeshFormat::Glb => glb::write(mesh, &options(workspace, about), &mut file),
-        MeshFormat::Stl => stl::write(mesh, &title(workspace), &mut file),
+        MeshFormat::Glb => glb::write(mesh, &options(question, about), &mut file),
+        MeshFormat::Stl => stl::write(mesh, &title(question), &mut file),
         MeshFormat::Ply => ply::write(mesh, &comments(&about), &mut file),
-        MeshFormat::Json => json::write(mesh, &about, &mut file),
+        MeshFormat::Json => verne_mesh::json::write(mesh, &about, &mut file),
     };
     written.map_err(|_| Error::Internal)?;
     Ok(file)
 }
 
-fn options(workspace: &Workspace, extras: Value) -> glb::Options {
-    let kind = workspace.question.request.kind;
+/// What files say about themselves.
+fn about(question: &WorkspaceQuestion, mesh: &Mesh) -> Value {
+    let WorkspaceQuestion { published, request, id } = question;
+    json!({
+        "unit": "mm",
+        "frame": request.kind.frame(),
+        "kind": request.kind,
+        "request": request,
+        "machine": {
+            "name": published.id.name,
+            "hash": published.id.hash,
+            "description": published.machine.data().description,
+        },
+        "id": id,
+        "solver": concat!("verne ", env!("CARGO_PKG_VERSION")),
+        "constraints": mesh.palette(),
+    })
+}
+
+fn options(question: &WorkspaceQuestion, extras: Value) -> glb::Options {
+    let kind = question.request.kind;
     let up = match kind.frame() {
         FrameName::Base => glb::Up::NegativeZ,
         FrameName::Part => glb::Up::PositiveZ,
     };
-    let name = format!("{} workspace of {}", kind.name(), workspace.question.published.id.name);
+    let name = format!("{} workspace of {}", kind.name(), question.published.id.name);
     glb::Options { name, up, crease: CREASE, extras }
 }
 
 /// A header of STL has little room.
-fn title(workspace: &Workspace) -> String {
-    let question = &workspace.question;
+fn title(question: &WorkspaceQuestion) -> String {
     format!("{} {}, {:.16}", question.published.id.name, question.request.kind.name(), question.id)
 }
 

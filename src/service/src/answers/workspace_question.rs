@@ -8,6 +8,7 @@ use verne_solver::workspace::WorkspaceError;
 use crate::error::{Error, Fault};
 use crate::faults::Faults;
 use crate::registry::{Published, Registry};
+use crate::result_id::ResultId;
 use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest};
 
 /// Finest and coarsest tolerance, mm: at the finest the reference machine's mesh has some 350,000 triangles.
@@ -16,6 +17,12 @@ const TOLERANCES: [f64; 2] = [0.01, 1000.0];
 /// Finest tolerance as a part of the machine's longest dimension: it keeps any machine's mesh to a few million
 /// triangles.
 const FINEST: f64 = 1e-6;
+
+/// About the seconds that a volume takes.
+const VOLUME_COST: f64 = 0.015;
+
+/// About the seconds that a surface takes, times its tolerance as a part of the machine's longest dimension.
+const SURFACE_COST: f64 = 1e-5;
 
 /// Changes when the bytes do that the same question is answered with.
 const LAYOUT: &[u8] = b"verne workspace 1";
@@ -28,7 +35,7 @@ pub(crate) struct WorkspaceQuestion {
     /// What is asked.
     pub request: CanonicalRequest,
     /// The answer's id.
-    pub id: String,
+    pub id: ResultId,
 }
 
 impl WorkspaceQuestion {
@@ -39,16 +46,30 @@ impl WorkspaceQuestion {
         faults.angle("/phi1", Some(asked.phi1));
         faults.angle("/phi2", Some(asked.phi2));
         let resolved = machines.resolve(&asked.machine);
-        let [mut finest, coarsest] = TOLERANCES;
-        if let Ok(published) = &resolved {
-            finest = finest.max(FINEST * longest(published.machine.data()));
-        }
-        if !(finest..=coarsest).contains(&asked.tolerance) {
-            faults.add("/tolerance", format!("must be a number from {finest} to {coarsest} mm"));
-        }
+        check_tolerance(asked.tolerance, resolved.as_deref().ok(), &mut faults);
         faults.into_result()?;
-        let (published, request) = (resolved?, CanonicalRequest::from(asked));
-        Ok(Self { id: id(&published, &request), published, request })
+        Ok(Self::of(resolved?, CanonicalRequest::from(asked)))
+    }
+
+    /// A question that was checked before.
+    pub(crate) fn of(published: Arc<Published>, request: CanonicalRequest) -> Self {
+        Self { id: id(&published, &request), published, request }
+    }
+
+    /// Estimated work, seconds of one core: what the reference machine's mesh takes at the same fraction of its size.
+    pub(crate) fn cost(&self) -> f64 {
+        VOLUME_COST + SURFACE_COST * longest(self.published.machine.data()) / self.request.tolerance
+    }
+}
+
+/// Refuses a tolerance that is too fine for the machine, or no tolerance.
+pub(super) fn check_tolerance(tolerance: f64, published: Option<&Published>, faults: &mut Faults) {
+    let [mut finest, coarsest] = TOLERANCES;
+    if let Some(published) = published {
+        finest = finest.max(FINEST * longest(published.machine.data()));
+    }
+    if !(finest..=coarsest).contains(&tolerance) {
+        faults.add("/tolerance", format!("must be a number from {finest} to {coarsest} mm"));
     }
 }
 
@@ -57,8 +78,8 @@ fn longest(machine: &MachineData) -> f64 {
     [g.L1, g.L2, g.L3, g.R1, g.R2, g.r1, g.r4].into_iter().fold(0.0, f64::max)
 }
 
-/// BLAKE3, in hex. The machine's name and description count here: the answer shows them.
-fn id(published: &Published, request: &CanonicalRequest) -> String {
+/// BLAKE3. The machine's name and description count here: the answer shows them.
+fn id(published: &Published, request: &CanonicalRequest) -> ResultId {
     let mut hasher = blake3::Hasher::new();
     let kind = match request.kind {
         KindName::Platform => 0,
@@ -73,7 +94,7 @@ fn id(published: &Published, request: &CanonicalRequest) -> String {
         // Hashed by itself, a text cannot run into the next one.
         hasher.update(blake3::hash(text.as_bytes()).as_bytes());
     }
-    hasher.finalize().to_hex().to_string()
+    hasher.finalize().into()
 }
 
 /// What the solver refuses, in the words of the request.
@@ -89,7 +110,6 @@ pub(crate) fn workspace_error(error: WorkspaceError) -> Error {
             "/tolerance",
             "gives a surface that cannot be closed on this machine; a finer or coarser one may do",
         )]),
-        // Only what nobody waits for any more is cancelled.
-        WorkspaceError::Cancelled => Error::TimedOut,
+        WorkspaceError::Cancelled => Error::Cancelled,
     }
 }

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::progress::Bar;
 use super::question::{in_flags, machine, written};
-use crate::answers::{Workspace, WorkspaceQuestion, answer_slice, compute_workspace, write_mesh};
+use crate::answers::{WorkspaceQuestion, answer_slice, compute_workspace, write_mesh};
 use crate::error::{Error, Fault};
 use crate::registry::Registry;
 use crate::wire::alphas::Alphas;
@@ -49,18 +49,18 @@ impl WorkspaceCommand {
         let machine = machine(&self.query.machine)?;
         let request = WorkspaceRequest { machine, ..self.query.into_request() };
         let bar = Bar::new();
-        let workspace = WorkspaceQuestion::new(&request, &Registry::default())
-            .and_then(|question| compute_workspace(question, &bar))
-            .map_err(in_flags)?;
+        let question = WorkspaceQuestion::new(&request, &Registry::default()).map_err(in_flags)?;
+        let workspace = compute_workspace(&question, &bar).map_err(in_flags)?;
         let slice = |format| {
             let z = self.slice.unwrap_or_default();
-            answer_slice(&workspace, z, &self.alpha, format, &bar).map_err(|error| in_flags(named(error)))
+            answer_slice(&question, workspace.inclination, z, &self.alpha, format, &bar)
+                .map_err(|error| in_flags(named(error)))
         };
         let bytes = match &wanted {
-            Some(Wanted::Mesh(format)) => write_mesh(&workspace, *format).map_err(in_flags)?,
+            Some(Wanted::Mesh(format)) => write_mesh(&question, &workspace.mesh, *format).map_err(in_flags)?,
             Some(Wanted::Slice(format)) => slice(*format)?,
             None if self.slice.is_some() => slice(SliceFormat::Json)?,
-            None => summary(&workspace),
+            None => workspace.summary,
         };
         drop(bar);
         match self.output {
@@ -81,10 +81,6 @@ impl WorkspaceCommand {
         };
         wanted.map_err(|_| format!("--output {} must end in {known}", path.display()))
     }
-}
-
-fn summary(workspace: &Workspace) -> Vec<u8> {
-    workspace.summary.bytes.to_vec()
 }
 
 fn print(json: &[u8], out: &mut impl Write, pretty: bool) -> Result<(), String> {

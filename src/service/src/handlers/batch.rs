@@ -27,7 +27,7 @@ fn json(body: Vec<u8>) -> JsonBytes {
     responses((status = 200, description = "One entry for each row.", body = FkBatchAnswer), BatchProblems)
 )]
 pub(crate) async fn fk_batch(State(state): State<Shared>, Batch(body): Batch) -> Result<JsonBytes, Error> {
-    on_workers(move || answer_fk_batch(&body, &state)).await.map(json)
+    on_workers(move || answer_fk_batch(&body, &state.machines, state.limits.rows)).await.map(json)
 }
 
 /// Inverse kinematics of many rows
@@ -40,5 +40,5 @@ pub(crate) async fn fk_batch(State(state): State<Shared>, Batch(body): Batch) ->
     responses((status = 200, description = "One entry for each row.", body = IkBatchAnswer), BatchProblems)
 )]
 pub(crate) async fn ik_batch(State(state): State<Shared>, Batch(body): Batch) -> Result<JsonBytes, Error> {
-    on_workers(move || answer_ik_batch(&body, &state)).await.map(json)
+    on_workers(move || answer_ik_batch(&body, &state.machines, state.limits.rows)).await.map(json)
 }

@@ -25,6 +25,6 @@ pub(crate) async fn post_contains(
     Batch(body): Batch,
 ) -> Result<([(HeaderName, &'static str); 1], Vec<u8>), Error> {
     let answer =
-        on_workers_while_waited_for(move |observer| answer_contains(&body, &state, observer)).await?;
+        on_workers_while_waited_for(move |observer| answer_contains(&body, &state.machines, state.limits.rows, observer)).await?;
     Ok(([(CONTENT_TYPE, "application/json")], answer))
 }

@@ -4,9 +4,12 @@ use axum::Json;
 use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::header::{CONTENT_TYPE, HeaderName};
+use axum::response::IntoResponse;
 
 use crate::error::Error;
-use crate::openapi::problems::ServiceProblems;
+use crate::metrics::OPEN_METRICS;
+use crate::openapi::binary::Text;
+use crate::openapi::problems::{ReadyProblems, ServiceProblems};
 use crate::state::Shared;
 use crate::wire::catalogue::Health;
 
@@ -34,13 +37,31 @@ pub(crate) async fn get_livez() -> Json<Health> {
 
 /// Readiness
 ///
-/// The machines are loaded: questions are answered. Until then the port is closed.
+/// Questions are answered, jobs are taken and results are kept. Not while the service is stopping, nor while the disk
+/// takes nothing.
 #[utoipa::path(
     get, path = "/readyz", operation_id = "readyz", tag = "service",
-    responses((status = 200, description = "It is ready.", body = Health), ServiceProblems)
+    responses((status = 200, description = "It is ready.", body = Health), ReadyProblems)
 )]
-pub(crate) async fn get_readyz() -> Json<Health> {
-    Json(Health { status: "ok" })
+pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Health>, Error> {
+    if state.stopping.is_cancelled() {
+        return Err(Error::Stopping);
+    }
+    state.results.healthy().await?;
+    Ok(Json(Health { status: "ok" }))
+}
+
+/// Metrics
+///
+/// In the text format of Prometheus: jobs and results.
+#[utoipa::path(
+    get, path = "/metrics", operation_id = "metrics", tag = "service",
+    responses((status = 200, description = "The metrics.", content((Text = "application/openmetrics-text"))),
+        ServiceProblems)
+)]
+pub(crate) async fn get_metrics(State(state): State<Shared>) -> Result<impl IntoResponse, Error> {
+    let text = state.metrics.text().map_err(|_| Error::Internal)?;
+    Ok(([(CONTENT_TYPE, OPEN_METRICS)], text))
 }
 
 /// What is asked for where nothing lives.

@@ -1,24 +1,28 @@
 //! `/workspace`.
 
-use std::sync::Arc;
-
-use axum::extract::State;
+use axum::extract::State as Extracted;
 use axum::response::Response;
+use verne_store::Content;
 
-use crate::answers::{Workspace, WorkspaceQuestion, compute_workspace, write_mesh};
+use super::jobs::accepted;
+use crate::answers::{FamilyQuestion, Question, WorkspaceQuestion, write_mesh};
 use crate::delivery::{Conditions, Delivery};
 use crate::error::Error;
 use crate::extract::{Params, Single};
 use crate::negotiation::Accept;
+use crate::obtain::{Obtained, Patience};
 use crate::openapi::binary::{Binary, SummaryOrMesh};
 use crate::openapi::problems::{WorkspaceBodyProblems, WorkspaceQueryProblems};
-use crate::results::Content;
-use crate::state::Shared;
+use crate::prefer::Prefer;
+use crate::result_id::ResultId;
+use crate::results::Record;
+use crate::state::{Shared, State};
+use crate::wire::family::WorkspaceBody;
 use crate::wire::format::MeshFormat;
+use crate::wire::job::JobObject;
 use crate::wire::query::point_into_query;
-use crate::wire::workspace::WorkspaceRequest;
 use crate::wire::workspace_query::{MeshQuery, WorkspaceQuery};
-use crate::workers::{on_workers, on_workers_while_waited_for};
+use crate::workers::on_workers;
 
 /// The answer depends on the published machines, which change only with a restart.
 const FOR_A_WHILE: &str = "public, max-age=300";
@@ -27,7 +31,9 @@ const FOR_A_WHILE: &str = "public, max-age=300";
 ///
 /// Volume, area and bounds of the positions that the working mode reaches within every limit; or, by `format` or
 /// Accept (`model/gltf-binary`, `model/stl`, `model/ply`), its surface as a watertight mesh, coloured by what limits
-/// it. `format=json` is the mesh as JSON, Accept: application/json the summary.
+/// it. `format=json` is the mesh as JSON, Accept: application/json the summary. What takes longer than the wait is
+/// answered with the job that computes it; the header `Prefer: wait=N` sets the wait, `Prefer: respond-async` skips it
+/// (RFC 7240).
 #[utoipa::path(
     get, path = "/workspace", operation_id = "workspace", tag = "workspace", params(WorkspaceQuery),
     responses(
@@ -35,47 +41,63 @@ const FOR_A_WHILE: &str = "public, max-age=300";
             (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
             (Binary = "model/ply"),
         )),
+        (status = 202, description = "The job that computes it, at the path in Location.", body = JobObject),
         WorkspaceQueryProblems
     )
 )]
 pub(crate) async fn get_workspace(
-    State(state): State<Shared>,
+    Extracted(state): Extracted<Shared>,
     Params(query): Params<WorkspaceQuery>,
     accept: Accept,
+    prefer: Prefer,
     conditions: Conditions,
 ) -> Result<Response, Error> {
     let wanted = wanted(query.format, &accept)?;
     let question =
         WorkspaceQuestion::new(&query.into_request(), &state.machines).map_err(point_into_query)?;
-    let delivery = answer(&state, question, wanted).await.map_err(point_into_query)?;
-    Delivery { cache_control: Some(FOR_A_WHILE), ..delivery }.answer(&conditions)
+    let obtained = answer(&state, question, wanted, &prefer.patience).await.map_err(point_into_query)?;
+    let fresh = |delivery| Delivery { cache_control: Some(FOR_A_WHILE), ..delivery };
+    respond(obtained, fresh, prefer, &conditions)
 }
 
-/// A workspace, of a machine of one's own
+/// A workspace, or a family of them, of a machine of one's own
 ///
-/// The question of GET /workspace as JSON; `machine` may be a whole machine. The result is then kept for a while
-/// under its id, for GET.
+/// The question of GET /workspace as JSON; `machine` may be a whole machine. The result is kept under its id, for GET.
+/// Where `tool_length`, `phi1` or `phi2` is a list or a range in steps, the answer is the table of all combinations, and
+/// each of them is kept under an id of its own.
 #[utoipa::path(
     post, path = "/workspace", operation_id = "workspace_post", tag = "workspace", params(MeshQuery),
-    request_body(content = WorkspaceRequest, description = "Which workspace, how exactly."),
+    request_body(content = WorkspaceBody, description = "Which workspace or workspaces, how exactly."),
     responses(
-        (status = 200, description = "The summary, or the mesh.", content(
+        (status = 200, description = "The summary, the table, or the mesh.", content(
             (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
             (Binary = "model/ply"),
         )),
+        (status = 202, description = "The job that computes it, at the path in Location.", body = JobObject),
         WorkspaceBodyProblems
     )
 )]
 pub(crate) async fn post_workspace(
-    State(state): State<Shared>,
+    Extracted(state): Extracted<Shared>,
     Params(query): Params<MeshQuery>,
     accept: Accept,
+    prefer: Prefer,
     conditions: Conditions,
-    Single(request): Single<WorkspaceRequest>,
+    Single(body): Single<WorkspaceBody>,
 ) -> Result<Response, Error> {
-    let wanted = wanted(query.format, &accept)?;
-    let question = WorkspaceQuestion::new(&request, &state.machines)?;
-    answer(&state, question, wanted).await?.answer(&conditions)
+    let obtained = if let Some(single) = body.single() {
+        let wanted = wanted(query.format, &accept)?;
+        let question = WorkspaceQuestion::new(&single, &state.machines)?;
+        answer(&state, question, wanted, &prefer.patience).await?
+    } else {
+        let question = FamilyQuestion::new(&body, &state.machines)?;
+        match query.format {
+            Some(_) => return Err(Error::NoMesh(question.id.to_string())),
+            None => accept.choose([("application/json", ())])?,
+        }
+        figures(&state, &Question::Family(question), &prefer.patience).await?
+    };
+    respond(obtained, |delivery| delivery, prefer, &conditions)
 }
 
 /// The mesh's format, or nothing for the summary.
@@ -89,46 +111,86 @@ fn wanted(format: Option<MeshFormat>, accept: &Accept) -> Result<Option<MeshForm
 }
 
 async fn answer(
-    state: &Shared,
+    state: &State,
     question: WorkspaceQuestion,
     wanted: Option<MeshFormat>,
-) -> Result<Delivery, Error> {
-    let id = question.id.clone();
-    let compute = on_workers_while_waited_for(move |observer| compute_workspace(question, observer));
-    let workspace = state.results.workspace(&id, compute).await?;
+    patience: &Patience,
+) -> Result<Obtained<Delivery>, Error> {
     match wanted {
-        None => Ok(summary(&workspace)),
-        Some(format) => {
-            let content = state.results.file(&id, format, written(workspace, format)).await?;
-            Ok(mesh(&id, format, content))
-        }
+        None => figures(state, &Question::Workspace(question), patience).await,
+        Some(format) => mesh(state, question, format, patience).await,
     }
 }
 
-/// Writes a workspace's mesh on the worker threads.
-pub(super) async fn written(workspace: Arc<Workspace>, format: MeshFormat) -> Result<Content, Error> {
-    on_workers(move || write_mesh(&workspace, format).map(Content::from)).await
+/// The figures that answer a question.
+async fn figures(
+    state: &State,
+    question: &Question,
+    patience: &Patience,
+) -> Result<Obtained<Delivery>, Error> {
+    Ok(match state.obtain(question, patience).await? {
+        Obtained::Ready(record) => Obtained::Ready(summary(record)),
+        Obtained::Pending(job) => Obtained::Pending(job),
+    })
+}
+
+/// A workspace's mesh in a format. The mesh itself may have left the store before the figures did.
+pub(super) async fn mesh(
+    state: &State,
+    question: WorkspaceQuestion,
+    format: MeshFormat,
+    patience: &Patience,
+) -> Result<Obtained<Delivery>, Error> {
+    let id = question.id;
+    if let Some(content) = state.results.file(id, format).await {
+        return Ok(Obtained::Ready(file(id, format, content)));
+    }
+    let mut mesh = state.results.mesh(id).await;
+    if mesh.is_none() {
+        if let Obtained::Pending(job) = state.compute(&Question::Workspace(question.clone()), patience).await? {
+            return Ok(Obtained::Pending(job));
+        }
+        mesh = state.results.mesh(id).await;
+    }
+    let mesh = mesh.ok_or(Error::NoRoom)?;
+    let write = on_workers(move || write_mesh(&question, &mesh, format));
+    Ok(Obtained::Ready(file(id, format, state.results.file_or(id, format, write).await?)))
+}
+
+/// Sends the answer, or the address of the job that will have it.
+pub(super) fn respond(
+    obtained: Obtained<Delivery>,
+    describe: impl FnOnce(Delivery) -> Delivery,
+    prefer: Prefer,
+    conditions: &Conditions,
+) -> Result<Response, Error> {
+    let mut response = match obtained {
+        Obtained::Ready(delivery) => describe(delivery).answer(conditions)?,
+        Obtained::Pending(job) => accepted(&job)?,
+    };
+    prefer.tell(&mut response);
+    Ok(response)
 }
 
 /// Sends a summary.
-pub(super) fn summary(workspace: &Workspace) -> Delivery {
+pub(super) fn summary(record: Record) -> Delivery {
     Delivery {
-        content: workspace.summary.clone(),
+        location: record.question.id().path(),
+        content: record.summary,
         media: "application/json",
         cache_control: None,
-        location: format!("/workspace/{}", workspace.question.id),
         file_name: None,
     }
 }
 
 /// Sends a mesh.
-pub(super) fn mesh(id: &str, format: MeshFormat, content: Content) -> Delivery {
+fn file(id: ResultId, format: MeshFormat, content: Content) -> Delivery {
     let name = format.name();
     Delivery {
         content,
         media: format.media(),
         cache_control: None,
-        location: format!("/workspace/{id}/mesh?format={name}"),
+        location: format!("{}/mesh?format={name}", id.path()),
         file_name: Some(format!("workspace-{id:.8}.{name}")),
     }
 }

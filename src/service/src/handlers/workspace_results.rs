@@ -4,21 +4,22 @@ use axum::extract::rejection::PathRejection;
 use axum::extract::{Path, State};
 use axum::response::Response;
 
-use super::workspace::{mesh, summary, written};
-use crate::answers::answer_slice;
+use super::workspace::{mesh, respond, summary};
+use crate::answers::{Question, WorkspaceQuestion, answer_slice};
 use crate::delivery::{Conditions, Delivery, FOR_EVER};
 use crate::error::Error;
 use crate::extract::Params;
 use crate::negotiation::Accept;
-use crate::openapi::binary::{Binary, Text};
-use crate::openapi::problems::{KeptProblems, KeptQueryProblems};
-use crate::results::Content;
+use crate::openapi::binary::{Binary, Summary, Text};
+use crate::openapi::problems::{KeptProblems, KeptQueryProblems, MeshProblems};
+use crate::prefer::Prefer;
+use crate::results::{Record, content};
 use crate::state::Shared;
 use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::query::point_into_query;
 use crate::wire::slice::SliceObject;
 use crate::wire::workspace_query::{MeshQuery, SliceQuery};
-use crate::wire::workspace_summary::WorkspaceSummary;
+use crate::wire::job::JobObject;
 use crate::workers::on_workers_while_waited_for;
 
 type Id = Result<Path<String>, PathRejection>;
@@ -30,7 +31,10 @@ type Id = Result<Path<String>, PathRejection>;
 #[utoipa::path(
     get, path = "/workspace/{id}", operation_id = "workspace_summary", tag = "workspace",
     params(("id" = String, Path, description = "The id that /workspace answered.")),
-    responses((status = 200, description = "The summary.", body = WorkspaceSummary), KeptProblems)
+    responses(
+        (status = 200, description = "The summary, or the table of a family.", body = Summary),
+        KeptProblems
+    )
 )]
 pub(crate) async fn get_summary(
     State(state): State<Shared>,
@@ -38,9 +42,9 @@ pub(crate) async fn get_summary(
     accept: Accept,
     conditions: Conditions,
 ) -> Result<Response, Error> {
-    let Path(id) = id.map_err(|_| Error::NoSuchPath)?;
+    let id = id.map_err(|_| Error::NoSuchPath)?;
     accept.choose([("application/json", ())])?;
-    let delivery = summary(state.results.kept(&id).await?.as_ref());
+    let delivery = summary(kept(&state, id).await?);
     Delivery { cache_control: Some(FOR_EVER), ..delivery }.answer(&conditions)
 }
 
@@ -56,7 +60,9 @@ pub(crate) async fn get_summary(
             (Binary = "model/gltf-binary"), (Binary = "model/stl"), (Binary = "model/ply"),
             (Object = "application/json"),
         )),
-        KeptQueryProblems
+        (status = 202, description = "The mesh has made room for others: the job that computes it again.",
+            body = JobObject),
+        MeshProblems
     )
 )]
 pub(crate) async fn get_mesh(
@@ -64,16 +70,18 @@ pub(crate) async fn get_mesh(
     id: Id,
     Params(query): Params<MeshQuery>,
     accept: Accept,
+    prefer: Prefer,
     conditions: Conditions,
 ) -> Result<Response, Error> {
-    let Path(id) = id.map_err(|_| Error::NoSuchPath)?;
+    let id = id.map_err(|_| Error::NoSuchPath)?;
     let format = match query.format {
         Some(format) => format,
         None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format)))?,
     };
-    let write = async { written(state.results.kept(&id).await?, format).await };
-    let delivery = mesh(&id, format, state.results.file(&id, format, write).await?);
-    Delivery { cache_control: Some(FOR_EVER), ..delivery }.answer(&conditions)
+    let (question, _) = workspace(kept(&state, id).await?)?;
+    let obtained = mesh(&state, question, format, &prefer.patience).await?;
+    let kept = |delivery| Delivery { cache_control: Some(FOR_EVER), ..delivery };
+    respond(obtained, kept, prefer, &conditions)
 }
 
 /// A computed workspace cut at one height
@@ -98,7 +106,7 @@ pub(crate) async fn get_slice(
     accept: Accept,
     conditions: Conditions,
 ) -> Result<Response, Error> {
-    let Path(id) = id.map_err(|_| Error::NoSuchPath)?;
+    let id = id.map_err(|_| Error::NoSuchPath)?;
     let SliceQuery { z, alpha, format } = query;
     let (format, media) = match format {
         Some(format) => (format, format.media()[0]),
@@ -108,16 +116,33 @@ pub(crate) async fn get_slice(
                 .flat_map(|format| format.media().iter().map(move |&media| (media, (format, media)))),
         )?,
     };
-    let workspace = state.results.kept(&id).await?;
+    let (question, inclination) = workspace(kept(&state, id).await?)?;
+    let id = question.id;
     let cut = on_workers_while_waited_for(move |observer| {
-        answer_slice(&workspace, z, &alpha, format, observer).map(Content::from)
+        answer_slice(&question, inclination, z, &alpha, format, observer).map(content)
     });
     let delivery = Delivery {
         content: cut.await.map_err(point_into_query)?,
         media,
         cache_control: Some(FOR_EVER),
-        location: format!("/workspace/{id}/slice?z={z}&format={}", format.name()),
+        location: format!("{}/slice?z={z}&format={}", id.path(), format.name()),
         file_name: Some(format!("slice-{id:.8}.{}", format.name())),
     };
     delivery.answer(&conditions)
+}
+
+/// The record under an id.
+async fn kept(state: &Shared, Path(id): Path<String>) -> Result<Record, Error> {
+    match id.parse() {
+        Ok(known) => state.results.record(known).await.ok_or(Error::NoSuchWorkspace(id)),
+        Err(_) => Err(Error::NoSuchWorkspace(id)),
+    }
+}
+
+/// The one workspace that a record is of, and its greatest |alpha|.
+fn workspace(record: Record) -> Result<(WorkspaceQuestion, Option<f64>), Error> {
+    match record.question {
+        Question::Workspace(question) => Ok((question, record.inclination)),
+        Question::Family(family) => Err(Error::NoMesh(family.id.to_string())),
+    }
 }

@@ -27,13 +27,32 @@ impl PartialSchema for Text {
 
 impl ToSchema for Text {}
 
+/// The summary of a workspace, or the table of a family.
+pub(crate) struct Summary;
+
 /// A summary, or with `format=json` a mesh.
 pub(crate) struct SummaryOrMesh;
+
+fn any_of(schemas: impl IntoIterator<Item = RefOr<Schema>>) -> RefOr<Schema> {
+    schemas.into_iter().fold(AnyOfBuilder::new(), AnyOfBuilder::item).into()
+}
+
+fn summaries() -> [RefOr<Schema>; 2] {
+    ["WorkspaceSummary", "FamilySummary"].map(|name| Ref::from_schema_name(name).into())
+}
+
+impl PartialSchema for Summary {
+    fn schema() -> RefOr<Schema> {
+        any_of(summaries())
+    }
+}
+
+impl ToSchema for Summary {}
 
 impl PartialSchema for SummaryOrMesh {
     fn schema() -> RefOr<Schema> {
         let mesh = ObjectBuilder::new().schema_type(Type::Object).required("positions").required("indices");
-        AnyOfBuilder::new().item(Ref::from_schema_name("WorkspaceSummary")).item(mesh).into()
+        any_of(summaries().into_iter().chain([mesh.into()]))
     }
 }
 

@@ -1,6 +1,5 @@
 //! An example of each operation: the request here, the answer from the solver.
 
-use axum::body::Bytes;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use verne_solver::workspace::Unobserved;
@@ -13,13 +12,15 @@ use crate::error::Error;
 use crate::handlers::machines;
 use crate::openapi::machine_schema::machine_schema;
 use crate::registry::Registry;
-use crate::results::Results;
-use crate::state::{RequestLimits, State};
 use crate::wire::alphas::Alphas;
 use crate::wire::catalogue::Health;
+use crate::wire::family::WorkspaceBody;
 use crate::wire::format::SliceFormat;
 use crate::wire::parse::{parse_body, parse_query};
 use crate::wire::query::{FkQuery, IkQuery};
+
+/// Rows that an example may have.
+const ROWS: usize = 100;
 
 /// How an example asks.
 enum Asked {
@@ -61,16 +62,11 @@ impl Example {
 
 /// An example of each operation but the document's own.
 pub(super) fn examples() -> Vec<Example> {
-    let state = State {
-        machines: Registry::default(),
-        limits: RequestLimits { body_bytes: usize::MAX, rows: usize::MAX },
-        results: Results::within(0),
-        openapi: Bytes::new(),
-    };
-    let mut examples = of_the_service(&state.machines);
-    examples.extend(of_queries(&state.machines));
-    examples.extend(of_bodies(&state));
-    examples.extend(of_workspaces(&state));
+    let machines = Registry::default();
+    let mut examples = of_the_service(&machines);
+    examples.extend(of_queries(&machines));
+    examples.extend(of_bodies(&machines));
+    examples.extend(of_workspaces(&machines));
     examples
 }
 
@@ -83,6 +79,7 @@ fn of_the_service(registry: &Registry) -> Vec<Example> {
     };
     let health = json!(Health { status: "ok" });
     vec![
+        Example { method: "get", path: "/metrics", asked: Asked::Parameters(json!({})), answer: None },
         get("/livez", json!({}), health.clone()),
         get("/readyz", json!({}), health),
         get("/machines", json!({}), json!(machines::list(registry))),
@@ -114,8 +111,7 @@ fn of_queries(registry: &Registry) -> Vec<Example> {
     ]
 }
 
-fn of_bodies(state: &State) -> Vec<Example> {
-    let registry = &state.machines;
+fn of_bodies(registry: &Registry) -> Vec<Example> {
     vec![
         post(
             "/fk",
@@ -137,41 +133,49 @@ fn of_bodies(state: &State) -> Vec<Example> {
         post(
             "/fk/batch",
             json!({"joints": [[674, 685, 250], [400, 400, 400, 10, 90], null, [0, 0, 5000]], "tool_length": 50}),
-            |body| answer_fk_batch(body, state).and_then(|answer| parse_body(&answer)),
+            |body| answer_fk_batch(body, registry, ROWS).and_then(|answer| parse_body(&answer)),
         ),
         post(
             "/ik/batch",
             json!({"frame": "part", "tool_length": 50,
                    "poses": [[100, 50, 150, 0, 0], [100, 50, 150, 30, 90], [0, 0, 900, 0, 0], [1, 2], [5000, 0, 0, 0, 0]]}),
-            |body| answer_ik_batch(body, state).and_then(|answer| parse_body(&answer)),
+            |body| answer_ik_batch(body, registry, ROWS).and_then(|answer| parse_body(&answer)),
         ),
     ]
 }
 
-fn of_workspaces(state: &State) -> Vec<Example> {
+fn of_workspaces(machines: &Registry) -> Vec<Example> {
     let asked = json!({"machine": "verne", "kind": "part", "tool_length": 50, "phi1": 30, "tolerance": 10});
     let question = parse_body(asked.to_string().as_bytes())
-        .and_then(|request| WorkspaceQuestion::new(&request, &state.machines));
-    let workspace = question.and_then(|question| compute_workspace(question, &Unobserved));
-    let summary = workspace.as_ref().map_err(Clone::clone).and_then(|found| parse_body(&found.summary.bytes));
-    let slice = workspace.as_ref().map_err(Clone::clone).and_then(|found| {
-        let alphas = Alphas::These(vec![0.0]);
-        answer_slice(found, 300.0, &alphas, SliceFormat::Json, &Unobserved).and_then(|text| parse_body(&text))
+        .and_then(|body: WorkspaceBody| body.single().ok_or(Error::Internal))
+        .and_then(|request| WorkspaceQuestion::new(&request, machines));
+    let computed = question.clone().and_then(|question| {
+        compute_workspace(&question, &Unobserved).map(|computed| (question, computed))
     });
-    let id = workspace.map(|found| found.question.id).unwrap_or_default();
+    let summary = computed.as_ref().map_err(Clone::clone).and_then(|(_, found)| parse_body(&found.summary));
+    let slice = computed.as_ref().map_err(Clone::clone).and_then(|(question, found)| {
+        let alphas = Alphas::These(vec![0.0]);
+        answer_slice(question, found.inclination, 300.0, &alphas, SliceFormat::Json, &Unobserved)
+            .and_then(|text| parse_body(&text))
+    });
+    let id = question.map(|question| question.id.to_string()).unwrap_or_default();
     let get = |path, asked, answer| Example { method: "get", path, asked: Asked::Parameters(asked), answer };
     let summary: Value = answered(summary as Result<Value, Error>);
     let slice: Value = answered(slice as Result<Value, Error>);
     vec![
         get("/workspace", asked.clone(), Some(summary.clone())),
         post("/workspace", asked, |_| Ok(summary.clone())),
+        get("/jobs", json!({"state": "failed", "limit": 10}), Some(json!({"jobs": [], "next": null}))),
+        get("/jobs/{id}", json!({"id": id}), None),
+        get("/jobs/{id}/events", json!({"id": id}), None),
+        Example { method: "delete", path: "/jobs/{id}", asked: Asked::Parameters(json!({"id": id})), answer: None },
         get("/workspace/{id}", json!({"id": id}), Some(summary.clone())),
         get("/workspace/{id}/mesh", json!({"id": id, "format": "glb"}), None),
         get("/workspace/{id}/slice", json!({"id": id, "z": 300, "alpha": "0"}), Some(slice)),
         post(
             "/workspace/contains",
             json!({"kind": "part", "tool_length": 50, "points": [[100, 50, 150], [0, 0, 900], null, [5000, 0, 0]]}),
-            |body| answer_contains(body, state, &Unobserved).and_then(|answer| parse_body(&answer)),
+            |body| answer_contains(body, machines, ROWS, &Unobserved).and_then(|answer| parse_body(&answer)),
         ),
     ]
 }

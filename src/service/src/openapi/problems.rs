@@ -9,6 +9,10 @@ use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder};
 use crate::error::{Error, Fault};
 use crate::problem::{PROBLEM_JSON, Problem};
 
+/// Every reason for 503.
+const BUSY: &str = "The queue is full, the service is stopping, jobs cannot be recorded, or the answer took too long \
+                    (`queue_full`, `stopping`, `jobs_unavailable`, `timed_out`, `job_too_long`).";
+
 type Responses = BTreeMap<String, RefOr<Response>>;
 
 /// Failures of every operation.
@@ -35,8 +39,17 @@ pub(crate) struct KeptProblems;
 /// Failures of asking for a result by its id and parameters.
 pub(crate) struct KeptQueryProblems;
 
+/// Failures of asking for a mesh by its id.
+pub(crate) struct MeshProblems;
+
 /// Failures of asking for a machine by name.
 pub(crate) struct MachineProblems;
+
+/// Failures of asking for a job by its id.
+pub(crate) struct JobProblems;
+
+/// Failures of asking whether the service is ready.
+pub(crate) struct ReadyProblems;
 
 impl IntoResponses for ServiceProblems {
     fn responses() -> Responses {
@@ -77,20 +90,21 @@ impl IntoResponses for BatchProblems {
 
 impl IntoResponses for WorkspaceQueryProblems {
     fn responses() -> Responses {
-        with(QueryProblems::responses(), [not_acceptable(), beyond_the_end()])
+        with(with(QueryProblems::responses(), [not_acceptable(), beyond_the_end()]), of_jobs())
     }
 }
 
 impl IntoResponses for WorkspaceBodyProblems {
     fn responses() -> Responses {
-        with(BodyProblems::responses(), [not_acceptable()])
+        let no_mesh = documented("A family has no mesh (`no_mesh`).", Error::NoMesh("1f2e".to_owned()));
+        with(with(BodyProblems::responses(), [not_acceptable(), no_mesh]), of_jobs())
     }
 }
 
 impl IntoResponses for KeptProblems {
     fn responses() -> Responses {
         let unknown = Error::NoSuchWorkspace("1f2e".to_owned());
-        let unknown = documented("No result is kept under this id (`workspace_not_found`).", unknown);
+        let unknown = documented("No result is kept under this id, or it has no mesh (`workspace_not_found`, `no_mesh`).", unknown);
         with(ServiceProblems::responses(), [unknown, not_acceptable(), beyond_the_end()])
     }
 }
@@ -99,6 +113,42 @@ impl IntoResponses for KeptQueryProblems {
     fn responses() -> Responses {
         with(QueryProblems::responses(), KeptProblems::responses())
     }
+}
+
+impl IntoResponses for MeshProblems {
+    fn responses() -> Responses {
+        with(KeptQueryProblems::responses(), of_jobs())
+    }
+}
+
+impl IntoResponses for JobProblems {
+    fn responses() -> Responses {
+        let unknown = Error::NoSuchJob("1f2e".to_owned());
+        with(
+            ServiceProblems::responses(),
+            [
+                documented("No job is known under this id (`job_not_found`).", unknown),
+                documented(BUSY, Error::JobsUnavailable),
+            ],
+        )
+    }
+}
+
+impl IntoResponses for ReadyProblems {
+    fn responses() -> Responses {
+        let words = "It is stopping, or the disk takes nothing (`stopping`, `disk_failing`).";
+        with(ServiceProblems::responses(), [documented(words, Error::DiskFailing)])
+    }
+}
+
+/// Failures of waiting for a job.
+fn of_jobs() -> [(String, RefOr<Response>); 3] {
+    [
+        documented(BUSY, Error::QueueFull(12)),
+        documented("The job was cancelled, or asked for by another version (`job_cancelled`, `other_version`).",
+            Error::JobCancelled),
+        documented("The result is larger than the room for results (`no_room`).", Error::NoRoom),
+    ]
 }
 
 fn not_acceptable() -> (String, RefOr<Response>) {

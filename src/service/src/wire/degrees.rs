@@ -5,14 +5,19 @@ pub(crate) fn from_degrees(degrees: f64) -> f64 {
     degrees.to_radians()
 }
 
+/// How many neighbouring doubles are tried on each side: π/180 stretches the spacing by less than this.
+const NEIGHBOURS: usize = 4;
+
 /// Radians to degrees, never -0: the degrees that somebody wrote, rounded to 1e-9, where those give
-/// these very radians back. What was asked with 30 is answered with 30, and a machine shown and
-/// sent again is the same machine.
+/// these very radians back, else the nearest that do. What was asked with 30 is answered with 30, and
+/// a machine shown and sent again is the same machine.
 pub(crate) fn to_degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     let short = (degrees * 1e9).round() / 1e9;
-    let exact = if from_degrees(short) == radians { short } else { degrees };
-    exact + 0.0
+    let above = std::iter::successors(Some(degrees), |above| Some(above.next_up())).take(NEIGHBOURS);
+    let below = std::iter::successors(Some(degrees), |below| Some(below.next_down())).take(NEIGHBOURS);
+    let exact = std::iter::once(short).chain(above).chain(below).find(|near| from_degrees(*near) == radians);
+    exact.unwrap_or(degrees) + 0.0
 }
 
 #[cfg(test)]
@@ -25,6 +30,15 @@ mod tests {
             assert_eq!(to_degrees(from_degrees(degrees)).to_bits(), f64::to_bits(degrees), "{degrees}");
         }
         assert_eq!(to_degrees(-0.0).to_bits(), 0.0_f64.to_bits());
+    }
+
+    #[test]
+    fn every_angle_that_was_written_gives_the_same_radians_again() {
+        for i in 1..20_000 {
+            let written = f64::from(i) * 0.017_234_567_890_123_4;
+            let radians = from_degrees(written);
+            assert_eq!(from_degrees(to_degrees(radians)).to_bits(), radians.to_bits(), "{written}");
+        }
     }
 
     #[test]

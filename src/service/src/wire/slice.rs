@@ -7,6 +7,7 @@ use verne_solver::workspace::{Contour, Polygon, Slice};
 use super::degrees::to_degrees;
 use super::numbers::{Exactly, Pair};
 use super::workspace::FrameName;
+use crate::result_id::ResultId;
 
 /// A workspace cut at one height.
 #[derive(Clone, Debug, Serialize, ToSchema)]
@@ -56,9 +57,9 @@ pub(crate) struct ContourObject {
 
 impl SliceObject {
     /// The solver's slice in the wire's units.
-    pub(crate) fn new(id: &str, frame: FrameName, z: f64, tolerance: f64, slice: Slice) -> Self {
+    pub(crate) fn new(id: ResultId, frame: FrameName, z: f64, tolerance: f64, slice: Slice) -> Self {
         Self {
-            id: id.to_owned(),
+            id: id.to_string(),
             frame,
             z,
             tolerance,

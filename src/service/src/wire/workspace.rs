@@ -9,31 +9,19 @@ use super::degrees::from_degrees;
 use super::machine_ref::MachineRef;
 
 /// Where can the machine go?
-#[derive(Clone, Debug, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug)]
 pub(crate) struct WorkspaceRequest {
     /// The machine: a published name, or the whole object.
-    #[serde(default)]
     pub machine: MachineRef,
     /// Whose positions the workspace is made of.
-    #[serde(default)]
     pub kind: KindName,
     /// Distance from P to the tool's tip, mm; without effect on `platform`.
-    #[serde(default)]
-    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
     /// Inclination of the tool in the table frame, degrees; only `part` depends on it.
-    #[serde(default)]
-    #[schema(minimum = -36000, maximum = 36000, default = 0.0)]
     pub phi1: f64,
     /// Azimuth of the tool in the table frame, degrees; only `part` depends on it.
-    #[serde(default)]
-    #[schema(minimum = -36000, maximum = 36000, default = 0.0)]
     pub phi2: f64,
-    /// Greatest distance between the mesh and the true surface, both ways, mm. At least a millionth of the machine's
-    /// longest dimension.
-    #[serde(default = "default_tolerance")]
-    #[schema(minimum = 0.01, maximum = 1000, default = 1.0)]
+    /// Greatest distance between the mesh and the true surface, both ways, mm.
     pub tolerance: f64,
 }
 
@@ -89,20 +77,20 @@ pub(crate) enum FrameName {
 }
 
 /// A request with its defaults filled in, and without the fields that have no effect.
-#[derive(Clone, Copy, Debug, Serialize, ToSchema)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
 pub(crate) struct CanonicalRequest {
     /// Whose positions.
     pub kind: KindName,
     /// mm; for `tool` and `part`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub tool_length: Option<f64>,
     /// Degrees; for `part`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub phi1: Option<f64>,
     /// Degrees; for `part`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub phi2: Option<f64>,
     /// mm.

@@ -1,11 +1,12 @@
 //! The answer of `/workspace`.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::answer::MachineId;
 use super::numbers::Triple;
 use super::workspace::{CanonicalRequest, FrameName, KindName};
+use crate::result_id::ResultId;
 
 /// A workspace in figures.
 #[derive(Clone, Debug, Serialize, ToSchema)]
@@ -45,7 +46,7 @@ pub(crate) struct WorkspaceSummary {
 }
 
 /// A box along the axes, mm.
-#[derive(Clone, Copy, Debug, Serialize, ToSchema)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
 #[schema(as = Bounds)]
 pub(crate) struct BoundsObject {
     /// Least x, y, z.
@@ -68,7 +69,7 @@ pub(crate) struct Links {
 
 impl Links {
     /// The paths of a workspace.
-    pub(crate) fn of(id: &str) -> Self {
+    pub(crate) fn of(id: ResultId) -> Self {
         Self { itself: format!("/workspace/{id}"), mesh: format!("/workspace/{id}/mesh") }
     }
 }

@@ -25,7 +25,7 @@ export function JointsPanel() {
     <section aria-labelledby="joints">
       <header>
         <h2 id="joints">Joints</h2>
-        <span class="quiet">ρ points down, as z does</span>
+        <span class="quiet">ρ points down, as z</span>
         <button type="button" class="small" onClick={() => moveTo({ by: "joints", joints: known.home.joints, mode: null })}>
           Home
         </button>

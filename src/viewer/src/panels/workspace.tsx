@@ -80,7 +80,7 @@ function Progress() {
 
 function Figures({ found }: { found: WorkspaceSummary }) {
   const stale = computing.value !== null ? " stale" : "";
-  const up = found.frame === "base" ? "z down" : "z from the table";
+  const up = found.frame === "base" ? "z down" : "z up";
   return (
     <>
       <dl class={`figures${stale}`}>

@@ -42,8 +42,8 @@ export class World {
   private readonly section = new Section(this.materials);
   private readonly handle: Handle;
   private readonly labels: CSS2DRenderer;
-  private readonly baseTriad = new Triad(["x", "y", "z down"], 260);
-  private readonly partTriad = new Triad(["X", "Y", "Z up, from the table"], 370);
+  private readonly baseTriad = new Triad(["x", "y", "z down"], [260, 260, 260]);
+  private readonly partTriad = new Triad(["X", "Y", "Z up"], [390, 390, 220]);
   private mechanism: Mechanism | null = null;
   private surroundings: Surroundings | null = null;
 

@@ -80,10 +80,8 @@ async function ask(request: WorkspaceRequest): Promise<void> {
   try {
     const found = await compute(request, {
       signal: own.signal,
-      queued: (job) => (computing.value = { progress: 0, state: "queued", job }),
-      progress: ({ state, progress }) => {
-        const running = state === "queued" ? "queued" : "running";
-        computing.value = { progress: progress ?? null, state: running, job: computing.peek()?.job ?? null };
+      progress: ({ id, state, progress }) => {
+        if (own === stop) computing.value = { progress, state: state === "queued" ? "queued" : "running", job: id };
       },
     });
     if (own === stop) finish(found, found.explanation ?? null);

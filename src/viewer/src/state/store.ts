@@ -31,7 +31,7 @@ export interface Computing {
   /** 0 to 1; null before the first report. */
   progress: number | null;
   state: "waiting" | "queued" | "running";
-  /** The path of its job, once there is one. */
+  /** The id of its job, once there is one. */
   job: string | null;
 }
 

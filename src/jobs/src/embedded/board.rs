@@ -1,0 +1,123 @@
+//! What is known of the jobs that are not finished.
+
+use std::collections::{BTreeSet, HashMap};
+use std::sync::Arc;
+use std::time::Instant;
+
+use tokio::sync::watch;
+
+use super::pools::Seat;
+use super::queue::{Lane, Queue};
+use super::run::{Run, Told};
+use crate::feed::Feeder;
+use crate::{JobId, State, Unavailable};
+
+/// Whether the submission is durable; `None` until that is known.
+pub(super) type Recorded = watch::Receiver<Option<Result<(), Unavailable>>>;
+
+/// A job that is queued or runs, or whose end is not recorded yet.
+pub(super) struct Entry {
+    pub(super) life: u64,
+    pub(super) feeder: Feeder,
+    pub(super) recorded: Recorded,
+    pub(super) deadline: Option<Instant>,
+    pub(super) claims: usize,
+    pub(super) kept: bool,
+    /// The attempt under way.
+    pub(super) run: Option<Arc<Run>>,
+}
+
+impl Entry {
+    /// Whether a submission joins it; not what has ended, or has been told to.
+    pub(super) fn goes_on(&self) -> bool {
+        !self.feeder.state().is_final() && self.told().is_none()
+    }
+
+    pub(super) fn told(&self) -> Option<Told> {
+        self.run.as_ref().and_then(|run| run.told())
+    }
+
+    pub(super) fn is_wanted(&self) -> bool {
+        self.claims > 0 || self.kept
+    }
+}
+
+pub(super) struct Board {
+    pub(super) live: HashMap<JobId, Entry>,
+    pub(super) queue: Queue,
+    /// By life: also those that are not their job's life any more and have yet to stop.
+    pub(super) running: HashMap<u64, Arc<Run>>,
+    /// Seats without a run.
+    pub(super) free: Vec<Seat>,
+    /// Of jobs that go on.
+    pub(super) deadlines: BTreeSet<(Instant, u64, JobId)>,
+    pub(super) last_life: u64,
+    /// No job is taken any more.
+    pub(super) draining: bool,
+    /// Nothing is left to be done.
+    pub(super) closed: bool,
+    pub(super) tally: Tally,
+}
+
+/// Ends since the beginning.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tally {
+    pub(super) succeeded: u64,
+    pub(super) failed: u64,
+    pub(super) cancelled: u64,
+}
+
+impl Tally {
+    pub(super) fn count(&mut self, end: State) {
+        match end {
+            State::Succeeded => self.succeeded += 1,
+            State::Failed => self.failed += 1,
+            State::Cancelled => self.cancelled += 1,
+            State::Queued | State::Running => {}
+        }
+    }
+}
+
+impl Board {
+    pub(super) fn new(queue: Queue, free: Vec<Seat>, last_life: u64) -> Self {
+        Self {
+            live: HashMap::new(),
+            queue,
+            running: HashMap::new(),
+            free,
+            deadlines: BTreeSet::new(),
+            last_life,
+            draining: false,
+            closed: false,
+            tally: Tally::default(),
+        }
+    }
+
+    /// The job's entry, if this life of it is its latest.
+    pub(super) fn entry(&mut self, id: JobId, life: u64) -> Option<&mut Entry> {
+        self.live.get_mut(&id).filter(|entry| entry.life == life)
+    }
+
+    /// A free seat and the life of the job to take it. The express lane is for when the main lane is taken.
+    pub(super) fn next(&mut self, now: Instant) -> Option<(Seat, u64, JobId)> {
+        let seat = self
+            .free
+            .iter()
+            .position(|seat| seat.lane == Lane::Main)
+            .or_else(|| self.free.len().checked_sub(1))?;
+        let (life, waiting) = self.queue.take(self.free[seat].lane, now)?;
+        Some((self.free.swap_remove(seat), life, waiting.id))
+    }
+
+    pub(super) fn set_deadline(&mut self, id: JobId, life: u64, deadline: Option<Instant>) {
+        let Some(entry) = self.live.get_mut(&id).filter(|entry| entry.life == life) else {
+            return;
+        };
+        if let Some(old) = std::mem::replace(&mut entry.deadline, deadline) {
+            self.deadlines.remove(&(old, life, id));
+        }
+        if let Some(new) = deadline {
+            self.deadlines.insert((new, life, id));
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! The life of each job. All that concerns one job is decided, and its record asked for, under one lock; so the records
+//! are written in the order of what happened.
+
+mod claims;
+mod deadlines;
+mod runs;
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicU64;
+use std::time::{Duration, Instant};
+
+use parking_lot::{Condvar, Mutex};
+use tokio::sync::{Notify, watch};
+
+use super::Config;
+use super::board::{Board, Entry, Recorded};
+use super::moment::now;
+use super::queue::Waiting;
+use super::recorder::Recorder;
+use super::records::{Record, Write};
+use super::run::{End, Outcome, Told};
+use super::turn::Turn;
+use crate::feed::Feeder;
+use crate::{Claim, Job, JobId, MAX_COST, State, Submission, SubmitError, Work};
+use claims::Stake;
+
+pub(super) struct Keeper {
+    pub(super) board: Mutex<Board>,
+    pub(super) recorder: Recorder,
+    pub(super) config: Config,
+    pub(super) started: AtomicU64,
+    /// Notified when no run is left.
+    pub(super) idle: Notify,
+    work: Arc<dyn Work>,
+    turn: Arc<Turn>,
+    /// Notified when there is a deadline to look at.
+    deadlines: Condvar,
+}
+
+impl Keeper {
+    pub(super) fn new(board: Board, recorder: Recorder, config: Config, work: Arc<dyn Work>) -> Self {
+        Self {
+            board: Mutex::new(board),
+            recorder,
+            config,
+            started: AtomicU64::new(0),
+            idle: Notify::new(),
+            work,
+            turn: Arc::default(),
+            deadlines: Condvar::new(),
+        }
+    }
+
+    /// Takes over jobs that an earlier process left. They were promised, so they are kept.
+    pub(super) fn resume(self: &Arc<Self>, records: Vec<Record>) {
+        let mut board = self.board.lock();
+        for record in records {
+            let (_, recorded) = watch::channel(Some(Ok(())));
+            let (id, life) = (record.job.id, record.life);
+            self.enter(&mut board, record, recorded);
+            if let Some(entry) = board.entry(id, life) {
+                entry.kept = true;
+            }
+        }
+        self.dispatch(&mut board);
+    }
+
+    /// The claim, to be given away when the submission is durable.
+    pub(super) fn submit(self: &Arc<Self>, submission: Submission) -> Result<(Claim, Recorded), SubmitError> {
+        let mut board = self.board.lock();
+        if board.draining {
+            return Err(SubmitError::Draining);
+        }
+        let id = submission.id;
+        match board.live.get(&id) {
+            Some(entry) if entry.goes_on() => {
+                let life = entry.life;
+                self.join(&mut board, life, &submission);
+            }
+            _ => self.begin(&mut board, submission)?,
+        }
+        // It is there, joined or begun.
+        let entry = board.live.get_mut(&id).ok_or(SubmitError::Draining)?;
+        entry.claims += 1;
+        let stake = Stake::new(self, id, entry.life);
+        let claim = Claim::new(entry.feeder.subscribe(), Box::new(stake));
+        let recorded = entry.recorded.clone();
+        self.dispatch(&mut board);
+        Ok((claim, recorded))
+    }
+
+    fn join(&self, board: &mut Board, life: u64, submission: &Submission) {
+        board.queue.join(life, &submission.client);
+        let Some(deadline) = board.entry(submission.id, life).and_then(|entry| entry.deadline) else {
+            return;
+        };
+        match submission.deadline.and_then(after) {
+            Some(later) if later <= deadline => {}
+            later => {
+                self.set_deadline(board, submission.id, life, later);
+                let write = Write::Postpone { life, deadline: submission.deadline };
+                self.recorder.write(write, Box::new(drop));
+            }
+        }
+    }
+
+    fn begin(self: &Arc<Self>, board: &mut Board, submission: Submission) -> Result<(), SubmitError> {
+        let id = submission.id;
+        self.check_room(board, submission.payload.len())?;
+        // An earlier life that has been told to stop ends here, whenever its run does.
+        if let Some((life, told)) =
+            board.live.get(&id).and_then(|entry| entry.told().map(|told| (entry.life, told)))
+        {
+            self.conclude(board, id, life, told.into());
+        }
+        board.last_life += 1;
+        let life = board.last_life;
+        let record = Record { life, deadline: submission.deadline, job: queued(submission) };
+        let (sender, recorded) = watch::channel(None);
+        let keeper = Arc::clone(self);
+        let reply = move |result: Result<(), _>| {
+            if result.is_err() {
+                keeper.refuse(id, life);
+            }
+            sender.send_replace(Some(result));
+        };
+        self.recorder.write(Write::Submit(record.clone()), Box::new(reply));
+        self.enter(board, record, recorded);
+        Ok(())
+    }
+
+    fn check_room(&self, board: &Board, bytes: usize) -> Result<(), SubmitError> {
+        let (jobs, queued) = (board.queue.len(), board.queue.bytes());
+        if jobs < self.config.queue.max(1) && queued.saturating_add(bytes) <= self.config.queue_bytes {
+            return Ok(());
+        }
+        // About as long as the mean job takes, after which one place is free.
+        #[expect(clippy::cast_precision_loss, reason = "counts are small")]
+        let seconds = board.queue.cost() / (jobs.max(1) * self.config.threads.max(1)) as f64;
+        Err(SubmitError::Full { retry_after: Duration::from_secs_f64(seconds.clamp(1.0, 60.0)) })
+    }
+
+    fn enter(&self, board: &mut Board, record: Record, recorded: Recorded) {
+        let Record { life, job, deadline } = record;
+        let (id, bytes) = (job.id, job.payload.len());
+        let waiting =
+            Waiting { id, client: job.client.clone(), cost: job.cost, bytes, since: Instant::now() };
+        board.queue.push(life, waiting);
+        let feeder = Feeder::new(job);
+        board
+            .live
+            .insert(id, Entry { life, feeder, recorded, deadline: None, claims: 0, kept: false, run: None });
+        self.set_deadline(board, id, life, deadline.and_then(after));
+    }
+
+    /// The submission could not be recorded: it has never been.
+    fn refuse(&self, id: JobId, life: u64) {
+        let mut board = self.board.lock();
+        board.queue.remove(life);
+        self.set_deadline(&mut board, id, life, None);
+        if board.entry(id, life).is_some()
+            && let Some(run) = board.live.remove(&id).and_then(|entry| entry.run)
+        {
+            run.tell(Told::Cancelled);
+        }
+    }
+
+    fn conclude(self: &Arc<Self>, board: &mut Board, id: JobId, life: u64, end: End) {
+        match end {
+            End::Final(outcome) => self.end(board, id, life, outcome),
+            End::Drained if board.entry(id, life).is_some_and(|entry| entry.is_wanted()) => {
+                self.requeue(board, id, life);
+            }
+            End::Drained => self.end(board, id, life, Outcome::Cancelled),
+        }
+    }
+
+    /// Ends a life; an end that is there already stays.
+    fn end(self: &Arc<Self>, board: &mut Board, id: JobId, life: u64, outcome: Outcome) {
+        board.queue.remove(life);
+        self.set_deadline(board, id, life, None);
+        let Some(entry) = board.entry(id, life).filter(|entry| !entry.feeder.state().is_final()) else {
+            return;
+        };
+        entry.run = None;
+        let job = entry.feeder.change(|job| finish(job, outcome));
+        board.tally.count(job.state);
+        let keeper = Arc::clone(self);
+        let reply = move |_: Result<(), _>| {
+            let mut board = keeper.board.lock();
+            if board.entry(id, life).is_some() {
+                board.live.remove(&id);
+            }
+        };
+        self.recorder.write(Write::Finish { life, job }, Box::new(reply));
+    }
+}
+
+fn after(limit: Duration) -> Option<Instant> {
+    Instant::now().checked_add(limit)
+}
+
+fn queued(submission: Submission) -> Job {
+    Job {
+        id: submission.id,
+        client: submission.client,
+        cost: told_apart(submission.cost),
+        payload: submission.payload,
+        state: State::Queued,
+        progress: 0.0,
+        created: now(),
+        started: None,
+        finished: None,
+        attempts: 0,
+        failure: None,
+    }
+}
+
+fn finish(job: &mut Job, outcome: Outcome) {
+    job.finished = Some(now());
+    match outcome {
+        Outcome::Succeeded => (job.state, job.progress) = (State::Succeeded, 1.0),
+        Outcome::Failed(failure) => (job.state, job.failure) = (State::Failed, Some(failure)),
+        Outcome::Cancelled => job.state = State::Cancelled,
+    }
+}
+
+/// A cost that sums well: what is not a number counts as the greatest.
+fn told_apart(cost: f64) -> f64 {
+    if cost.is_nan() { MAX_COST } else { cost.clamp(1e-3, MAX_COST) }
+}

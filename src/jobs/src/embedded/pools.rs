@@ -1,0 +1,34 @@
+//! The threads that compute.
+
+use std::sync::Arc;
+
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+
+use super::queue::Lane;
+
+/// Where one job at a time runs, with a pool of its own: in a pool for two jobs a thread that waits for a piece of the
+/// one could begin the other on top of it, and the first would end with the second.
+#[derive(Clone, Debug)]
+pub(super) struct Seat {
+    pub(super) lane: Lane,
+    pub(super) pool: Arc<ThreadPool>,
+}
+
+/// Deals `threads` out among `slots` of the main lane, at least one to each, and adds the express lane.
+pub(super) fn seats(threads: usize, slots: usize) -> Result<Vec<Seat>, ThreadPoolBuildError> {
+    let threads = threads.max(1);
+    let slots = slots.clamp(1, threads);
+    let share = |slot| threads / slots + usize::from(slot < threads % slots);
+    let main = (0..slots).map(|slot| seat(Lane::Main, share(slot), format!("jobs-{slot}")));
+    main.chain([seat(Lane::Express, 1, "jobs-express".to_owned())]).collect()
+}
+
+fn seat(lane: Lane, threads: usize, name: String) -> Result<Seat, ThreadPoolBuildError> {
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .thread_name(move |thread| format!("{name}-{thread}"))
+        // What the work spawns apart from its own run; rayon would end the process.
+        .panic_handler(|_| tracing::error!("a task that a job had spawned panicked"))
+        .build()?;
+    Ok(Seat { lane, pool: Arc::new(pool) })
+}

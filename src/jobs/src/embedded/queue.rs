@@ -1,0 +1,187 @@
+//! Which job is next: self-clocked fair queueing in two bands, small and large.
+
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::time::{Duration, Instant};
+
+use crate::JobId;
+
+/// Which jobs a lane takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lane {
+    /// Any.
+    Main,
+    /// Small ones.
+    Express,
+}
+
+/// A queued job.
+#[derive(Clone, Debug)]
+pub(super) struct Waiting {
+    pub(super) id: JobId,
+    /// To whom it is charged.
+    pub(super) client: String,
+    /// Seconds of one core.
+    pub(super) cost: f64,
+    pub(super) bytes: usize,
+    pub(super) since: Instant,
+}
+
+/// The virtual time at which a job's share is used up, seconds of one core.
+#[derive(Clone, Copy, Debug)]
+struct Tag(f64);
+
+impl PartialEq for Tag {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Tag {}
+
+impl PartialOrd for Tag {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Tag {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+/// Tag and life: the earlier submission first where tags are equal.
+type Place = (Tag, u64);
+
+#[derive(Default)]
+struct Band {
+    by_tag: BTreeSet<Place>,
+    /// By life, which is by age.
+    by_age: BTreeMap<u64, (Waiting, Tag)>,
+}
+
+/// The queue's order. A job is named by its life, a number that grows with every submission.
+pub(super) struct Queue {
+    small: Band,
+    large: Band,
+    /// What each client has queued; its last is the client's last tag.
+    clients: HashMap<String, BTreeSet<Place>>,
+    /// Virtual time.
+    now: Tag,
+    bytes: usize,
+    cost: f64,
+    rule: Rule,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rule {
+    /// Greatest cost of a small job, seconds of one core.
+    pub(super) small: f64,
+    /// A job that has waited longer goes before all that have not.
+    pub(super) overdue: Duration,
+}
+
+impl Queue {
+    pub(super) fn new(rule: Rule) -> Self {
+        let (small, large) = (Band::default(), Band::default());
+        Self { small, large, clients: HashMap::new(), now: Tag(0.0), bytes: 0, cost: 0.0, rule }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.small.by_age.len() + self.large.by_age.len()
+    }
+
+    /// Of all payloads.
+    pub(super) fn bytes(&self) -> usize {
+        self.bytes
+    }
+
+    /// Of all jobs, seconds of one core.
+    pub(super) fn cost(&self) -> f64 {
+        self.cost
+    }
+
+    pub(super) fn push(&mut self, life: u64, job: Waiting) {
+        let tag = self.next_tag(&job.client, job.cost);
+        self.bytes += job.bytes;
+        self.cost += job.cost;
+        self.insert(life, job, tag);
+    }
+
+    /// `client` asks for a queued job as well: it moves to where its own submission would stand, if that is earlier, and
+    /// is then charged to it.
+    pub(super) fn join(&mut self, life: u64, client: &str) {
+        let Some((job, tag)) = self.small.by_age.get(&life).or_else(|| self.large.by_age.get(&life)) else {
+            return;
+        };
+        let own = self.next_tag(client, job.cost);
+        if own < *tag
+            && let Some((job, _)) = self.extract(life)
+        {
+            self.insert(life, Waiting { client: client.to_owned(), ..job }, own);
+        }
+    }
+
+    pub(super) fn remove(&mut self, life: u64) -> Option<Waiting> {
+        let (job, _) = self.extract(life)?;
+        self.forget(&job);
+        Some(job)
+    }
+
+    /// The next job for `lane`, at `now`.
+    pub(super) fn take(&mut self, lane: Lane, now: Instant) -> Option<(u64, Waiting)> {
+        let life = self.overdue(lane, now).or_else(|| self.least(lane).map(|(_, life)| life))?;
+        let (job, tag) = self.extract(life)?;
+        self.forget(&job);
+        // What has passed others, small or overdue, must not set back those who come after them.
+        let reached = self.least(Lane::Main).map_or(tag, |(waiting, _)| waiting.min(tag));
+        self.now = self.now.max(reached);
+        Some((life, job))
+    }
+
+    fn bands(&self, lane: Lane) -> impl Iterator<Item = &Band> {
+        std::iter::once(&self.small).chain((lane == Lane::Main).then_some(&self.large))
+    }
+
+    fn overdue(&self, lane: Lane, now: Instant) -> Option<u64> {
+        let oldest =
+            self.bands(lane).filter_map(|band| band.by_age.first_key_value()).min_by_key(|(life, _)| **life);
+        let (life, (job, _)) = oldest?;
+        (now.saturating_duration_since(job.since) > self.rule.overdue).then_some(*life)
+    }
+
+    fn least(&self, lane: Lane) -> Option<Place> {
+        self.bands(lane).filter_map(|band| band.by_tag.first()).min().copied()
+    }
+
+    fn next_tag(&self, client: &str, cost: f64) -> Tag {
+        let last = self.clients.get(client).and_then(BTreeSet::last).map_or(self.now, |(tag, _)| *tag);
+        Tag(self.now.max(last).0 + cost)
+    }
+
+    fn insert(&mut self, life: u64, job: Waiting, tag: Tag) {
+        self.clients.entry(job.client.clone()).or_default().insert((tag, life));
+        let band = if job.cost <= self.rule.small { &mut self.small } else { &mut self.large };
+        band.by_tag.insert((tag, life));
+        band.by_age.insert(life, (job, tag));
+    }
+
+    fn extract(&mut self, life: u64) -> Option<(Waiting, Tag)> {
+        let band = if self.small.by_age.contains_key(&life) { &mut self.small } else { &mut self.large };
+        let (job, tag) = band.by_age.remove(&life)?;
+        band.by_tag.remove(&(tag, life));
+        if let Some(places) = self.clients.get_mut(&job.client) {
+            places.remove(&(tag, life));
+            if places.is_empty() {
+                self.clients.remove(&job.client);
+            }
+        }
+        Some((job, tag))
+    }
+
+    fn forget(&mut self, job: &Waiting) {
+        self.bytes -= job.bytes;
+        self.cost -= job.cost;
+    }
+}

@@ -1,0 +1,132 @@
+//! Jobs in SQLite.
+
+mod open;
+mod row;
+mod schema;
+
+use std::fs::File;
+use std::time::{Duration, SystemTime};
+
+use rusqlite::{Connection, OptionalExtension, named_params};
+
+use super::moment::{now, to_micros};
+use crate::{Filter, Job, JobId, State, Unavailable};
+
+pub(super) use open::{Opened, open};
+
+/// A job with what is not told about it.
+#[derive(Clone, Debug)]
+pub(super) struct Record {
+    /// Number of the submission that began this life of the job; grows.
+    pub(super) life: u64,
+    pub(super) job: Job,
+    pub(super) deadline: Option<Duration>,
+}
+
+/// A change to be made.
+#[derive(Debug)]
+pub(super) enum Write {
+    /// In place of an earlier life.
+    Submit(Record),
+    /// Another asks for it who waits longer.
+    Postpone {
+        life: u64,
+        deadline: Option<Duration>,
+    },
+    Start {
+        life: u64,
+        attempts: u32,
+        started: SystemTime,
+    },
+    Finish {
+        life: u64,
+        job: Job,
+    },
+    /// A run was stopped in good order.
+    Requeue {
+        life: u64,
+    },
+}
+
+/// What is kept of finished jobs.
+#[derive(Clone, Copy, Debug)]
+pub struct Retention {
+    /// At most so many.
+    pub count: usize,
+    /// None that finished longer ago.
+    pub age: Duration,
+}
+
+pub(super) struct Records {
+    connection: Connection,
+    retention: Retention,
+    /// Held as long as the database is open.
+    lock: Option<File>,
+}
+
+impl Records {
+    /// Makes all changes in one transaction; a change that fails alone leaves the others.
+    pub(super) fn write(&mut self, writes: &[&Write]) -> Vec<Result<(), Unavailable>> {
+        self.try_write(writes).unwrap_or_else(|fault| {
+            let unavailable = Unavailable(fault.to_string());
+            writes.iter().map(|_| Err(unavailable.clone())).collect()
+        })
+    }
+
+    fn try_write(&mut self, writes: &[&Write]) -> rusqlite::Result<Vec<Result<(), Unavailable>>> {
+        let transaction = self.connection.transaction()?;
+        let mut results = Vec::with_capacity(writes.len());
+        for write in writes {
+            let result = row::write(&transaction, write);
+            if let Err(fault) = &result
+                && transaction.is_autocommit()
+            {
+                // A full disk or the like: SQLite has rolled back everything.
+                let fault = Unavailable(fault.to_string());
+                return Ok(writes.iter().map(|_| Err(fault.clone())).collect());
+            }
+            results.push(result.map_err(|fault| Unavailable(fault.to_string())));
+        }
+        if writes.iter().any(|write| matches!(write, Write::Finish { .. })) {
+            forget(&transaction, self.retention)?;
+        }
+        transaction.commit()?;
+        Ok(results)
+    }
+
+    /// Forgets finished jobs that are not to be kept.
+    pub(super) fn forget(&self) -> Result<(), Unavailable> {
+        forget(&self.connection, self.retention).map_err(|fault| Unavailable(fault.to_string()))
+    }
+
+    pub(super) fn get(&self, id: JobId) -> Result<Option<Job>, Unavailable> {
+        let read = || {
+            let mut select = self.connection.prepare_cached(schema::GET)?;
+            select.query_row([id.as_bytes()], row::read).optional()
+        };
+        let record = read().map_err(|fault: rusqlite::Error| Unavailable(fault.to_string()))?;
+        Ok(record.map(|record| record.job))
+    }
+
+    /// One more than a page has, which tells whether there is a next.
+    pub(super) fn list(&self, filter: &Filter, limit: usize) -> Result<Vec<Record>, Unavailable> {
+        let read = || {
+            let mut select = self.connection.prepare_cached(schema::LIST)?;
+            let before = filter.after.map_or(i64::MAX, |cursor| i64::try_from(cursor.0).unwrap_or(i64::MAX));
+            let parameters = named_params! {
+                ":state": filter.state.map(State::name), ":client": filter.client, ":before": before,
+                ":limit": i64::try_from(limit).unwrap_or(i64::MAX),
+            };
+            select.query_map(parameters, row::read)?.collect::<Result<_, _>>()
+        };
+        read().map_err(|fault: rusqlite::Error| Unavailable(fault.to_string()))
+    }
+}
+
+fn forget(connection: &Connection, retention: Retention) -> rusqlite::Result<()> {
+    let oldest = now().checked_sub(retention.age).map_or(0, to_micros);
+    connection.prepare_cached(schema::FORGET_OLD)?.execute([oldest])?;
+    let count = i64::try_from(retention.count).unwrap_or(i64::MAX);
+    connection.prepare_cached(schema::FORGET_MANY)?.execute([count])?;
+    Ok(())
+}

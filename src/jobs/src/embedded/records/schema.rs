@@ -1,0 +1,66 @@
+//! The database's statements.
+
+/// `user_version` of a database that these statements fit.
+pub(super) const VERSION: i64 = 1;
+
+pub(super) const CREATE: &str = "
+CREATE TABLE jobs (
+    life INTEGER PRIMARY KEY,
+    id BLOB NOT NULL UNIQUE,
+    client TEXT NOT NULL,
+    cost REAL NOT NULL,
+    payload BLOB NOT NULL,
+    deadline INTEGER, -- milliseconds
+    state TEXT NOT NULL,
+    progress REAL NOT NULL,
+    created INTEGER NOT NULL, -- this and the other times: microseconds of Unix time
+    started INTEGER,
+    finished INTEGER,
+    attempts INTEGER NOT NULL,
+    crashes INTEGER NOT NULL DEFAULT 0,
+    failure TEXT,
+    detail BLOB
+) STRICT;
+CREATE INDEX finished ON jobs (finished) WHERE finished IS NOT NULL;
+CREATE INDEX live ON jobs (life) WHERE finished IS NULL;
+";
+
+pub(super) const SUBMIT: &str = "
+INSERT OR REPLACE INTO jobs (life, id, client, cost, payload, deadline, state, progress, created, attempts)
+VALUES (:life, :id, :client, :cost, :payload, :deadline, 'queued', 0.0, :created, 0)";
+
+pub(super) const POSTPONE: &str = "UPDATE jobs SET deadline = :deadline WHERE life = :life";
+
+pub(super) const START: &str = "
+UPDATE jobs SET state = 'running', attempts = :attempts, started = :started WHERE life = :life";
+
+pub(super) const FINISH: &str = "
+UPDATE jobs SET state = :state, progress = :progress, finished = :finished, failure = :failure, detail = :detail
+WHERE life = :life";
+
+pub(super) const REQUEUE: &str = "UPDATE jobs SET state = 'queued' WHERE life = ?1 AND state = 'running'";
+
+pub(super) const GET: &str = "SELECT * FROM jobs WHERE id = ?1";
+
+pub(super) const LIST: &str = "
+SELECT * FROM jobs
+WHERE life < :before AND (:state IS NULL OR state = :state) AND (:client IS NULL OR client = :client)
+ORDER BY life DESC LIMIT :limit";
+
+pub(super) const LIVE: &str = "SELECT * FROM jobs WHERE finished IS NULL ORDER BY life";
+
+pub(super) const LAST_LIFE: &str = "SELECT coalesce(max(life), 0) FROM jobs";
+
+/// What runs when the database is opened ran when a process died.
+pub(super) const COUNT_CRASHES: &str =
+    "UPDATE jobs SET crashes = crashes + 1, state = 'queued' WHERE state = 'running'";
+
+pub(super) const FAIL_CRASHED: &str = "
+UPDATE jobs SET state = 'failed', finished = :finished, failure = :failure
+WHERE finished IS NULL AND crashes >= :limit";
+
+pub(super) const FORGET_OLD: &str = "DELETE FROM jobs WHERE finished < ?1";
+
+pub(super) const FORGET_MANY: &str = "
+DELETE FROM jobs WHERE life IN
+(SELECT life FROM jobs WHERE finished IS NOT NULL ORDER BY finished DESC LIMIT -1 OFFSET ?1)";

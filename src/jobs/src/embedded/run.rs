@@ -1,0 +1,168 @@
+//! One attempt at a job.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
+
+use super::pools::Seat;
+use super::queue::Lane;
+use super::turn::Turn;
+use crate::feed::Feeder;
+use crate::{Failure, JobId, Stop, Watch, Work};
+
+/// Why a run was told to stop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Told {
+    Cancelled,
+    DeadlinePassed,
+    /// To be run again by whoever opens the back end next.
+    Drained,
+}
+
+/// How a job ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    Succeeded,
+    Failed(Failure),
+    Cancelled,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// With its job.
+    Final(Outcome),
+    Drained,
+}
+
+impl From<Told> for End {
+    fn from(told: Told) -> Self {
+        match told {
+            Told::Cancelled => Self::Final(Outcome::Cancelled),
+            Told::DeadlinePassed => Self::Final(Outcome::Failed(Failure::DeadlinePassed)),
+            Told::Drained => Self::Drained,
+        }
+    }
+}
+
+pub(super) struct Run {
+    pub(super) id: JobId,
+    pub(super) life: u64,
+    pub(super) seat: Seat,
+    feeder: Feeder,
+    turn: Arc<Turn>,
+    told: OnceLock<Told>,
+    began: Instant,
+    /// When each thread last rested, nanoseconds after the beginning.
+    rested: Box<[AtomicU64]>,
+}
+
+impl Run {
+    pub(super) fn new(id: JobId, life: u64, seat: Seat, feeder: Feeder, turn: Arc<Turn>) -> Self {
+        let rested = (0..seat.pool.current_num_threads()).map(|_| AtomicU64::new(0)).collect();
+        Self { id, life, seat, feeder, turn, told: OnceLock::new(), began: Instant::now(), rested }
+    }
+
+    /// The first to tell is heard.
+    pub(super) fn tell(&self, told: Told) {
+        if self.told.set(told).is_ok() {
+            self.turn.wake();
+        }
+    }
+
+    pub(super) fn told(&self) -> Option<Told> {
+        self.told.get().copied()
+    }
+
+    /// Called on the seat's pool.
+    pub(super) fn run(&self, work: &dyn Work, payload: &[u8]) -> End {
+        let _passing = (self.seat.lane == Lane::Express).then(|| self.turn.express());
+        let end = catch_unwind(AssertUnwindSafe(|| work.run(&self.id, payload, self)));
+        End::Final(match (end, self.told()) {
+            (Ok(Ok(())), _) => Outcome::Succeeded,
+            (Err(panic), _) => Outcome::Failed(Failure::Panicked(message(panic.as_ref()))),
+            (Ok(Err(_)), Some(told)) => return told.into(),
+            (Ok(Err(Stop::Cancelled)), None) => Outcome::Cancelled,
+            (Ok(Err(Stop::Failed(reason))), None) => Outcome::Failed(Failure::Work(reason)),
+        })
+    }
+
+    /// A thread rests at most as long as it has worked since it last rested, so a job has at least half of its time.
+    fn let_pass(&self) {
+        let Some(rested) = rayon::current_thread_index().and_then(|thread| self.rested.get(thread)) else {
+            return;
+        };
+        let worked =
+            self.began.elapsed().saturating_sub(Duration::from_nanos(rested.load(Ordering::Relaxed)));
+        if self.turn.rest(worked, || self.told().is_some()) {
+            let now = u64::try_from(self.began.elapsed().as_nanos()).unwrap_or(u64::MAX);
+            rested.store(now, Ordering::Relaxed);
+        }
+    }
+}
+
+impl Watch for Run {
+    fn progress(&self, part: f64) {
+        self.feeder.progress(part);
+    }
+
+    fn cancelled(&self) -> bool {
+        if self.seat.lane == Lane::Main && self.turn.is_express() {
+            self.let_pass();
+        }
+        self.told().is_some()
+    }
+}
+
+fn message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied();
+    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message").to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::embedded::pools::seats;
+    use crate::{Job, State};
+
+    fn run(lane: Lane, turn: &Arc<Turn>) -> Run {
+        let id = JobId::from_bytes([0; 32]);
+        let created = std::time::SystemTime::UNIX_EPOCH;
+        let job = Job {
+            id,
+            client: String::new(),
+            cost: 1.0,
+            payload: bytes::Bytes::new(),
+            state: State::Running,
+            progress: 0.0,
+            created,
+            started: Some(created),
+            finished: None,
+            attempts: 1,
+            failure: None,
+        };
+        let seat = seats(1, 1).into_iter().flatten().find(|seat| seat.lane == lane);
+        #[expect(clippy::unwrap_used, reason = "test")]
+        Run::new(id, 1, seat.unwrap(), Feeder::new(job), Arc::clone(turn))
+    }
+
+    fn rests(run: &Run) -> bool {
+        run.rested.iter().any(|rested| rested.load(Ordering::Relaxed) > 0)
+    }
+
+    #[test]
+    fn a_long_job_rests_while_a_small_one_runs() {
+        let turn = Arc::new(Turn::default());
+        let (long, small) = (run(Lane::Main, &turn), run(Lane::Express, &turn));
+        long.seat.pool.install(|| assert!(!long.cancelled()));
+        assert!(!rests(&long));
+        let passing = turn.express();
+        long.seat.pool.install(|| assert!(!long.cancelled()));
+        assert!(rests(&long));
+        small.seat.pool.install(|| assert!(!small.cancelled()));
+        assert!(!rests(&small));
+        drop(passing);
+    }
+}

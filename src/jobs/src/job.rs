@@ -1,0 +1,101 @@
+use std::time::{Duration, SystemTime};
+
+use bytes::Bytes;
+
+use crate::JobId;
+
+/// What is asked for: data, so that any process that knows the [`Work`](crate::Work) can do it.
+#[derive(Clone, Debug)]
+pub struct Submission {
+    /// Hash of what it makes.
+    pub id: JobId,
+    /// Whose share of the cores the job is charged to.
+    pub client: String,
+    /// Estimated work in seconds of one core; taken between a millisecond and [`MAX_COST`].
+    pub cost: f64,
+    /// The question in the work's own terms. Kept as long as the job; bounding one payload is the caller's part,
+    /// their sum in the queue is bounded here.
+    pub payload: Bytes,
+    /// After this long in the queue and running together the job fails with [`Failure::DeadlinePassed`]. It counts from the
+    /// submission, and anew from a restart. Of equal submissions the latest deadline holds; `None` is the latest.
+    pub deadline: Option<Duration>,
+}
+
+/// Greatest cost that is told apart, seconds of one core.
+pub const MAX_COST: f64 = 1e6;
+
+/// Where a job stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum State {
+    /// Waits for its turn.
+    Queued,
+    /// Is computed.
+    Running,
+    /// Its result exists.
+    Succeeded,
+    /// There is no result, see [`Job::failure`].
+    Failed,
+    /// Nobody wanted it any more, or somebody said so.
+    Cancelled,
+}
+
+impl State {
+    /// In the order of a life.
+    pub const ALL: [Self; 5] = [Self::Queued, Self::Running, Self::Succeeded, Self::Failed, Self::Cancelled];
+
+    /// Whether nothing follows.
+    pub const fn is_final(self) -> bool {
+        matches!(self, Self::Succeeded | Self::Failed | Self::Cancelled)
+    }
+
+    /// Its lowercase name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Queued => "queued",
+            Self::Running => "running",
+            Self::Succeeded => "succeeded",
+            Self::Failed => "failed",
+            Self::Cancelled => "cancelled",
+        }
+    }
+}
+
+/// Why a job failed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// The work's own reason, in its own terms.
+    Work(Bytes),
+    /// The work panicked with this message: a defect of the work.
+    Panicked(String),
+    /// See [`Submission::deadline`].
+    DeadlinePassed,
+    /// The process died in each of the allowed attempts, by this job or beside it.
+    TooManyAttempts,
+}
+
+/// A job as it stood at one moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Job {
+    /// Hash of what it makes.
+    pub id: JobId,
+    /// The first to submit it.
+    pub client: String,
+    /// Seconds of one core, estimated.
+    pub cost: f64,
+    /// The question, in the work's own terms.
+    pub payload: Bytes,
+    /// Where it stands.
+    pub state: State,
+    /// Part of the work that is done, from 0 to 1; never falls while the job runs.
+    pub progress: f64,
+    /// When this life of it was submitted.
+    pub created: SystemTime,
+    /// When the last attempt was begun.
+    pub started: Option<SystemTime>,
+    /// When it ended.
+    pub finished: Option<SystemTime>,
+    /// How often it was begun.
+    pub attempts: u32,
+    /// There when the state is [`State::Failed`].
+    pub failure: Option<Failure>,
+}

@@ -1,0 +1,42 @@
+//! Jobs: long computations that outlive their requests. What is computed is the caller's [`Work`]; here are its
+//! queue, its threads and its records.
+//!
+//! # A job's life
+//!
+//! A [`Submission`] names its job by the hash of what it makes. Equal submissions are one job, computed once, however many
+//! [claim](Claim) it. It is queued, runs, and ends [succeeded](State::Succeeded), [failed](State::Failed) or
+//! [cancelled](State::Cancelled); when the last claim is dropped of a job that nobody [kept](Claim::keep), it is
+//! cancelled. Submitted again after its end it lives anew. A job whose process dies is run again by the next,
+//! unless it was running at so many deaths that it is likely their cause ([`Failure::TooManyAttempts`]).
+//!
+//! # Which job is next
+//!
+//! Self-clocked fair queueing (Golestani 1994): a job's tag is the greater of the virtual time and its client's last tag in
+//! the queue, plus its cost. The least tag is next; the virtual time is the greatest tag taken, but passes none
+//! that still waits. So a job of cost c waits for what runs and, of each other client, for no more than c and one job beyond
+//! it, however much they have queued. A job that several clients ask for stands where the best placed of them would have
+//! put it, and is charged to that one. A job that has waited longer than a set time
+//! ([`overdue`](embedded::Config::overdue)) goes before all that have not, the oldest first; so none waits for ever.
+//!
+//! # Which threads it has
+//!
+//! The main lane runs any job, with all the threads. While it is taken, the express lane runs the next small job
+//! ([`small`](embedded::Config::small)) beside it, with one thread; meanwhile one thread of the main lane
+//! rests, so the number of busy cores stays as set. A thread rests at a look at [`Watch::cancelled`], and at most as
+//! long as it has worked since it last rested: small jobs without end leave it half of its time.
+
+mod backend;
+mod claim;
+pub mod embedded;
+mod feed;
+mod id;
+mod job;
+mod work;
+
+pub use backend::{Backend, Counts, Cursor, Filter, NotACursor, Page, SubmitError, Unavailable};
+pub use claim::Claim;
+pub use embedded::Embedded;
+pub use feed::Watcher;
+pub use id::{JobId, NotAJobId};
+pub use job::{Failure, Job, MAX_COST, State, Submission};
+pub use work::{Stop, Watch, Work};

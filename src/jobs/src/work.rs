@@ -1,0 +1,31 @@
+use bytes::Bytes;
+
+use crate::JobId;
+
+/// What jobs compute.
+///
+/// A run makes its result exist somewhere else, named by the job's id, and returns nothing. It must be idempotent: after
+/// a crash, and rarely while an abandoned run still ends, the same job is run again.
+pub trait Work: Send + Sync + 'static {
+    /// Called on a thread of a rayon pool that is the job's own while it runs; may use rayon inside.
+    fn run(&self, job: &JobId, payload: &[u8], watch: &dyn Watch) -> Result<(), Stop>;
+}
+
+/// Why a run ended without its result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// [`Watch::cancelled`] said so.
+    Cancelled,
+    /// For good: the same payload would fail again. The reason is kept as it is.
+    Failed(Bytes),
+}
+
+/// How a run is watched and stopped.
+pub trait Watch: Sync {
+    /// Tells the part of the work that is done, from 0 to 1. What falls behind an earlier call is ignored.
+    fn progress(&self, part: f64);
+
+    /// Whether to stop. To be asked at least every 10 ms on each thread of the work; may hold the thread for a while
+    /// to let a small job pass.
+    fn cancelled(&self) -> bool;
+}

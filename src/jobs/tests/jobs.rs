@@ -1,0 +1,32 @@
+//! Jobs as their callers see them: the contract that every back end keeps, and what only the embedded one promises.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
+
+#[path = "contract/claims.rs"]
+mod claims;
+#[path = "contract/ends.rs"]
+mod ends;
+#[path = "contract/lists.rs"]
+mod lists;
+#[path = "contract/order.rs"]
+mod order;
+#[path = "contract/watching.rs"]
+mod watching;
+
+#[path = "embedded/closing.rs"]
+mod closing;
+#[path = "embedded/damage.rs"]
+mod damage;
+#[path = "embedded/killed.rs"]
+mod killed;
+#[path = "embedded/lanes.rs"]
+mod lanes;
+#[path = "embedded/restart.rs"]
+mod restart;
+
+#[path = "support/child.rs"]
+mod child;
+#[path = "support/stage.rs"]
+mod stage;
+#[path = "support/stand.rs"]
+mod stand;

@@ -1,0 +1,93 @@
+//! A mesh as bytes to be kept and read back exactly: for ourselves, not for exchange.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Mesh, MeshFault, Swatch};
+
+/// Says that the bytes are these, and of which layout.
+const LAYOUT: [u8; 8] = *b"verneM01";
+
+/// Why bytes are no packed mesh.
+#[derive(Debug)]
+pub enum Unreadable {
+    /// They were never one, or not of this layout, or are damaged.
+    Bytes(postcard::Error),
+    /// They hold something that is no mesh.
+    Mesh(MeshFault),
+}
+
+impl std::fmt::Display for Unreadable {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Bytes(error) => write!(f, "not a packed mesh: {error}"),
+            Self::Mesh(fault) => fault.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Unreadable {}
+
+#[derive(Serialize, Deserialize)]
+struct Packed<'a> {
+    layout: [u8; 8],
+    positions: Cow<'a, [[f64; 3]]>,
+    triangles: Cow<'a, [[u32; 3]]>,
+    #[serde(borrow)]
+    tags: Cow<'a, [u8]>,
+    palette: Cow<'a, [Swatch]>,
+}
+
+/// The mesh as bytes, some 30 a triangle.
+pub fn pack(mesh: &Mesh) -> Result<Vec<u8>, postcard::Error> {
+    postcard::to_stdvec(&Packed {
+        layout: LAYOUT,
+        positions: mesh.positions().into(),
+        triangles: mesh.triangles().into(),
+        tags: mesh.tags().into(),
+        palette: mesh.palette().into(),
+    })
+}
+
+/// The mesh that [`pack`] made these bytes of.
+pub fn unpack(bytes: &[u8]) -> Result<Mesh, Unreadable> {
+    let packed: Packed<'_> = postcard::from_bytes(bytes).map_err(Unreadable::Bytes)?;
+    if packed.layout != LAYOUT {
+        return Err(Unreadable::Bytes(postcard::Error::DeserializeBadEncoding));
+    }
+    let Packed { positions, triangles, tags, palette, .. } = packed;
+    Mesh::new(positions.into_owned(), triangles.into_owned(), tags.into_owned(), palette.into_owned())
+        .map_err(Unreadable::Mesh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{pack, unpack};
+    use crate::{Mesh, Swatch};
+
+    fn triangle() -> Mesh {
+        let positions = vec![[0.1, -0.0, 1e300], [1.0, 5e-324, 0.0], [0.0, 1.0, std::f64::consts::PI]];
+        let palette = ["first", "zweite ü"].map(|name| Swatch { name: name.to_owned(), rgb: [1, 2, 255] });
+        Mesh::new(positions, vec![[0, 1, 2], [2, 1, 0]], vec![1, 0], palette.to_vec()).unwrap()
+    }
+
+    #[test]
+    fn what_was_packed_comes_back() {
+        for mesh in [triangle(), Mesh::new(vec![], vec![], vec![], vec![]).unwrap()] {
+            assert_eq!(unpack(&pack(&mesh).unwrap()).unwrap(), mesh);
+        }
+    }
+
+    #[test]
+    fn other_bytes_are_refused() {
+        let bytes = pack(&triangle()).unwrap();
+        for end in 0..bytes.len() {
+            assert!(unpack(&bytes[..end]).is_err(), "{end}");
+        }
+        let mut foreign = bytes.clone();
+        foreign[0] ^= 1;
+        assert!(unpack(&foreign).is_err());
+        assert!(unpack(b"{}").is_err());
+    }
+}

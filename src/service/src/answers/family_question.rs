@@ -1,0 +1,108 @@
+//! A checked question about a family of workspaces.
+
+use std::sync::Arc;
+
+use super::workspace_question::{WorkspaceQuestion, check_tolerance};
+use crate::error::Error;
+use crate::faults::{Faults, is_angle, is_tool_length};
+use crate::registry::{Published, Registry};
+use crate::result_id::ResultId;
+use crate::wire::family::{FamilyRequest, WorkspaceBody};
+use crate::wire::machine_ref::MachineRef;
+use crate::wire::span::Span;
+use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest};
+
+/// Most workspaces in a family.
+const MEMBERS: usize = 1000;
+
+/// Changes when the bytes do that the same question is answered with.
+const LAYOUT: &[u8] = b"verne family 1";
+
+/// A family that has an answer.
+#[derive(Clone, Debug)]
+pub(crate) struct FamilyQuestion {
+    /// The machine.
+    pub published: Arc<Published>,
+    /// What is asked.
+    pub request: FamilyRequest,
+    /// Each workspace.
+    pub members: Vec<WorkspaceQuestion>,
+    /// The answer's id.
+    pub id: ResultId,
+}
+
+impl FamilyQuestion {
+    /// Checks a request.
+    pub(crate) fn new(asked: &WorkspaceBody, machines: &Registry) -> Result<Self, Error> {
+        let mut faults = Faults::default();
+        let resolved = machines.resolve(&asked.machine);
+        let (tool, part) = (asked.kind != KindName::Platform, asked.kind == KindName::Part);
+        let mut written = |pointer: &str, span: &Span, effective: bool| {
+            let numbers: Vec<f64> = span.numbers(MEMBERS).unwrap_or_else(|fault| {
+                faults.add(pointer, fault);
+                Vec::new()
+            });
+            if !effective && numbers.len() > 1 {
+                faults.add(pointer, format!("has no effect on {}: give one number", asked.kind.name()));
+            }
+            numbers.into_iter().map(|number| number + 0.0).collect::<Vec<f64>>()
+        };
+        let tool_length = written("/tool_length", &asked.tool_length, tool);
+        let [phi1, phi2] = [("/phi1", &asked.phi1), ("/phi2", &asked.phi2)]
+            .map(|(pointer, span)| written(pointer, span, part));
+        let extremes = |numbers: &[f64]| {
+            let (least, greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+            numbers.iter().fold([least, greatest], |[low, high], &n| [low.min(n), high.max(n)])
+        };
+        if !tool_length.is_empty() {
+            // Where both ends are allowed, so is what lies between.
+            let outside = extremes(&tool_length).into_iter().find(|length| !is_tool_length(*length));
+            outside.into_iter().for_each(|length| faults.tool_length(length));
+        }
+        for (pointer, numbers) in [("/phi1", &phi1), ("/phi2", &phi2)] {
+            let outside = extremes(numbers).into_iter().find(|angle| !numbers.is_empty() && !is_angle(*angle));
+            faults.angle(pointer, outside);
+        }
+        check_tolerance(asked.tolerance, resolved.as_deref().ok(), &mut faults);
+        let count = tool_length.len().saturating_mul(phi1.len()).saturating_mul(phi2.len());
+        if count > MEMBERS {
+            faults.add("", format!("makes {count} workspaces; at most {MEMBERS} are computed at once"));
+        }
+        faults.into_result()?;
+        let request = FamilyRequest { kind: asked.kind, tool_length, phi1, phi2, tolerance: asked.tolerance };
+        Ok(Self::of(&resolved?, request))
+    }
+
+    /// A question that was checked before.
+    pub(crate) fn of(published: &Arc<Published>, request: FamilyRequest) -> Self {
+        let members: Vec<WorkspaceQuestion> = request
+            .members()
+            .map(|member| WorkspaceQuestion::of(Arc::clone(published), CanonicalRequest::from(&member)))
+            .collect();
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(LAYOUT);
+        for member in &members {
+            hasher.update(member.id.job().as_bytes());
+        }
+        Self { published: Arc::clone(published), request, members, id: hasher.finalize().into() }
+    }
+}
+
+impl FamilyRequest {
+    /// Every combination, phi2 running fastest.
+    fn members(&self) -> impl Iterator<Item = WorkspaceRequest> {
+        let lengths = self.tool_length.iter();
+        lengths.flat_map(move |&tool_length| {
+            self.phi1.iter().flat_map(move |&phi1| {
+                self.phi2.iter().map(move |&phi2| WorkspaceRequest {
+                    machine: MachineRef::default(),
+                    kind: self.kind,
+                    tool_length,
+                    phi1,
+                    phi2,
+                    tolerance: self.tolerance,
+                })
+            })
+        })
+    }
+}

@@ -1,0 +1,168 @@
+//! A checked question whose answer is kept, and how it is written down for a job.
+
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+use verne_jobs::Submission;
+
+use super::family_question::FamilyQuestion;
+use super::workspace_question::WorkspaceQuestion;
+use crate::error::{Error, Fault};
+use crate::registry::Published;
+use crate::result_id::ResultId;
+use crate::wire::answer::MachineId;
+use crate::wire::machine::MachineObject;
+
+/// What a job may be asked for.
+#[derive(Clone, Debug)]
+pub(crate) enum Question {
+    /// One workspace.
+    Workspace(WorkspaceQuestion),
+    /// A table of workspaces.
+    Family(FamilyQuestion),
+}
+
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Asked {
+    Workspace,
+    Family,
+}
+
+/// A question with its machine, as text: all that another process needs to answer it.
+#[derive(Serialize, Deserialize)]
+struct Written<'a> {
+    asked: Asked,
+    machine: MachineObject,
+    hash: String,
+    #[serde(borrow)]
+    request: &'a RawValue,
+}
+
+impl Question {
+    /// The answer's id.
+    pub(crate) fn id(&self) -> ResultId {
+        match self {
+            Self::Workspace(question) => question.id,
+            Self::Family(question) => question.id,
+        }
+    }
+
+    fn published(&self) -> &Published {
+        match self {
+            Self::Workspace(question) => &question.published,
+            Self::Family(question) => &question.published,
+        }
+    }
+
+    /// Estimated work, seconds of one core.
+    fn cost(&self) -> f64 {
+        match self {
+            Self::Workspace(question) => question.cost(),
+            Self::Family(question) => question.members.iter().map(WorkspaceQuestion::cost).sum(),
+        }
+    }
+
+    /// The question as text.
+    pub(crate) fn written(&self) -> Result<Vec<u8>, Error> {
+        let (asked, request) = match self {
+            Self::Workspace(question) => (Asked::Workspace, raw(&question.request)?),
+            Self::Family(question) => (Asked::Family, raw(&question.request)?),
+        };
+        let published = self.published();
+        let machine = MachineObject::from(published.machine.data());
+        let written = Written { asked, machine, hash: (*published.id.hash).to_owned(), request: &request };
+        serde_json::to_vec(&written).map_err(|_| Error::Internal)
+    }
+
+    /// The question that was written. Another version of the service may have asked, and meant another answer.
+    pub(crate) fn read(text: &[u8], id: ResultId) -> Result<Self, Error> {
+        let written: Written<'_> = serde_json::from_slice(text).map_err(|_| Error::OtherVersion)?;
+        let published = Published::from_object(&written.machine).map_err(|_| Error::OtherVersion)?.into();
+        let request = written.request.get();
+        let question = match written.asked {
+            Asked::Workspace => serde_json::from_str(request)
+                .map(|request| Self::Workspace(WorkspaceQuestion::of(published, request))),
+            Asked::Family => serde_json::from_str(request)
+                .map(|request| Self::Family(FamilyQuestion::of(&published, request))),
+        };
+        question.ok().filter(|question| question.id() == id).ok_or(Error::OtherVersion)
+    }
+
+    /// The question as a job for a client.
+    pub(crate) fn submission(
+        &self,
+        client: String,
+        deadline: std::time::Duration,
+    ) -> Result<Submission, Error> {
+        Ok(Submission {
+            id: self.id().job(),
+            client,
+            cost: self.cost(),
+            payload: self.written()?.into(),
+            deadline: Some(deadline),
+        })
+    }
+}
+
+fn raw(request: &impl Serialize) -> Result<Box<RawValue>, Error> {
+    serde_json::value::to_raw_value(request).map_err(|_| Error::Internal)
+}
+
+/// What a written question says about itself, unchecked.
+#[derive(Deserialize)]
+pub(crate) struct Gist<'a> {
+    machine: Name,
+    hash: String,
+    /// The request.
+    #[serde(borrow)]
+    pub request: &'a RawValue,
+}
+
+#[derive(Deserialize)]
+struct Name {
+    name: String,
+}
+
+impl<'a> Gist<'a> {
+    /// Reads it.
+    pub(crate) fn of(written: &'a [u8]) -> Result<Self, Error> {
+        serde_json::from_slice(written).map_err(|_| Error::Internal)
+    }
+
+    /// The machine.
+    pub(crate) fn machine(&self) -> MachineId {
+        MachineId { name: self.machine.name.as_str().into(), hash: self.hash.as_str().into() }
+    }
+}
+
+/// Why a job failed, as it is kept with the job.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum TaskFault {
+    /// These fields cannot be used, as only the work has shown.
+    Fields(Vec<Fault>),
+    /// Another version asked.
+    OtherVersion,
+    /// A defect.
+    Internal,
+}
+
+impl From<Error> for TaskFault {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::Fields(faults) => Self::Fields(faults),
+            Error::OtherVersion => Self::OtherVersion,
+            _ => Self::Internal,
+        }
+    }
+}
+
+impl From<TaskFault> for Error {
+    fn from(fault: TaskFault) -> Self {
+        match fault {
+            TaskFault::Fields(faults) => Self::Fields(faults),
+            TaskFault::OtherVersion => Self::OtherVersion,
+            TaskFault::Internal => Self::Internal,
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! `/jobs`: what is being computed.
+
+use std::convert::Infallible;
+use std::time::Duration;
+
+use axum::Json;
+use axum::extract::rejection::PathRejection;
+use axum::extract::{Path, State};
+use axum::http::header::{CACHE_CONTROL, LOCATION, RETRY_AFTER};
+use axum::http::{HeaderName, StatusCode};
+use axum::response::sse::{Event, KeepAlive};
+use axum::response::{IntoResponse, Response, Sse};
+use futures_util::{Stream, StreamExt};
+use verne_jobs::{Filter, Job, JobId};
+
+use crate::error::{Error, Fault};
+use crate::extract::Params;
+use crate::openapi::binary::Text;
+use crate::openapi::problems::{JobProblems, QueryProblems};
+use crate::state::Shared;
+use crate::wire::job::{JobList, JobObject, JobsQuery};
+
+type Id = Result<Path<String>, PathRejection>;
+
+/// A job changes: no cache may answer for it.
+const LIVE: (HeaderName, &str) = (CACHE_CONTROL, "no-store");
+
+/// How long an idle stream of events is silent at most.
+const SILENCE: Duration = Duration::from_secs(15);
+
+/// Jobs
+///
+/// What is being computed and what was, newest first. Finished jobs are forgotten after a while; their results are
+/// kept apart from them.
+#[utoipa::path(
+    get, path = "/jobs", operation_id = "jobs", tag = "jobs", params(JobsQuery),
+    responses((status = 200, description = "A page of jobs.", body = JobList), QueryProblems)
+)]
+pub(crate) async fn get_jobs(
+    State(state): State<Shared>,
+    Params(query): Params<JobsQuery>,
+) -> Result<impl IntoResponse, Error> {
+    let fault = |name, detail| Error::Fields(vec![Fault::new(format!("/query/{name}"), detail)]);
+    let JobsQuery { state: wanted, limit, after } = query;
+    if !(1..=Filter::MAX_LIMIT).contains(&limit) {
+        return Err(fault("limit", "must be a number from 1 to 100"));
+    }
+    let after = after.map(|text| text.parse().map_err(|_| fault("after", "must be the `next` of a page")));
+    let filter = Filter { state: wanted.map(Into::into), client: None, after: after.transpose()?, limit };
+    let page = state.jobs.list(filter).await?;
+    let jobs = page.jobs.iter().map(JobObject::new).collect::<Result<_, _>>()?;
+    Ok(([LIVE], Json(JobList { jobs, next: page.next.map(|next| next.to_string()) })))
+}
+
+/// A job
+///
+/// Where a computation stands. Its id is that of its result.
+#[utoipa::path(
+    get, path = "/jobs/{id}", operation_id = "job", tag = "jobs",
+    params(("id" = String, Path, description = "The id that /workspace answered.")),
+    responses((status = 200, description = "The job.", body = JobObject), JobProblems)
+)]
+pub(crate) async fn get_job(State(state): State<Shared>, id: Id) -> Result<impl IntoResponse, Error> {
+    let (text, id) = known(id)?;
+    let job = state.jobs.get(id).await?.ok_or(Error::NoSuchJob(text))?;
+    Ok(([LIVE], Json(JobObject::new(&job)?)))
+}
+
+/// A job's changes
+///
+/// Server-sent events: the job as GET /jobs/{id} answers it, now and at each change, progress at most some ten times a
+/// second. The stream ends with the job.
+#[utoipa::path(
+    get, path = "/jobs/{id}/events", operation_id = "job_events", tag = "jobs",
+    params(("id" = String, Path, description = "The id that /workspace answered.")),
+    responses(
+        (status = 200, description = "Events whose data is a job.", content((Text = "text/event-stream"))),
+        JobProblems
+    )
+)]
+pub(crate) async fn get_events(State(state): State<Shared>, id: Id) -> Result<Response, Error> {
+    let (text, id) = known(id)?;
+    let watcher = state.jobs.watch(id).await?.ok_or(Error::NoSuchJob(text))?;
+    let stopping = state.stopping.clone().cancelled_owned();
+    let events = watcher.take_until(stopping).filter_map(|job| async move { event(&job) });
+    Ok(([LIVE], Sse::new(endless(events)).keep_alive(KeepAlive::new().interval(SILENCE))).into_response())
+}
+
+fn endless(events: impl Stream<Item = Event>) -> impl Stream<Item = Result<Event, Infallible>> {
+    events.map(Ok)
+}
+
+fn event(job: &Job) -> Option<Event> {
+    Event::default().json_data(JobObject::new(job).ok()?).ok()
+}
+
+/// Cancel a job
+///
+/// Whoever waits for it. A running computation stops within a second; one that is finished stays as it is. The answer is
+/// the job as it stands then.
+#[utoipa::path(
+    delete, path = "/jobs/{id}", operation_id = "job_cancel", tag = "jobs",
+    params(("id" = String, Path, description = "The id that /workspace answered.")),
+    responses((status = 200, description = "The job.", body = JobObject), JobProblems)
+)]
+pub(crate) async fn delete_job(State(state): State<Shared>, id: Id) -> Result<impl IntoResponse, Error> {
+    let (text, id) = known(id)?;
+    let job = state.jobs.cancel(id).await?.ok_or(Error::NoSuchJob(text))?;
+    Ok(([LIVE], Json(JobObject::new(&job)?)))
+}
+
+fn known(id: Id) -> Result<(String, JobId), Error> {
+    let Path(text) = id.map_err(|_| Error::NoSuchPath)?;
+    match text.parse() {
+        Ok(id) => Ok((text, id)),
+        Err(_) => Err(Error::NoSuchJob(text)),
+    }
+}
+
+/// 202: a job will have the answer.
+pub(super) fn accepted(job: &Job) -> Result<Response, Error> {
+    let object = JobObject::new(job)?;
+    let headers = [
+        (LOCATION, object.links.itself.clone()),
+        (RETRY_AFTER, "1".to_owned()),
+        (LIVE.0, LIVE.1.to_owned()),
+    ];
+    Ok((StatusCode::ACCEPTED, headers, Json(object)).into_response())
+}

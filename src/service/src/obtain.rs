@@ -1,0 +1,89 @@
+//! From a question to its answer: what is kept, or what a job makes while somebody waits.
+
+use std::time::Duration;
+
+use verne_jobs::{Claim, Failure, Job};
+use verne_jobs::State as JobState;
+
+use crate::answers::{Question, TaskFault};
+use crate::error::Error;
+use crate::result_id::ResultId;
+use crate::results::Record;
+use crate::state::State;
+
+/// What has become of a question.
+pub(crate) enum Obtained<T> {
+    /// The answer.
+    Ready(T),
+    /// A job that will have it.
+    Pending(Job),
+}
+
+/// Who waits, and how long.
+#[derive(Clone, Debug)]
+pub(crate) struct Patience {
+    /// Whose share of the cores a job is charged to.
+    pub client: String,
+    /// How long the answer is waited for before the job's address is answered.
+    pub wait: Duration,
+}
+
+impl State {
+    /// The record of a question's answer.
+    pub(crate) async fn obtain(
+        &self,
+        question: &Question,
+        patience: &Patience,
+    ) -> Result<Obtained<Record>, Error> {
+        let id = question.id();
+        match self.results.record(id).await {
+            Some(record) => Ok(Obtained::Ready(record)),
+            None => self.compute(question, patience).await,
+        }
+    }
+
+    /// Has a job compute the answer, and waits for it.
+    pub(crate) async fn compute(
+        &self,
+        question: &Question,
+        patience: &Patience,
+    ) -> Result<Obtained<Record>, Error> {
+        let submission = question.submission(patience.client.clone(), self.limits.job)?;
+        let claim = self.jobs.submit(submission).await?;
+        if patience.wait.is_zero() {
+            claim.keep();
+            return Ok(Obtained::Pending(claim.job()));
+        }
+        tokio::select! {
+            job = claim.finished() => self.finished(question.id(), job).await.map(Obtained::Ready),
+            () = tokio::time::sleep(patience.wait) => Ok(Obtained::Pending(kept(&claim))),
+            () = self.stopping.cancelled() => Err(Error::Stopping),
+        }
+    }
+
+    async fn finished(&self, id: ResultId, job: Job) -> Result<Record, Error> {
+        match job.state {
+            // What was just made can only be gone if there is room for nothing.
+            JobState::Succeeded => self.results.record(id).await.ok_or(Error::NoRoom),
+            JobState::Failed => Err(failure(&job)),
+            JobState::Cancelled => Err(Error::JobCancelled),
+            JobState::Queued | JobState::Running => Err(Error::Stopping),
+        }
+    }
+}
+
+fn kept(claim: &Claim) -> Job {
+    claim.keep();
+    claim.job()
+}
+
+/// Why a job failed.
+pub(crate) fn failure(job: &Job) -> Error {
+    match &job.failure {
+        Some(Failure::Work(fault)) => {
+            serde_json::from_slice::<TaskFault>(fault).map_or(Error::Internal, Error::from)
+        }
+        Some(Failure::DeadlinePassed) => Error::JobTooLong,
+        Some(Failure::Panicked(_) | Failure::TooManyAttempts) | None => Error::Internal,
+    }
+}

@@ -1,0 +1,192 @@
+//! The store: memory before disk.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use bytes::Bytes;
+use object_store::ObjectStore;
+
+use crate::disk::Disk;
+use crate::held::Held;
+use crate::memory::Memory;
+use crate::stats::Counts;
+use crate::{Content, Key, OpenError, Stats};
+
+/// Where results are kept, and how many bytes of them.
+#[derive(Clone, Debug)]
+pub struct Config {
+    /// Where they are kept across restarts; made if it is not there. `None`: nowhere.
+    pub directory: Option<PathBuf>,
+    /// How many bytes memory holds. What callers hold themselves is not counted.
+    pub memory_bytes: u64,
+    /// How many bytes the objects on disk have together. The index is not counted: some 100 bytes an object.
+    pub disk_bytes: u64,
+}
+
+/// How long a content that was put stays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// It is flushed to disk: a restart does not lose it, only the need for room.
+    Durable,
+    /// It is in memory until that needs the room: there is no disk, the disk refused it, or it is larger than the
+    /// disk's bound. What lay on disk under the key before still does.
+    MemoryOnly,
+}
+
+/// Results under content keys. Its clones are one store.
+#[derive(Clone)]
+pub struct Store {
+    memory: Memory,
+    held: Held,
+    disk: Option<Arc<Disk>>,
+    counts: Arc<Counts>,
+}
+
+impl Store {
+    /// Opens the configured directory, or a store in memory if there is none. After a crash the index is made to
+    /// agree with the objects first.
+    pub async fn open(config: &Config) -> Result<Self, OpenError> {
+        match &config.directory {
+            Some(directory) => Self::build(directory, None, config.memory_bytes, config.disk_bytes).await,
+            None => Ok(Self::in_memory(config.memory_bytes)),
+        }
+    }
+
+    /// Opens a store whose objects lie elsewhere than in the directory, which holds the index of them. The index
+    /// knows of no other writer: one store at a time.
+    pub async fn open_over(
+        objects: Arc<dyn ObjectStore>,
+        directory: &Path,
+        memory_bytes: u64,
+        disk_bytes: u64,
+    ) -> Result<Self, OpenError> {
+        Self::build(directory, Some(objects), memory_bytes, disk_bytes).await
+    }
+
+    /// A store of so many bytes that lasts as long as the process.
+    pub fn in_memory(memory_bytes: u64) -> Self {
+        Self {
+            memory: Memory::of_size(memory_bytes),
+            held: Held::default(),
+            disk: None,
+            counts: Arc::default(),
+        }
+    }
+
+    async fn build(
+        directory: &Path,
+        objects: Option<Arc<dyn ObjectStore>>,
+        memory_bytes: u64,
+        disk_bytes: u64,
+    ) -> Result<Self, OpenError> {
+        let mut store = Self::in_memory(memory_bytes);
+        store.disk = Some(Disk::open(directory, objects, disk_bytes, Arc::clone(&store.counts)).await?);
+        Ok(store)
+    }
+
+    /// The content of a key, if it is kept. An object that is damaged or cannot be read is logged, counted and
+    /// as if not there.
+    pub async fn get(&self, key: &Key) -> Option<Content> {
+        if let Some(content) = self.remembered(key).await {
+            return Some(content);
+        }
+        let (content, ran) = self.memory.get_or_find(*key, self.read(*key)).await;
+        let count = match (&content, ran) {
+            (None, _) => &self.counts.misses,
+            (Some(_), true) => &self.counts.disk_hits,
+            (Some(_), false) => &self.counts.memory_hits,
+        };
+        count.add(1);
+        content
+    }
+
+    /// Keeps bytes under a key, in place of what was there. A disk that fails is logged and counted: the content
+    /// is in memory all the same.
+    pub async fn put(&self, key: &Key, bytes: Bytes) -> (Content, Kept) {
+        let content = self.held.share(*key, Content::of(bytes).await);
+        self.memory.insert(*key, content.clone()).await;
+        let kept = self.write(*key, &content).await;
+        (content, kept)
+    }
+
+    /// The content of a key; if it is not kept, `make` makes it. Of many callers at once one makes it and all have
+    /// the one answer; if that caller is dropped, another takes over. A failure is answered to those who wait
+    /// now and not remembered. Callers whose errors are of different types do not wait for each other.
+    pub async fn get_or_make<E: Clone + Send + Sync + 'static>(
+        &self,
+        key: &Key,
+        make: impl Future<Output = Result<Bytes, E>> + Send,
+    ) -> Result<Content, E> {
+        if let Some(content) = self.remembered(key).await {
+            return Ok(content);
+        }
+        let found_or_made = async {
+            if let Some(content) = self.get(key).await {
+                return Ok(content);
+            }
+            let content = self.held.share(*key, Content::of(make.await?).await);
+            self.write(*key, &content).await;
+            Ok(content)
+        };
+        let (content, ran) = self.memory.get_or_make(*key, found_or_made).await;
+        if content.is_ok() && !ran {
+            self.counts.memory_hits.add(1);
+        }
+        content
+    }
+
+    /// What the store has done, and how large it is.
+    pub fn stats(&self) -> Stats {
+        let counts = &self.counts;
+        Stats {
+            memory_hits: counts.memory_hits.get(),
+            disk_hits: counts.disk_hits.get(),
+            misses: counts.misses.get(),
+            memory_bytes: self.memory.size(),
+            disk_bytes: self.disk.as_ref().map_or(0, |disk| disk.total()),
+            evictions: counts.evictions.get(),
+            damaged: counts.damaged.get(),
+            read_failures: counts.read_failures.get(),
+            write_failures: counts.write_failures.get(),
+        }
+    }
+
+    /// Whether the disk, if there is one, takes an object now; asked again after a few seconds at the earliest.
+    pub async fn healthy(&self) -> Result<(), String> {
+        match &self.disk {
+            Some(disk) => disk.healthy().await,
+            None => Ok(()),
+        }
+    }
+
+    /// What memory holds, or somebody else.
+    async fn remembered(&self, key: &Key) -> Option<Content> {
+        let content = match self.memory.get(key).await {
+            Some(content) => content,
+            None => self.held.get(key)?,
+        };
+        self.counts.memory_hits.add(1);
+        self.touch(*key).await;
+        Some(content)
+    }
+
+    /// What lies on disk.
+    async fn read(&self, key: Key) -> Option<Content> {
+        let content = self.disk.as_ref()?.read(key).await?;
+        self.touch(key).await;
+        Some(self.held.share(key, content))
+    }
+
+    async fn write(&self, key: Key, content: &Content) -> Kept {
+        match &self.disk {
+            Some(disk) if disk.write(key, content).await => Kept::Durable,
+            _ => Kept::MemoryOnly,
+        }
+    }
+
+    async fn touch(&self, key: Key) {
+        if let Some(disk) = &self.disk {
+            disk.touch(key).await;
+        }
+    }
+}

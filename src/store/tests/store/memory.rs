@@ -1,0 +1,138 @@
+//! The layer in memory: what it holds, and who works while the others wait.
+
+use std::future;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use bytes::Bytes;
+use tokio::sync::Semaphore;
+use tokio::task::JoinSet;
+use verne_store::{Kept, Store};
+
+use crate::place::{bytes, key};
+
+/// Whether a content is let go: not at the first moment, for other tests' threads keep moka's garbage alive too.
+async fn forgotten(store: &Store, number: u8) -> bool {
+    for _ in 0..1_000_000 {
+        if store.get(&key(number)).await.is_none() {
+            return true;
+        }
+        tokio::task::yield_now().await;
+    }
+    false
+}
+
+#[tokio::test]
+async fn what_is_put_is_got_with_its_hash() {
+    let store = Store::in_memory(1 << 20);
+    assert_eq!(store.get(&key(1)).await, None);
+    let (put, kept) = store.put(&key(1), bytes(1, 100_000)).await;
+    assert_eq!(put.hash, blake3::hash(&bytes(1, 100_000)));
+    assert_eq!(kept, Kept::MemoryOnly);
+    let got = store.get(&key(1)).await.unwrap();
+    assert_eq!(got.bytes, bytes(1, 100_000));
+    assert_eq!(got.hash, put.hash);
+    let stats = store.stats();
+    assert_eq!((stats.memory_hits, stats.disk_hits, stats.misses), (1, 0, 1));
+    assert_eq!(store.healthy().await, Ok(()));
+}
+
+#[tokio::test]
+async fn what_is_put_again_takes_the_place_of_what_was_there() {
+    let store = Store::in_memory(1 << 20);
+    let (old, _) = store.put(&key(1), bytes(1, 100)).await;
+    store.put(&key(1), bytes(2, 100)).await;
+    assert_eq!(store.get(&key(1)).await.unwrap().bytes, bytes(2, 100));
+    assert_eq!(old.bytes, bytes(1, 100), "a holder's bytes never change");
+}
+
+#[tokio::test]
+async fn memory_keeps_to_its_bound_and_forgets_what_was_used_least_recently() {
+    let store = Store::in_memory(400 << 10);
+    for number in 1..=3 {
+        store.put(&key(number), bytes(number, 100 << 10)).await;
+    }
+    assert!(store.get(&key(1)).await.is_some());
+    store.put(&key(4), bytes(4, 100 << 10)).await;
+    for number in [1, 3, 4] {
+        assert!(store.get(&key(number)).await.is_some(), "{number}");
+    }
+    assert!(forgotten(&store, 2).await);
+    assert!(store.stats().memory_bytes <= 400 << 10);
+}
+
+#[tokio::test]
+async fn what_is_larger_than_memory_is_not_held_by_it() {
+    let store = Store::in_memory(10 << 10);
+    let (content, _) = store.put(&key(1), bytes(1, 20 << 10)).await;
+    assert_eq!(store.stats().memory_bytes, 0);
+    assert!(store.get(&key(1)).await.is_some(), "the caller's own buffer is found");
+    drop(content);
+    assert!(forgotten(&store, 1).await);
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 4)]
+async fn a_thousand_callers_are_one_computation() {
+    // The content is of 100 kB: memory has room for it, or not, or for nothing.
+    for memory in [1 << 20, 50 << 10, 0] {
+        let store = Store::in_memory(memory);
+        let (made, asked, all_asked) =
+            (Arc::new(AtomicU32::new(0)), Arc::new(AtomicU32::new(0)), Arc::new(Semaphore::new(0)));
+        let mut callers = JoinSet::new();
+        for _ in 0..1000 {
+            let (store, made, asked, all_asked) =
+                (store.clone(), Arc::clone(&made), Arc::clone(&asked), Arc::clone(&all_asked));
+            callers.spawn(async move {
+                if asked.fetch_add(1, Ordering::SeqCst) == 999 {
+                    all_asked.add_permits(1);
+                }
+                let make = async {
+                    made.fetch_add(1, Ordering::SeqCst);
+                    all_asked.acquire().await.unwrap().forget();
+                    Ok::<_, String>(bytes(1, 100_000))
+                };
+                store.get_or_make(&key(1), make).await.unwrap()
+            });
+        }
+        let contents = callers.join_all().await;
+        assert_eq!(made.load(Ordering::SeqCst), 1);
+        assert!(contents.iter().all(|content| content.bytes.as_ptr() == contents[0].bytes.as_ptr()));
+        let stats = store.stats();
+        assert_eq!((stats.memory_hits, stats.misses), (999, 1));
+    }
+}
+
+#[tokio::test]
+async fn a_failure_is_answered_and_not_remembered() {
+    let store = Store::in_memory(1 << 20);
+    let failed = store.get_or_make(&key(1), future::ready(Err("no"))).await;
+    assert_eq!(failed.unwrap_err(), "no");
+    let made = store.get_or_make(&key(1), future::ready(Ok::<_, &str>(bytes(1, 10)))).await;
+    assert_eq!(made.unwrap().bytes, bytes(1, 10));
+    let kept = store.get_or_make(&key(1), future::ready(Err("not asked"))).await;
+    assert_eq!(kept.unwrap().bytes, bytes(1, 10));
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn another_takes_over_from_a_caller_that_is_dropped() {
+    let store = Store::in_memory(1 << 20);
+    let began = Arc::new(Semaphore::new(0));
+    let first = {
+        let (store, began) = (store.clone(), Arc::clone(&began));
+        tokio::spawn(async move {
+            let never = async {
+                began.add_permits(1);
+                future::pending::<Result<Bytes, String>>().await
+            };
+            store.get_or_make(&key(1), never).await
+        })
+    };
+    began.acquire().await.unwrap().forget();
+    let second = {
+        let store = store.clone();
+        let make = future::ready(Ok::<_, String>(bytes(1, 10)));
+        tokio::spawn(async move { store.get_or_make(&key(1), make).await })
+    };
+    first.abort();
+    assert_eq!(second.await.unwrap().unwrap().bytes, bytes(1, 10));
+}

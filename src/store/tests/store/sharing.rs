@@ -1,0 +1,65 @@
+//! One buffer for all who read a content at once, however large.
+
+use std::sync::atomic::Ordering;
+
+use tokio::task::JoinSet;
+use verne_store::{Content, Store};
+
+use crate::place::{Place, bytes, key};
+
+fn same_buffer(a: &Content, b: &Content) -> bool {
+    a.bytes.as_ptr() == b.bytes.as_ptr()
+}
+
+#[tokio::test]
+async fn hits_are_clones_of_one_buffer_which_is_the_one_that_was_put() {
+    let store = Store::in_memory(64 << 20);
+    let given = bytes(1, 20 << 20);
+    let (put, _) = store.put(&key(1), given.clone()).await;
+    let got = store.get(&key(1)).await.unwrap();
+    assert_eq!(put.bytes.as_ptr(), given.as_ptr());
+    assert!(same_buffer(&put, &got));
+}
+
+#[tokio::test]
+async fn readers_of_what_memory_has_no_room_for_share_it_while_one_of_them_holds_it() {
+    let place = Place::new();
+    place.open().await.put(&key(1), bytes(1, 1 << 20)).await;
+    let store = place.open_without_memory().await;
+    let first = store.get(&key(1)).await.unwrap();
+    let second = store.get(&key(1)).await.unwrap();
+    drop(first);
+    let third = store.get(&key(1)).await.unwrap();
+    assert!(same_buffer(&second, &third));
+    assert_eq!(store.stats().disk_hits, 1);
+    drop((second, third));
+    // Let go at the latest when other tests' threads let go of moka's garbage: then the disk is read again.
+    while store.stats().disk_hits == 1 {
+        assert_eq!(store.get(&key(1)).await.unwrap().bytes, bytes(1, 1 << 20));
+    }
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 4)]
+async fn first_readers_at_once_read_the_disk_once() {
+    let place = Place::new();
+    place.open().await.put(&key(1), bytes(1, 1 << 20)).await;
+    let objects = place.objects();
+    let store = place.open_over(&objects, 1 << 30).await;
+    objects.close_gate();
+    let mut readers = JoinSet::new();
+    for number in 0..100 {
+        let store = store.clone();
+        readers.spawn(async move {
+            if number % 2 == 0 {
+                return store.get(&key(1)).await.unwrap();
+            }
+            store.get_or_make(&key(1), async { Err("it is there") }).await.unwrap()
+        });
+    }
+    objects.arrival().await;
+    objects.open_gate();
+    let contents = readers.join_all().await;
+    assert!(contents.iter().all(|content| same_buffer(content, &contents[0])));
+    assert_eq!(objects.gets.load(Ordering::Relaxed), 1);
+    assert_eq!(store.stats().disk_hits, 1);
+}
