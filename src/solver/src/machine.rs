@@ -10,6 +10,7 @@ use crate::forward;
 use crate::jacobian;
 use crate::margins::cone::{Columns, columns};
 use crate::margins::interference;
+use crate::margins::weights::Weights;
 
 /// Rods that cross at home are measured against this distance, mm.
 const SMALL_DISTANCE: f64 = 1e-3;
@@ -129,6 +130,8 @@ pub(crate) struct Derived {
     pub(crate) home_turn: f64,
     /// Least distance between two rods' axes at home, mm: the scale of rod interference.
     pub(crate) home_distance: f64,
+    /// What margins are compared by.
+    pub(crate) weights: Weights,
 }
 
 impl Machine {
@@ -181,6 +184,8 @@ impl Derived {
         let platform_axes = data.limits.platform_axes.map_or(home, |axes| axes.map(unit));
         let scale =
             [g.L1, g.L2, g.L3, g.R1, g.r1, g.R2, g.r4, e1.abs(), e2.abs()].into_iter().fold(0.0, f64::max);
+        let home_det = jacobian::det_at_home(g);
+        let home_distance = interference::nearest(g, &rods).0.max(SMALL_DISTANCE);
         let mut derived = Self {
             e1,
             e2,
@@ -192,8 +197,9 @@ impl Derived {
             scale,
             slider_axes: columns(&slider_axes),
             platform_axes: columns(&platform_axes),
-            home_det: jacobian::det_at_home(g),
-            home_distance: interference::nearest(g, &rods).0.max(SMALL_DISTANCE),
+            home_det,
+            home_distance,
+            weights: Weights::new(data, home_det, home_distance),
             home_turn: 0.0,
         };
         derived.home_turn = forward::turn_at_home(g, &derived);

@@ -2,6 +2,7 @@
 
 pub(crate) mod cone;
 pub(crate) mod interference;
+pub(crate) mod weights;
 mod worst;
 
 use crate::jacobian::{determinant, matrix};
@@ -10,6 +11,8 @@ use crate::machine::Machine;
 use crate::pose::TableAngles;
 use crate::posture::Posture;
 use crate::rods::Rods;
+
+pub(crate) use worst::worst;
 
 /// All margins of one posture. Arrays of four are rod 11, rod 12, the rods of leg II, the rods of
 /// leg III (a parallelogram's two rods are parallel).
@@ -43,19 +46,14 @@ impl Margins {
     /// The margins of a posture, with the table's where it takes part.
     pub fn of(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Self {
         let (g, limits, derived) = (machine.geometry(), machine.limits(), &machine.derived);
-        let pose = &posture.pose;
         let rods = Rods::of(machine, &posture.pose, posture.rho);
         let (distance, nearest_rods) = interference::nearest(g, &rods);
         let directions = cone::columns(&rods.directions);
-        let q = g.R2 * rods.s;
-        let [rho1, rho2, rho3] = posture.rho;
-        let drops = [pose.z - rho1, pose.z - q - rho2, pose.z + q - rho3];
         Self {
             stroke: std::array::from_fn(|i| between(limits.stroke[i], posture.rho[i])),
-            leg_length: drops.map(f64::abs),
+            leg_length: drops(machine, posture, &rods),
             serial_singularity: rods.directions.map(|direction| direction[2] - limits.serial_margin),
-            parallel_singularity: determinant(&matrix(g, &rods)) * derived.home_det.signum()
-                - limits.parallel_margin,
+            parallel_singularity: det(machine, &rods),
             slider_joint: cone::margins(limits.slider_cone, &derived.slider_axes, &directions),
             platform_joint: cone::margins(
                 limits.platform_cone,
@@ -95,6 +93,22 @@ impl Margins {
     }
 }
 
+/// What each leg's length leaves for its drop along z, mm.
+#[inline]
+fn drops(machine: &Machine, posture: &Posture, rods: &Rods) -> [f64; 3] {
+    let (z, q) = (posture.pose.z, machine.geometry().R2 * rods.s);
+    let [rho1, rho2, rho3] = posture.rho;
+    [z - rho1, z - q - rho2, z + q - rho3].map(f64::abs)
+}
+
+/// `det_P` in the sign of home less the limit.
+#[inline]
+fn det(machine: &Machine, rods: &Rods) -> f64 {
+    determinant(&matrix(machine.geometry(), rods)) * machine.derived.home_det.signum()
+        - machine.limits().parallel_margin
+}
+
+#[inline]
 fn between([low, high]: [f64; 2], value: f64) -> [f64; 2] {
     [value - low, high - value]
 }

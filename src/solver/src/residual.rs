@@ -88,6 +88,12 @@ pub(crate) fn greater(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
+/// The lesser of two numbers.
+#[inline]
+pub(crate) fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
 /// The size of a pose's numbers, which scales all rounding: a pose far along z is rounded with
 /// its z.
 #[inline]

@@ -6,6 +6,7 @@
 
 mod column;
 mod contains;
+pub mod dexterity;
 mod domain;
 mod image;
 mod measure;

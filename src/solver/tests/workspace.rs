@@ -11,6 +11,8 @@ mod machines;
 mod measure;
 #[path = "workspace/membership.rs"]
 mod membership;
+#[path = "workspace/orientations.rs"]
+mod orientations;
 #[path = "workspace/pieces.rs"]
 mod pieces;
 #[path = "workspace/slices.rs"]

@@ -154,9 +154,8 @@ impl Disk {
         let size = object::size(content);
         self.make_room(Some((key, size))).await?;
         self.objects.put(&key.location(), object::wrap(&key, content)).await?;
-        let uses = self.take_uses();
         let used = self.next_use.fetch_add(1, Ordering::Relaxed);
-        let entered = self.with_index(move |index| index.insert((key, size), used, &uses)).await;
+        let entered = self.with_index(move |index| index.insert(key, size, used)).await;
         if entered.is_err() {
             // Nothing would count it, nor remove it in its turn.
             self.objects.delete(&key.location()).await?;

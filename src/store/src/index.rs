@@ -73,17 +73,9 @@ impl Index {
         self.total
     }
 
-    /// Enters an object, used now, and with it the uses of others.
-    pub(crate) fn insert(
-        &mut self,
-        object: (Key, u64),
-        used: u64,
-        uses: &[(Key, u64)],
-    ) -> rusqlite::Result<()> {
-        self.change(|changes| {
-            changes.touch(uses)?;
-            changes.insert(object.0, object.1, used)
-        })
+    /// Enters an object, used now.
+    pub(crate) fn insert(&mut self, key: Key, size: u64, used: u64) -> rusqlite::Result<()> {
+        self.change(|changes| changes.insert(key, size, used))
     }
 
     /// Notes uses.

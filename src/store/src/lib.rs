@@ -14,6 +14,8 @@
 //!
 //! The objects are the truth and the index a memo of it: a row and its object are reconciled when the store is
 //! opened, so that a crash between the two loses nothing.
+//!
+//! It runs on tokio; files, the index and the hashing of what is large are left to its blocking threads.
 
 mod content;
 mod disk;

@@ -106,6 +106,10 @@ pub(crate) fn workspace_error(error: WorkspaceError) -> Error {
         WorkspaceError::TooFine => {
             Error::Fields(vec![Fault::new("/tolerance", "asks for more vertices than can be numbered")])
         }
+        WorkspaceError::TooManyNodes { nodes } => Error::Fields(vec![Fault::new(
+            "/cell",
+            format!("gives a grid of {nodes} nodes, which is too many"),
+        )]),
         WorkspaceError::Open => Error::Fields(vec![Fault::new(
             "/tolerance",
             "gives a surface that cannot be closed on this machine; a finer or coarser one may do",

@@ -3,7 +3,13 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::angle::asin;
+use crate::residual::lesser;
 use crate::rods::Rods;
+
+/// (angle² / chord² - 1 - chord² / 12) / chord⁴ at a right angle, rounded up.
+const REST: f64 = 0.016_759;
+/// More than a chord's square is off when it is computed from a cosine.
+const ROUNDING: f64 = 1e-12;
 
 /// Four unit vectors by coordinate, so that four angles are computed at once.
 pub(crate) type Columns = [[f64; 4]; 3];
@@ -44,4 +50,35 @@ pub(super) fn margins(half_angle: f64, a: &Columns, b: &Columns) -> [f64; 4] {
         margins[i] = half_angle - (FRAC_PI_2 * (1.0 - sign) + sign * acute);
     }
     margins
+}
+
+/// Whether all four rods' angles from their axes at the sliders are clearly below an angle.
+#[inline]
+pub(super) fn within(axes: &Columns, rods: &Rods, angle: f64) -> bool {
+    let dot = |i: usize| {
+        let [x, y, z] = rods.directions[i];
+        axes[0][i] * x + axes[1][i] * y + axes[2][i] * z
+    };
+    clearly(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
+}
+
+/// The same at the platform: the axes turn with it.
+#[inline]
+pub(super) fn within_on_platform(axes: &Columns, rods: &Rods, angle: f64) -> bool {
+    let (c, s) = (rods.c, rods.s);
+    let dot = |i: usize| {
+        let [x, y, z] = rods.directions[i];
+        axes[0][i] * x + axes[1][i] * (c * y + s * z) + axes[2][i] * (c * z - s * y)
+    };
+    clearly(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
+}
+
+/// Whether an angle is clearly below another, from its cosine. An upper bound of its square, if it
+/// is acute: the beginning of the power series in the square of the chord, whose terms are all
+/// positive, and the rest as it is at a right angle.
+#[inline]
+fn clearly(cosine: f64, angle: f64) -> bool {
+    let square = 2.0 - 2.0 * cosine + ROUNDING;
+    let most = square * (1.0 + square * (1.0 / 12.0 + REST * square));
+    cosine > 0.0 && angle > 0.0 && most < angle * angle
 }

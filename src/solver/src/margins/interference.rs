@@ -1,11 +1,15 @@
 //! Least distance between the axes of two rods.
 
 use crate::machine::Geometry;
+use crate::pose::PlatformPose;
+use crate::residual::{greater, lesser};
 use crate::rods::{FAMILY, RODS, Rods};
 
 /// Of two rods whose directions differ by less than the square root of this, any point of the one
 /// will do to start from: the distance does not depend on where along them it is measured.
 const PARALLEL: f64 = 1e-14;
+/// Room for rounding in the square of a distance that is looked for.
+const WITHIN: f64 = 1.0 + 1e-12;
 /// The nearest pair so far: square of the distance, and the rods as indices of the six.
 type Nearest = (f64, usize, usize);
 
@@ -13,32 +17,84 @@ type Nearest = (f64, usize, usize);
 #[inline]
 pub(crate) fn nearest(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     let ends = rods.platform_ends(g);
-    let mut nearest = (f64::INFINITY, 0, 0);
     // A leg's own rods first: they are usually the nearest, and the rest is then seen to be
-    // further apart at a glance. Rods 22 and 32 stand to each other as 21 and 31 do.
+    // further apart at a glance.
+    let gap = difference(ends[0], ends[1]);
+    let mut nearest = (square_distance(&gap, &rods.vectors[0], &rods.vectors[1]), 0, 1);
+    meet_others(&mut nearest, g, &ends, rods);
+    let (square, i, j) = nearest;
+    (square.sqrt(), [RODS[i], RODS[j]])
+}
+
+/// The same, if the least distance is below `distance`; no less often, but for rounding.
+#[inline]
+pub(super) fn nearest_within(
+    g: &Geometry,
+    pose: &PlatformPose,
+    rods: &Rods,
+    distance: f64,
+) -> Option<(f64, [u8; 2])> {
+    let least = WITHIN * distance * distance;
+    if distance <= 0.0 || all_beyond(g, pose, rods, least) {
+        return None;
+    }
+    let ends = rods.platform_ends(g);
+    let mut nearest = (least, 0, 1);
     meet(&mut nearest, &ends, rods, [0, 1]);
+    meet_others(&mut nearest, g, &ends, rods);
+    let (square, i, j) = nearest;
+    (square < least).then(|| (square.sqrt(), [RODS[i], RODS[j]]))
+}
+
+/// Whether all rods are seen to be further apart than a distance, given its square: leg I's rods
+/// across the platform, leg I from the others along x, legs II and III from each other along y.
+#[inline]
+fn all_beyond(g: &Geometry, pose: &PlatformPose, rods: &Rods, square: f64) -> bool {
     let half = g.parallelogram_half_width;
-    for (leg, first) in [(2, 2), (3, 4)] {
-        let square = square_parallel(2.0 * half, &rods.vectors[leg]);
+    let [first, second] = [[pose.x + g.D1, g.d1], [pose.x + g.D2, g.d2]];
+    let sides = g.R2 * rods.c;
+    let along_x = apart(first, second) - half;
+    let along_y = apart([pose.y - sides, -g.r4], [pose.y + sides, g.r4]);
+    let clear = lesser(along_x, along_y);
+    let [_, _, second, third] = &rods.directions;
+    let parallel =
+        lesser(square_parallel(2.0 * half, g.L2, second), square_parallel(2.0 * half, g.L3, third));
+    let gap = [0.0, 2.0 * g.R1 * rods.c, 2.0 * g.R1 * rods.s];
+    clear > 0.0
+        && clear * clear > square
+        && parallel > square
+        && far(&(square, 0, 1), &gap, rods, [0, 1], 0.0)
+}
+
+/// Distance between two intervals, each by its ends in any order; not positive if they meet.
+#[inline]
+fn apart([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
+    greater(lesser(a, b) - greater(c, d), lesser(c, d) - greater(a, b))
+}
+
+/// All pairs but the first leg's. Rods 22 and 32 stand to each other as 21 and 31 do.
+#[inline]
+fn meet_others(nearest: &mut Nearest, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
+    let half = g.parallelogram_half_width;
+    for (leg, length, first) in [(2, g.L2, 2), (3, g.L3, 4)] {
+        let square = square_parallel(2.0 * half, length, &rods.directions[leg]);
         if square < nearest.0 {
-            nearest = (square, first, first + 1);
+            *nearest = (square, first, first + 1);
         }
     }
     for i in [0, 1] {
         for j in [2, 4] {
-            if !far(&nearest, &to_middle(&ends, i, j, half), rods, [i, j], half) {
-                meet(&mut nearest, &ends, rods, [i, j]);
-                meet(&mut nearest, &ends, rods, [i, j + 1]);
+            if !far(nearest, &to_middle(ends, i, j, half), rods, [i, j], half) {
+                meet(nearest, ends, rods, [i, j]);
+                meet(nearest, ends, rods, [i, j + 1]);
             }
         }
     }
-    if !far(&nearest, &difference(ends[2], ends[4]), rods, [2, 4], 2.0 * half) {
+    if !far(nearest, &difference(ends[2], ends[4]), rods, [2, 4], 2.0 * half) {
         for pair in [[2, 4], [2, 5], [3, 4]] {
-            meet(&mut nearest, &ends, rods, pair);
+            meet(nearest, ends, rods, pair);
         }
     }
-    let (square, i, j) = nearest;
-    (square.sqrt(), [RODS[i], RODS[j]])
 }
 
 /// Whether two rods are at least as far apart as the nearest pair, by what can be told without
@@ -65,12 +121,16 @@ fn meet(nearest: &mut Nearest, ends: &[[f64; 3]; 6], rods: &Rods, [i, j]: [usize
 }
 
 /// Squared distance of a parallelogram's two rods, `width` apart along x: a foot of the
-/// perpendicular where there is one, else an end.
+/// perpendicular where there is one, else an end. It is the same to the last bit for legs II and
+/// III of one length, which are always equally bad.
 #[inline]
-fn square_parallel(width: f64, rod: &[f64; 3]) -> f64 {
-    let (along, square) = (width * rod[0], dot(rod, rod));
-    let t = (along / square).clamp(-1.0, 1.0);
-    width * width - t * (2.0 * along - t * square)
+fn square_parallel(width: f64, length: f64, [x, ..]: &[f64; 3]) -> f64 {
+    let along = width * x.abs();
+    if along <= length {
+        width * width * (1.0 - x * x)
+    } else {
+        width * width - length * (2.0 * along - length)
+    }
 }
 
 /// Squared distance of two segments that run back from their platform ends, which lie `gap`

@@ -1,8 +1,15 @@
 //! The worst of all margins, made comparable by each constraint's own range.
 
-use super::Margins;
+use super::{Margins, between, cone, det, drops, interference};
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
+use crate::pose::TableAngles;
+use crate::posture::Posture;
+use crate::residual::lesser;
+use crate::rods::Rods;
+
+/// More than a part is off by rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// The rod that stands for each family.
 pub(super) const ROD: [Element; 4] = [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
@@ -26,11 +33,58 @@ struct Worst {
 }
 
 impl Worst {
+    /// Crossed rods first.
     #[inline]
-    fn meet(&mut self, constraint: Constraint, element: Element, value: f64, range: f64) {
-        let part = value / range;
+    fn new(rod_crossing: f64, weight: f64) -> Self {
+        let (constraint, element) = (Constraint::RodCrossing, Element::Leg(1));
+        let margin = Margin { constraint, element, value: rod_crossing };
+        Self { margin, part: rod_crossing * weight }
+    }
+
+    #[inline]
+    fn meet(&mut self, constraint: Constraint, element: Element, value: f64, weight: f64) {
+        let part = value * weight;
         if part < self.part {
             *self = Self { margin: Margin { constraint, element, value }, part };
+        }
+    }
+
+    /// Without a branch on what is as good as random.
+    #[inline]
+    fn meet_strokes(&mut self, machine: &Machine, stroke: &[[f64; 2]; 3]) {
+        let weights = &machine.derived.weights.stroke;
+        let values = stroke.map(|[low, high]| lesser(low, high));
+        let parts: [f64; 3] = std::array::from_fn(|i| values[i] * weights[i]);
+        let (first, least) = (usize::from(parts[1] < parts[0]), lesser(parts[0], parts[1]));
+        let i = if parts[2] < least { 2 } else { first };
+        if parts[i] < self.part {
+            let (slider, high) = ([1, 2, 3][i], stroke[i][1] < stroke[i][0]);
+            let (constraint, element) = (Constraint::Stroke, Element::Stroke { slider, high });
+            *self = Self { margin: Margin { constraint, element, value: values[i] }, part: parts[i] };
+        }
+    }
+
+    #[inline]
+    fn meet_legs(&mut self, machine: &Machine, leg_length: &[f64; 3]) {
+        for (i, (value, weight)) in (1..).zip(leg_length.iter().zip(machine.derived.weights.leg_length)) {
+            self.meet(Constraint::LegLength, Element::Leg(i), *value, weight);
+        }
+    }
+
+    #[inline]
+    fn meet_rods(&mut self, constraint: Constraint, (i, value): (usize, f64), weight: f64) {
+        self.meet(constraint, ROD[i], value, weight);
+    }
+
+    #[inline]
+    fn meet_table(&mut self, machine: &Machine, tilt: Option<[f64; 2]>, rotary: Option<[f64; 2]>) {
+        let weights = &machine.derived.weights;
+        let ranges = [(Constraint::Tilt, tilt, weights.tilt), (Constraint::Rotary, rotary, weights.rotary)];
+        for (constraint, ends, weight) in ranges {
+            if let Some(ends) = ends {
+                let (end, value) = least(&ends);
+                self.meet(constraint, Element::Range { high: end == 1 }, value, weight);
+            }
         }
     }
 }
@@ -39,42 +93,84 @@ impl Margins {
     /// The worst margin: the least one as a fraction of its constraint's own range (stroke, rod
     /// length, cone half-angle, value at home, ...), so that lengths and angles compare.
     pub fn worst(&self, machine: &Machine) -> Margin {
-        let (g, limits, home) = (machine.geometry(), machine.limits(), &machine.derived);
-        let crossing = Margin {
-            constraint: Constraint::RodCrossing,
-            element: Element::Leg(1),
-            value: self.rod_crossing,
-        };
-        let mut worst = Worst { margin: crossing, part: self.rod_crossing / (g.R1 - g.r1) };
-        for (i, (ends, [low, high])) in (1..).zip(self.stroke.iter().zip(limits.stroke)) {
-            let (end, value) = least(ends);
-            worst.meet(Constraint::Stroke, Element::Stroke { slider: i, high: end == 1 }, value, high - low);
-        }
-        for (i, (value, length)) in (1..).zip(self.leg_length.iter().zip([g.L1, g.L2, g.L3])) {
-            worst.meet(Constraint::LegLength, Element::Leg(i), *value, length);
-        }
+        let weights = &machine.derived.weights;
+        let mut worst = Worst::new(self.rod_crossing, weights.rod_crossing);
+        worst.meet_strokes(machine, &self.stroke);
+        worst.meet_legs(machine, &self.leg_length);
         let families = [
-            (Constraint::SerialSingularity, &self.serial_singularity, 1.0),
-            (Constraint::SliderJoint, &self.slider_joint, limits.slider_cone),
-            (Constraint::PlatformJoint, &self.platform_joint, limits.platform_cone),
+            (Constraint::SerialSingularity, &self.serial_singularity, weights.serial_singularity),
+            (Constraint::SliderJoint, &self.slider_joint, weights.slider_joint),
+            (Constraint::PlatformJoint, &self.platform_joint, weights.platform_joint),
         ];
-        for (constraint, margins, range) in families {
-            let (i, value) = least(margins);
-            worst.meet(constraint, ROD[i], value, range);
+        for (constraint, margins, weight) in families {
+            worst.meet_rods(constraint, least(margins), weight);
         }
-        let det = self.parallel_singularity;
-        worst.meet(Constraint::ParallelSingularity, Element::Platform, det, home.home_det.abs());
+        let (det, gap) = (self.parallel_singularity, self.rod_interference);
+        worst.meet(Constraint::ParallelSingularity, Element::Platform, det, weights.parallel_singularity);
         let [a, b] = self.nearest_rods;
-        let (gap, free) = (self.rod_interference, home.home_distance);
-        worst.meet(Constraint::RodInterference, Element::Rods(a, b), gap, free);
-        let ranges =
-            [(Constraint::Tilt, self.tilt, limits.tilt), (Constraint::Rotary, self.rotary, limits.rotary)];
-        for (constraint, ends, [low, high]) in ranges {
-            if let Some(ends) = ends {
-                let (end, value) = least(&ends);
-                worst.meet(constraint, Element::Range { high: end == 1 }, value, high - low);
-            }
-        }
+        worst.meet(Constraint::RodInterference, Element::Rods(a, b), gap, weights.rod_interference);
+        worst.meet_table(machine, self.tilt, self.rotary);
         worst.margin
+    }
+}
+
+/// [`Margins::worst`] of [`Margins::of`], the same to the last bit, at a fraction of the cost: the
+/// strokes are usually the worst, and of the others it is seen at a glance that they are better.
+#[inline]
+pub(crate) fn worst(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Margin {
+    let (g, limits, weights) = (machine.geometry(), machine.limits(), &machine.derived.weights);
+    let rods = Rods::of(machine, &posture.pose, posture.rho);
+    let mut worst = Worst::new(g.R1 * rods.c - g.r1, weights.rod_crossing);
+    worst.meet_strokes(machine, &[0, 1, 2].map(|i| between(limits.stroke[i], posture.rho[i])));
+    worst.meet_drops(machine, posture, &rods);
+    worst.meet_cones(machine, &rods);
+    let det = det(machine, &rods);
+    worst.meet(Constraint::ParallelSingularity, Element::Platform, det, weights.parallel_singularity);
+    worst.meet_interference(machine, posture, &rods);
+    if let Some(TableAngles { theta1, theta2 }) = table {
+        let (tilt, rotary) = (between(limits.tilt, theta1), between(limits.rotary, theta2));
+        worst.meet_table(machine, Some(tilt), Some(rotary));
+    }
+    worst.margin
+}
+
+impl Worst {
+    /// Leg lengths and serial singularities: a drop's part of its leg is its rod's cosine, or the
+    /// mean of its two rods', and the cosine's margin is less.
+    #[inline]
+    fn meet_drops(&mut self, machine: &Machine, posture: &Posture, rods: &Rods) {
+        let [a, b, c, d] = rods.directions.map(|direction| direction[2] - machine.limits().serial_margin);
+        if lesser(lesser(a, b), lesser(c, d)) < self.part + ROUNDING {
+            self.meet_legs(machine, &drops(machine, posture, rods));
+            let weight = machine.derived.weights.serial_singularity;
+            self.meet_rods(Constraint::SerialSingularity, least(&[a, b, c, d]), weight);
+        }
+    }
+
+    #[inline]
+    fn meet_cones(&mut self, machine: &Machine, rods: &Rods) {
+        let (limits, derived) = (machine.limits(), &machine.derived);
+        let (cone, axes) = (limits.slider_cone, &derived.slider_axes);
+        if !cone::within(axes, rods, cone * (1.0 - self.part)) {
+            let margins = cone::margins(cone, axes, &cone::columns(&rods.directions));
+            self.meet_rods(Constraint::SliderJoint, least(&margins), derived.weights.slider_joint);
+        }
+        let (cone, axes) = (limits.platform_cone, &derived.platform_axes);
+        if !cone::within_on_platform(axes, rods, cone * (1.0 - self.part)) {
+            let turned = cone::in_platform(rods, &cone::columns(&rods.directions));
+            let margins = cone::margins(cone, axes, &turned);
+            self.meet_rods(Constraint::PlatformJoint, least(&margins), derived.weights.platform_joint);
+        }
+    }
+
+    #[inline]
+    fn meet_interference(&mut self, machine: &Machine, posture: &Posture, rods: &Rods) {
+        let g = machine.geometry();
+        let free = 2.0 * g.rod_radius;
+        let within = self.part * machine.derived.home_distance + free;
+        if let Some((distance, [a, b])) = interference::nearest_within(g, &posture.pose, rods, within) {
+            let (gap, weight) = (distance - free, machine.derived.weights.rod_interference);
+            self.meet(Constraint::RodInterference, Element::Rods(a, b), gap, weight);
+        }
     }
 }

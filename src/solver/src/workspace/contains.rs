@@ -1,5 +1,6 @@
 //! Membership by the inverse solution and its margins; no mesh.
 
+use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
 use super::observer::{Observer, go_on};
@@ -7,19 +8,22 @@ use super::request::{Kind, Request, WorkspaceError};
 use crate::inverse::{part_working, platform_working, tool_working};
 use crate::limit::{Margin, Refusal};
 use crate::machine::Machine;
-use crate::margins::Margins;
-use crate::pose::{PartPose, Point};
+use crate::margins::worst;
+use crate::pose::{PartPose, Point, TableAngles};
+use crate::posture::Posture;
 use crate::table::table_angles;
 
 /// Points between two looks at the observer.
 const BATCH: usize = 1024;
+/// Points whose solutions are kept until their margins are looked at.
+const TOGETHER: usize = 32;
 
 /// How a point stands to a workspace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Membership {
     /// Whether the working mode reaches the point and keeps every limit.
     pub inside: bool,
-    /// The worst margin, as [`Margins::worst`] has it: not negative inside; `None` where the point
+    /// The worst margin, as [`Margins::worst`](crate::Margins::worst) has it: not negative inside; `None` where the point
     /// is out of domain or the platform would move with its sliders locked.
     pub margin: Option<Margin>,
 }
@@ -32,22 +36,31 @@ pub fn contains(
     observer: &dyn Observer,
 ) -> Result<Vec<Membership>, WorkspaceError> {
     request.check()?;
-    let batches: Result<Vec<Vec<Membership>>, WorkspaceError> = points
-        .par_chunks(BATCH)
-        .map(|batch| {
-            go_on(observer)?;
-            Ok(batch.iter().map(|&point| member(machine, request, point)).collect())
-        })
-        .collect();
+    let mut members = vec![Membership { inside: false, margin: None }; points.len()];
+    points.par_chunks(BATCH).zip(members.par_chunks_mut(BATCH)).try_for_each(|(points, members)| {
+        go_on(observer)?;
+        for (points, places) in points.chunks(TOGETHER).zip(members.chunks_mut(TOGETHER)) {
+            // All solutions, then all margins: a processor overlaps what is alike and short.
+            let answers: ArrayVec<_, TOGETHER> =
+                points.iter().map(|&point| solution(machine, request, point)).collect();
+            for (answer, place) in answers.iter().zip(places) {
+                *place = member(machine, answer);
+            }
+        }
+        Ok(())
+    })?;
     observer.progress(1.0);
-    Ok(batches?.concat())
+    Ok(members)
 }
 
-/// One point, in the frame of the request's kind.
+/// The posture in the working mode at a point in the frame of the request's kind, and the table's
+/// angles where it takes part.
+type Solution = Result<(Posture, Option<TableAngles>), Refusal>;
+
 #[inline]
-fn member(machine: &Machine, request: &Request, point: Point) -> Membership {
+fn solution(machine: &Machine, request: &Request, point: Point) -> Solution {
     let length = request.tool_length;
-    let answer = match request.kind {
+    match request.kind {
         Kind::Platform => platform_working(machine, point).map(|posture| (posture, None)),
         Kind::Tool => tool_working(machine, point, length).map(|posture| (posture, None)),
         Kind::Part => {
@@ -55,13 +68,17 @@ fn member(machine: &Machine, request: &Request, point: Point) -> Membership {
             part_working(machine, &PartPose { x, y, z, phi1, phi2 }, length)
                 .map(|posture| (posture, Some(table_angles(machine, posture.pose.alpha, phi1, phi2))))
         }
-    };
-    match answer {
+    }
+}
+
+#[inline]
+fn member(machine: &Machine, solution: &Solution) -> Membership {
+    match solution {
         Ok((posture, table)) => {
-            let margin = Margins::of(machine, &posture, table).worst(machine);
+            let margin = worst(machine, posture, *table);
             Membership { inside: margin.value >= 0.0, margin: Some(margin) }
         }
-        Err(Refusal::Blocked(margin)) => Membership { inside: false, margin: Some(margin) },
+        Err(Refusal::Blocked(margin)) => Membership { inside: false, margin: Some(*margin) },
         Err(_) => Membership { inside: false, margin: None },
     }
 }

@@ -133,6 +133,11 @@ impl<'a> Domain<'a> {
         }
     }
 
+    /// Middle and half of the range of alpha that the tilting range leaves; `None` for a whole turn.
+    pub(super) fn tilted(&self) -> Option<[f64; 2]> {
+        self.tilt
+    }
+
     /// How far theta1 is above its least value, or below its greatest.
     fn tilt(&self, end: usize, column: &Column) -> f64 {
         let Some([middle, half]) = self.tilt else { return half_turn() };
@@ -153,6 +158,16 @@ impl<'a> Domain<'a> {
     pub(super) fn highs(&self, column: &Column) -> [f64; 3] {
         let stroke = &self.machine.limits().stroke;
         std::array::from_fn(|i| stroke[i][1] + column.f[i])
+    }
+
+    /// The binding constraint of a limit at a point on it, with the two rods that are nearest there.
+    pub(super) fn binding_at(&self, limit: u8, at: [f64; 2]) -> Binding {
+        let found = binding(limit);
+        if found.constraint != Constraint::RodInterference {
+            return found;
+        }
+        let (_, [a, b]) = interference::nearest(self.machine.geometry(), &self.rods(&self.column(at)));
+        Binding { element: Element::Rods(a, b), ..found }
     }
 
     /// One sheet's height at each slider's end of stroke.
@@ -213,7 +228,8 @@ fn chord(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum()
 }
 
-/// The binding constraint of a limit; strokes as in a slice.
+/// The binding constraint of a limit; strokes as in a slice. Which rods are nearest is not known
+/// without a column: see [`Domain::binding_at`].
 pub(super) fn binding(limit: u8) -> Binding {
     let limit = usize::from(limit);
     let number = limit.saturating_sub(STROKES);

@@ -12,15 +12,113 @@ const DEPTH: u32 = 10;
 /// through three points does not show.
 const CAUTION: f64 = 1.5;
 
-/// A point of the path.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Stop {
-    pub(super) t: f64,
-    pub(super) column: Column,
-    values: Values,
+/// Functions of one parameter, positive where a limit holds.
+pub(super) trait Limits<const N: usize> {
+    /// All of them.
+    fn all(&self, t: f64) -> [f64; N];
+    /// One of them.
+    fn one(&self, limit: usize, t: f64) -> f64;
 }
 
-/// An end of an interval and the limit that ends it; `None` at the path's own end.
+/// An end of an interval and the limit that ends it; `None` at the range's own end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cut {
+    pub(super) t: f64,
+    pub(super) limit: Option<usize>,
+}
+
+/// The intervals of a range on which every limit holds, looked for on `pieces` segments.
+///
+/// On a segment each limit is taken for the parabola through its ends and its middle, bent by half
+/// as much again; where that may vanish twice the segment is halved. What turns twice between two
+/// looks, a segment's half apart, is not seen.
+pub(super) fn intervals<const N: usize>(
+    limits: &impl Limits<N>,
+    [from, to]: [f64; 2],
+    pieces: u32,
+) -> Vec<[Cut; 2]> {
+    let mut found = Vec::new();
+    let step = (to - from) / f64::from(pieces);
+    let mut start = Stop::at(limits, from);
+    for piece in 1..=pieces {
+        let end = Stop::at(limits, if piece == pieces { to } else { from + step * f64::from(piece) });
+        segment(limits, &start, &end, DEPTH, &mut found);
+        start = end;
+    }
+    found
+}
+
+/// A value of the parameter that was looked at.
+#[derive(Clone, Copy, Debug)]
+struct Stop<const N: usize> {
+    t: f64,
+    values: [f64; N],
+}
+
+impl<const N: usize> Stop<N> {
+    fn at(limits: &impl Limits<N>, t: f64) -> Self {
+        Self { t, values: limits.all(t) }
+    }
+}
+
+fn segment<const N: usize>(
+    limits: &impl Limits<N>,
+    a: &Stop<N>,
+    b: &Stop<N>,
+    depth: u32,
+    found: &mut Vec<[Cut; 2]>,
+) {
+    let middle = Stop::at(limits, 0.5 * (a.t + b.t));
+    let mut simple = true;
+    for limit in 0..N {
+        match shape(a.values[limit], middle.values[limit], b.values[limit]) {
+            Shape::Outside => return,
+            Shape::Simple => {}
+            Shape::Doubtful => simple = false,
+        }
+    }
+    if simple || depth == 0 {
+        clip(limits, a, b, found);
+    } else {
+        segment(limits, a, &middle, depth - 1, found);
+        segment(limits, &middle, b, depth - 1, found);
+    }
+}
+
+/// Every limit vanishes at most once between a and b.
+fn clip<const N: usize>(limits: &impl Limits<N>, a: &Stop<N>, b: &Stop<N>, found: &mut Vec<[Cut; 2]>) {
+    let (mut low, mut high) = (*a, *b);
+    let (mut ends, mut inside) = ([None, None], true);
+    for limit in 0..N {
+        match (low.values[limit] >= 0.0, high.values[limit] >= 0.0) {
+            (true, true) => {}
+            (false, false) => inside = false,
+            (true, false) => (high, ends[1]) = (zero(limits, limit, &low, &high), Some(limit)),
+            (false, true) => (low, ends[0]) = (zero(limits, limit, &low, &high), Some(limit)),
+        }
+        if !inside {
+            return;
+        }
+    }
+    let end = |stop: &Stop<N>, limit| Cut { t: stop.t, limit };
+    match found.last_mut() {
+        Some(last) if ends[0].is_none() && last[1].limit.is_none() && last[1].t == low.t => {
+            last[1] = end(&high, ends[1]);
+        }
+        _ => found.push([end(&low, ends[0]), end(&high, ends[1])]),
+    }
+}
+
+fn zero<const N: usize>(limits: &impl Limits<N>, limit: usize, a: &Stop<N>, b: &Stop<N>) -> Stop<N> {
+    let between = |part: f64| a.t + part * (b.t - a.t);
+    let part =
+        root::zero(a.values[limit], b.values[limit], RESOLUTION, |part| limits.one(limit, between(part)));
+    let mut stop = Stop::at(limits, between(part));
+    stop.values[limit] = 0.0;
+    stop
+}
+
+/// An end of an interval, its column and the limit that ends it; `None` at the path's own end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End {
     pub(super) t: f64,
@@ -36,73 +134,19 @@ pub(super) struct Path<'a, F> {
 
 impl<F: Fn(f64) -> [f64; 2]> Path<'_, F> {
     /// The intervals of `[from, to]` on which every limit holds, found from `pieces` segments.
-    pub(super) fn intervals(&self, [from, to]: [f64; 2], pieces: u32) -> Vec<[End; 2]> {
-        let mut found = Vec::new();
-        let step = (to - from) / f64::from(pieces);
-        let mut start = self.stop(from);
-        for piece in 1..=pieces {
-            let end = self.stop(if piece == pieces { to } else { from + step * f64::from(piece) });
-            self.segment(&start, &end, DEPTH, &mut found);
-            start = end;
-        }
-        found
+    pub(super) fn intervals(&self, range: [f64; 2], pieces: u32) -> Vec<[End; 2]> {
+        let end = |Cut { t, limit }| End { t, column: self.domain.column((self.at)(t)), limit };
+        intervals(self, range, pieces).into_iter().map(|cuts| cuts.map(end)).collect()
+    }
+}
+
+impl<F: Fn(f64) -> [f64; 2]> Limits<LIMITS> for Path<'_, F> {
+    fn all(&self, t: f64) -> Values {
+        self.domain.values(&self.domain.column((self.at)(t)))
     }
 
-    fn stop(&self, t: f64) -> Stop {
-        let column = self.domain.column((self.at)(t));
-        Stop { t, column, values: self.domain.values(&column) }
-    }
-
-    fn segment(&self, a: &Stop, b: &Stop, depth: u32, found: &mut Vec<[End; 2]>) {
-        let middle = self.stop(0.5 * (a.t + b.t));
-        let mut simple = true;
-        for limit in 0..LIMITS {
-            match shape(a.values[limit], middle.values[limit], b.values[limit]) {
-                Shape::Outside => return,
-                Shape::Simple => {}
-                Shape::Doubtful => simple = false,
-            }
-        }
-        if simple || depth == 0 {
-            self.clip(a, b, found);
-        } else {
-            self.segment(a, &middle, depth - 1, found);
-            self.segment(&middle, b, depth - 1, found);
-        }
-    }
-
-    /// Every limit vanishes at most once between a and b.
-    fn clip(&self, a: &Stop, b: &Stop, found: &mut Vec<[End; 2]>) {
-        let (mut low, mut high) = (*a, *b);
-        let (mut ends, mut inside) = ([None, None], true);
-        for limit in 0..LIMITS {
-            match (low.values[limit] >= 0.0, high.values[limit] >= 0.0) {
-                (true, true) => {}
-                (false, false) => inside = false,
-                (true, false) => (high, ends[1]) = (self.zero(limit, &low, &high), Some(limit)),
-                (false, true) => (low, ends[0]) = (self.zero(limit, &low, &high), Some(limit)),
-            }
-            if !inside {
-                return;
-            }
-        }
-        let end = |stop: &Stop, limit| End { t: stop.t, column: stop.column, limit };
-        match found.last_mut() {
-            Some(last) if ends[0].is_none() && last[1].limit.is_none() && last[1].t == low.t => {
-                last[1] = end(&high, ends[1]);
-            }
-            _ => found.push([end(&low, ends[0]), end(&high, ends[1])]),
-        }
-    }
-
-    fn zero(&self, limit: usize, a: &Stop, b: &Stop) -> Stop {
-        let between = |part: f64| a.t + part * (b.t - a.t);
-        let part = root::zero(a.values[limit], b.values[limit], RESOLUTION, |part| {
-            self.domain.value(limit, &self.domain.column((self.at)(between(part))))
-        });
-        let mut stop = self.stop(between(part));
-        stop.values[limit] = 0.0;
-        stop
+    fn one(&self, limit: usize, t: f64) -> f64 {
+        self.domain.value(limit, &self.domain.column((self.at)(t)))
     }
 }
 

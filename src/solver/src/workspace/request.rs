@@ -35,7 +35,7 @@ pub struct Request {
 pub(super) const FINEST: f64 = 1e-3;
 
 /// Why a workspace was not computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WorkspaceError {
     /// A number is not finite, beyond [`DOMAIN`] or, for the tolerance, below 0.001 mm.
     OutOfDomain {
@@ -46,6 +46,11 @@ pub enum WorkspaceError {
     Cancelled,
     /// The tolerance asks for more vertices than 32 bits can number.
     TooFine,
+    /// A grid would have more nodes than [`MOST_NODES`](super::dexterity::MOST_NODES).
+    TooManyNodes {
+        /// Their number.
+        nodes: f64,
+    },
     /// The surface or the slice could not be closed: nothing is answered rather than a mesh with
     /// a gap.
     Open,
@@ -57,6 +62,7 @@ impl fmt::Display for WorkspaceError {
             Self::OutOfDomain { field } => write!(f, "{field} is out of range"),
             Self::Cancelled => write!(f, "cancelled"),
             Self::TooFine => write!(f, "the tolerance needs more vertices than can be numbered"),
+            Self::TooManyNodes { nodes } => write!(f, "the grid would have {nodes} nodes"),
             Self::Open => write!(f, "the surface could not be closed at this tolerance"),
         }
     }

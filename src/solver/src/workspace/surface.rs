@@ -4,7 +4,7 @@ mod part;
 mod tidy;
 mod twins;
 
-use super::domain::{Binding, Domain, binding, stroke_binding};
+use super::domain::{Binding, Domain, stroke_binding};
 use super::observer::{Observer, go_on};
 use super::plane::{ATTEMPTS, Plane, Rim};
 use super::request::{Request, WorkspaceError};
@@ -55,7 +55,7 @@ fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Resul
     for attempt in ATTEMPTS {
         let plane = Plane::trace(domain, attempt, tolerance, observer)?;
         go_on(observer)?;
-        answer = made_one(Surface::over(&plane), tolerance);
+        answer = made_one(Surface::over(domain, &plane), tolerance);
         if answer != Err(WorkspaceError::Open) {
             break;
         }
@@ -102,7 +102,7 @@ impl Surface {
         }))
     }
 
-    fn over(plane: &Plane) -> Self {
+    fn over(domain: &Domain<'_>, plane: &Plane) -> Self {
         let mut surface = Self::default();
         let count = 2 * plane.triangles.len() + 2 * plane.rims.len();
         surface.triangles.reserve_exact(count);
@@ -114,7 +114,7 @@ impl Surface {
             surface.add([a[1], b[1], c[1]], stroke_binding(triangle.sliders[1], true));
         }
         for rim in &plane.rims {
-            surface.wall(plane, rim, rim.ends.map(|end| sheets[end as usize]));
+            surface.wall(domain, plane, rim, rim.ends.map(|end| sheets[end as usize]));
         }
         surface
     }
@@ -137,9 +137,11 @@ impl Surface {
             .collect()
     }
 
-    /// The wall over a side, by the shorter of its diagonals.
-    fn wall(&mut self, plane: &Plane, rim: &Rim, [a, b]: [[u32; 2]; 2]) {
-        let limit = binding(rim.limit);
+    /// The wall over a side, by the shorter of its diagonals. Of rods that are too near, it names
+    /// the two that are nearest half-way along the side.
+    fn wall(&mut self, domain: &Domain<'_>, plane: &Plane, rim: &Rim, [a, b]: [[u32; 2]; 2]) {
+        let [from, to] = rim.ends.map(|end| plane.vertices[end as usize].at);
+        let limit = domain.binding_at(rim.limit, [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])]);
         let ends = rim.ends.map(|end| plane.vertices[end as usize].ends);
         let length = |p: Point, q: Point| (0..3).map(|i| (p[i] - q[i]).powi(2)).sum::<f64>();
         if a[0] == a[1] || b[0] == b[1] || length(ends[0][0], ends[1][1]) <= length(ends[1][0], ends[0][1]) {

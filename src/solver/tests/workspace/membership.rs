@@ -1,9 +1,12 @@
 //! Membership against solution and margins.
 
-use verne_solver::workspace::{Kind, Unobserved, contains};
-use verne_solver::{Machine, Margins, PartPose, part_working, platform_working, table_angles};
+use verne_solver::workspace::{Kind, Request, Unobserved, contains};
+use verne_solver::{
+    Constraint, Machine, Margin, Margins, PartPose, part_working, platform_working, table_angles,
+    tool_working,
+};
 
-use crate::machines::{Random, request};
+use crate::machines::{Random, changed, others, random, request};
 
 #[test]
 fn is_solution_and_margins() {
@@ -47,4 +50,65 @@ fn of_parts_uses_the_table() {
         assert_eq!(inside, answer.inside);
     }
     assert!(answers.iter().any(|answer| answer.inside));
+}
+
+/// The worst of all margins, computed.
+fn worst_of_all(machine: &Machine, request: &Request, [x, y, z]: [f64; 3]) -> Option<Margin> {
+    let Request { tool_length, phi1, phi2, .. } = *request;
+    let posture = match request.kind {
+        Kind::Platform => platform_working(machine, [x, y, z]),
+        Kind::Tool => tool_working(machine, [x, y, z], tool_length),
+        Kind::Part => part_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length),
+    };
+    let posture = posture.ok()?;
+    let table =
+        (request.kind == Kind::Part).then(|| table_angles(machine, posture.pose.alpha, phi1, request.phi2));
+    Some(Margins::of(machine, &posture, table).worst(machine))
+}
+
+/// A member's margin is computed with most constraints left out. It is the worst of all, to the
+/// last bit, whichever constraint that is.
+#[test]
+fn names_the_worst_of_all_margins() {
+    let mut numbers = Random(0x5851_f42d);
+    let mut machines: Vec<Machine> = others().into_iter().map(|(_, machine)| machine).collect();
+    machines.push(Machine::verne());
+    machines.push(changed(|data| data.limits.parallel_margin = 0.9));
+    machines.extend(std::iter::repeat_with(|| random(&mut numbers)).take(60).flatten());
+    let (mut solved, mut inside) = (0, 0);
+    let mut named = std::collections::HashSet::new();
+    for machine in machines {
+        for question in [
+            request(Kind::Platform, 0.0, 0.0, 1.0),
+            request(Kind::Tool, 150.0, 0.0, 1.0),
+            Request { phi2: 0.4, ..request(Kind::Part, 50.0, 35.0, 1.0) },
+        ] {
+            let [low, high] = if question.kind == Kind::Part { [-400.0, 1_000.0] } else { [700.0, 1_800.0] };
+            let points: Vec<[f64; 3]> = (0..1_200)
+                .map(|_| {
+                    let across = [numbers.between(-450.0, 450.0), numbers.between(-650.0, 650.0)];
+                    [across[0], across[1], numbers.between(low, high)]
+                })
+                .collect();
+            let answers = contains(&machine, &question, &points, &Unobserved).unwrap();
+            for (point, answer) in points.iter().zip(answers) {
+                let Some(worst) = worst_of_all(&machine, &question, *point) else { continue };
+                assert_eq!(answer.margin, Some(worst), "{point:?} {question:?} {:?}", machine.data());
+                assert_eq!(answer.inside, worst.value >= 0.0);
+                (solved, inside) = (solved + 1, inside + usize::from(answer.inside));
+                named.insert(worst.constraint);
+            }
+        }
+    }
+    assert!(solved > 100_000 && inside > 10_000, "{inside} of {solved}");
+    let all = [
+        Constraint::Stroke,
+        Constraint::SerialSingularity,
+        Constraint::ParallelSingularity,
+        Constraint::SliderJoint,
+        Constraint::PlatformJoint,
+        Constraint::RodInterference,
+        Constraint::Tilt,
+    ];
+    assert!(all.iter().all(|constraint| named.contains(constraint)), "{named:?}");
 }

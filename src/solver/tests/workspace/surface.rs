@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use verne_solver::Machine;
 use verne_solver::workspace::{
     Kind, Observer, Request, Surface, Unobserved, Volume, WorkspaceError, measure, surface,
 };
+use verne_solver::{Constraint, Element, Machine, Margins, platform_working};
 
 use crate::brute;
 use crate::machines::{Random, changed, others, random, request};
@@ -247,4 +247,29 @@ fn requests_out_of_domain_are_refused() {
         let answer = surface(&machine, &question, &Unobserved);
         assert_eq!(answer.unwrap_err(), WorkspaceError::OutOfDomain { field });
     }
+}
+
+/// Walls where rods are too near name the two rods that are: those whose distance is twice the
+/// radius there. Legs of one length are always equally near, and the first is named.
+#[test]
+fn interfering_rods_are_named() {
+    let machine = changed(|data| data.geometry.rod_radius = 60.0);
+    let mesh = made(&machine, &request(Kind::Platform, 0.0, 0.0, 0.5));
+    let mut pairs = HashMap::new();
+    for (triangle, binding) in mesh.triangles.iter().zip(&mesh.bindings) {
+        if binding.constraint != Constraint::RodInterference {
+            continue;
+        }
+        let Element::Rods(one, other) = binding.element else { panic!("{binding:?}") };
+        *pairs.entry([one, other]).or_insert(0) += 1;
+        let corners = triangle.map(|corner| mesh.positions[corner as usize]);
+        let middle = [0, 1, 2].map(|i| (corners[0][i] + corners[1][i] + corners[2][i]) / 3.0);
+        let margins = Margins::of(&machine, &platform_working(&machine, middle).unwrap(), None);
+        assert!(margins.rod_interference.abs() < 1.0, "{margins:?}");
+        // Where two pairs are equally near, the side's triangles have one name.
+        let named = margins.nearest_rods == [one, other];
+        *pairs.entry([0, u8::from(named)]).or_insert(0) += 1;
+    }
+    let (right, wrong) = (pairs[&[0, 1]], pairs.get(&[0, 0]).copied().unwrap_or(0));
+    assert!(right > 20 && wrong <= right / 50, "{pairs:?}");
 }

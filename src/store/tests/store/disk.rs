@@ -59,6 +59,25 @@ async fn what_is_no_directory_is_an_error_that_names_it() {
     assert!(fault.to_string().contains(place.path().to_str().unwrap()), "{fault}");
 }
 
+#[cfg(unix)]
+#[tokio::test]
+async fn a_read_only_directory_is_an_error() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let place = Place::new();
+    place.open().await.put(&key(1), bytes(1, 10)).await;
+    let may = |mode| fs::set_permissions(place.path(), fs::Permissions::from_mode(mode)).unwrap();
+    may(0o555);
+    let privileged = fs::write(place.path().join("root"), "").is_ok();
+    let opened = Store::open(&place.config(1 << 30)).await;
+    may(0o755);
+    // Nothing is read-only for root.
+    assert_eq!(opened.is_ok(), privileged);
+    drop(opened);
+    let store = place.open().await;
+    assert!(store.get(&key(1)).await.is_some(), "what lay there is not lost");
+}
+
 #[tokio::test]
 async fn what_a_crash_left_half_written_is_removed_and_nothing_else() {
     let place = Place::new();

@@ -1,0 +1,39 @@
+//! What a margin is multiplied by so that lengths, angles and numbers compare.
+
+use crate::machine::MachineData;
+
+/// One over each constraint's own range: the stroke, the rod's length, the cone's half-angle, the
+/// value at home, the table's range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Weights {
+    pub(super) stroke: [f64; 3],
+    pub(super) leg_length: [f64; 3],
+    pub(super) serial_singularity: f64,
+    pub(super) parallel_singularity: f64,
+    pub(super) slider_joint: f64,
+    pub(super) platform_joint: f64,
+    pub(super) rod_crossing: f64,
+    pub(super) rod_interference: f64,
+    pub(super) tilt: f64,
+    pub(super) rotary: f64,
+}
+
+impl Weights {
+    /// Of a machine with this conditioning and this distance between rods at home.
+    pub(crate) fn new(data: &MachineData, home_det: f64, home_distance: f64) -> Self {
+        let (g, limits) = (&data.geometry, &data.limits);
+        let over = |[low, high]: [f64; 2]| 1.0 / (high - low);
+        Self {
+            stroke: limits.stroke.map(over),
+            leg_length: [1.0 / g.L1, 1.0 / g.L2, 1.0 / g.L3],
+            serial_singularity: 1.0,
+            parallel_singularity: 1.0 / home_det.abs(),
+            slider_joint: 1.0 / limits.slider_cone,
+            platform_joint: 1.0 / limits.platform_cone,
+            rod_crossing: 1.0 / (g.R1 - g.r1),
+            rod_interference: 1.0 / home_distance,
+            tilt: over(limits.tilt),
+            rotary: over(limits.rotary),
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Dexterity: the tool's inclinations phi1 with which a part point can be reached, at a given
+//! azimuth phi2 and tool length.
+//!
+//! At a fixed x of the platform the table turns the part about its axis, and the tool centre point
+//! U stays on a circle about that axis: with the radius of the part point, at an angle that says
+//! theta1. Where the circle lies in the tool's workspace (a plane region at this x, exactly known)
+//! the point is reached, with phi1 = alpha - theta1. All that follows are intervals of that angle,
+//! cut at zeros of the limits: nothing is sampled in phi1.
+
+mod angles;
+mod arc;
+mod crossings;
+mod grid;
+mod merge;
+mod orientations;
+mod region;
+mod section;
+mod slab;
+mod volumes;
+
+pub use grid::Grid;
+pub use merge::merge;
+pub use orientations::{Interval, orientations};
+pub use region::Region;
+pub use slab::{Crossing, Slab, slab};
+pub use volumes::volumes;
+
+use super::observer::Observer;
+use super::request::WorkspaceError;
+use crate::limit::DOMAIN;
+use crate::machine::Machine;
+
+/// Which inclinations are asked of which tool, on how fine a grid. Lengths in mm, angles in radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DexterityRequest {
+    /// Tool length from P.
+    pub tool_length: f64,
+    /// Azimuth of the tool in the table frame.
+    pub phi2: f64,
+    /// Inclinations of the tool in the table frame, `[from, to]`, at most a revolution apart.
+    pub phi1: [f64; 2],
+    /// Step of the grid.
+    pub cell: f64,
+}
+
+/// Most nodes of a grid.
+pub const MOST_NODES: f64 = 2e7;
+
+/// The volumes' part of the work.
+const BY_VOLUMES: f64 = 0.2;
+
+/// Where a part can be machined with which inclinations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dexterity {
+    /// The nodes.
+    pub grid: Grid,
+    /// Node n's intervals are those from `offsets[n]` up to `offsets[n + 1]`.
+    pub offsets: Vec<u32>,
+    /// Intervals of phi1 within the asked range, `[from, to]`, rad, ascending.
+    pub intervals: Vec<[f64; 2]>,
+    /// What is reached with at least one inclination of the range.
+    pub reachable: Region,
+    /// What is reached with all of them.
+    pub dexterous: Region,
+}
+
+/// The inclinations at the nodes of a grid over all that is reachable, and the two regions.
+///
+/// It is [`grid`](Grid::new), [`slab`] for all of the grid's layers, [`volumes`] and [`merge`]: the
+/// same whatever slabs it is cut into and on however many threads.
+pub fn dexterity(
+    machine: &Machine,
+    request: &DexterityRequest,
+    observer: &dyn Observer,
+) -> Result<Dexterity, WorkspaceError> {
+    let grid = Grid::new(machine, request, observer)?;
+    let share = |from, to| Share { observer, from, to };
+    let volumes = volumes(machine, request, &share(0.0, BY_VOLUMES))?;
+    let whole = slab(machine, request, &grid, 0..grid.counts[0], &share(BY_VOLUMES, 1.0))?;
+    merge(request, &grid, vec![whole], volumes, observer)
+}
+
+/// A part of the work, watched as a part of the whole.
+struct Share<'a> {
+    observer: &'a dyn Observer,
+    from: f64,
+    to: f64,
+}
+
+impl Observer for Share<'_> {
+    fn progress(&self, part: f64) {
+        self.observer.progress(self.from + part * (self.to - self.from));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.observer.cancelled()
+    }
+}
+
+impl DexterityRequest {
+    pub(super) fn check(&self) -> Result<(), WorkspaceError> {
+        let [from, to] = self.phi1;
+        let turn = (0.0..=std::f64::consts::TAU).contains(&(to - from));
+        let checks = [
+            ("tool_length", self.tool_length.abs() <= DOMAIN),
+            ("phi2", self.phi2.abs() <= DOMAIN),
+            ("phi1", from.abs() <= DOMAIN && to.abs() <= DOMAIN && turn),
+            ("cell", (FINEST_CELL..=DOMAIN).contains(&self.cell)),
+        ];
+        match checks.into_iter().find(|(_, holds)| !holds) {
+            Some((field, _)) => Err(WorkspaceError::OutOfDomain { field }),
+            None => Ok(()),
+        }
+    }
+}
+
+fn count(n: usize) -> f64 {
+    f64::from(u32::try_from(n).unwrap_or(u32::MAX))
+}
+
+fn ratio(part: usize, whole: usize) -> f64 {
+    count(part) / count(whole.max(1))
+}
+
+/// Least step of a grid, mm.
+const FINEST_CELL: f64 = 0.1;

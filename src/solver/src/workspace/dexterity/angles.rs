@@ -1,0 +1,115 @@
+//! At a radius, the angle psi over which part points are reachable, and over which dexterous.
+//!
+//! psi = beta - theta1 and phi1 = alpha - theta1. Where the part's map does not fold, alpha - beta
+//! falls along an arc. A place beta then serves phi1 from `from` to `to` and theta1 within its range
+//! exactly at psi from max(beta - tilt_max, beta - alpha + from) to
+//! min(beta - tilt_min, beta - alpha + to), all of which rise with beta: over an interval of beta
+//! these psi are one interval. A point at psi has all of phi1 on the arc if it has both its ends,
+//! `to` at the lesser beta, where theta1 is least, and `from` at the greater.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::super::path::{Limits, intervals};
+use super::arc::{Arc, Circle, arcs, looks};
+use super::section::{Piece, Setting};
+
+/// The angles, rad, of what is reachable and of what is dexterous.
+pub(super) fn angles(setting: &Setting<'_>, section: &[Piece], radius: f64, phi1: [f64; 2]) -> [f64; 2] {
+    let (mut some, mut all) = (Vec::new(), Vec::new());
+    for arc in arcs(setting, section, radius) {
+        for tilt in tilts(setting, phi1) {
+            reachable(&arc, phi1, tilt, &mut some);
+            dexterous(&arc, phi1, tilt, &mut all);
+        }
+    }
+    [united(&some), united(&all)]
+}
+
+/// The tilting range, moved by whole turns to where alpha - phi1 may lie.
+fn tilts(setting: &Setting<'_>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
+    let Some([middle, half]) = setting.tilt else { return vec![[f64::NEG_INFINITY, f64::INFINITY]] };
+    let (least, greatest) = (-FRAC_PI_2 - to, FRAC_PI_2 - from);
+    let first = ((least - middle - half) / TAU).ceil();
+    (0..)
+        .map(|n| middle + (first + f64::from(n)) * TAU)
+        .take_while(|middle| middle - half <= greatest)
+        .map(|middle| [middle - half, middle + half])
+        .collect()
+}
+
+fn reachable(arc: &Arc<'_>, [from, to]: [f64; 2], [low, high]: [f64; 2], found: &mut Vec<[f64; 2]>) {
+    let lead = |beta: f64| beta - arc.circle.alpha(beta);
+    for [start, end] in inclined(arc.circle, arc.ends, [low + from, high + to]) {
+        found.push([f64::max(start - high, lead(start) + from), f64::min(end - low, lead(end) + to)]);
+    }
+}
+
+fn dexterous(arc: &Arc<'_>, [from, to]: [f64; 2], [low, high]: [f64; 2], found: &mut Vec<[f64; 2]>) {
+    let lead = |beta: f64| beta - arc.circle.alpha(beta);
+    // A whole circle twice: the two ends may lie on both sides of the cut.
+    let ends = if arc.closed() { [-PI, 3.0 * PI] } else { arc.ends };
+    let lasts = inclined(arc.circle, ends, [f64::NEG_INFINITY, high + from]);
+    for [a, b] in inclined(arc.circle, ends, [low + to, f64::INFINITY]) {
+        let first = [lead(a) + to, lead(b) + to];
+        for [a, b] in &lasts {
+            let both = [first[0].max(lead(*a) + from), first[1].min(lead(*b) + from)];
+            if both[0] < both[1] {
+                found.push(both);
+            }
+        }
+    }
+}
+
+/// The parts of an interval of beta on which alpha is within a range.
+fn inclined(circle: Circle<'_>, ends: [f64; 2], [least, greatest]: [f64; 2]) -> Vec<[f64; 2]> {
+    // In the working mode the platform is inclined by less than a quarter of a turn.
+    if least <= -FRAC_PI_2 && greatest >= FRAC_PI_2 {
+        return vec![ends];
+    }
+    let limits = Inclination { circle, least, greatest };
+    intervals(&limits, ends, looks(ends)).into_iter().map(|cuts| cuts.map(|cut| cut.t)).collect()
+}
+
+struct Inclination<'a> {
+    circle: Circle<'a>,
+    least: f64,
+    greatest: f64,
+}
+
+impl Limits<2> for Inclination<'_> {
+    fn all(&self, beta: f64) -> [f64; 2] {
+        let alpha = self.circle.alpha(beta);
+        [(alpha - self.least).min(PI), (self.greatest - alpha).min(PI)]
+    }
+
+    fn one(&self, limit: usize, beta: f64) -> f64 {
+        self.all(beta)[limit]
+    }
+}
+
+/// The part of a circle that intervals cover together.
+fn united(intervals: &[[f64; 2]]) -> f64 {
+    let mut parts: Vec<[f64; 2]> = Vec::with_capacity(intervals.len() + 1);
+    for &[from, to] in intervals {
+        if to - from >= TAU {
+            return TAU;
+        }
+        if from < to {
+            let start = from.rem_euclid(TAU);
+            let end = start + (to - from);
+            parts.push([start, end.min(TAU)]);
+            if end > TAU {
+                parts.push([0.0, end - TAU]);
+            }
+        }
+    }
+    parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let (mut covered, mut reached) = (0.0, 0.0);
+    for [from, to] in parts {
+        if to > reached {
+            covered += to - f64::max(from, reached);
+            reached = to;
+        }
+    }
+    covered
+}

@@ -1,0 +1,160 @@
+//! A circle about the tilting axis and the arcs of it that lie in the tool's workspace.
+//!
+//! The angle beta on it is zero above the axis: eta = r sin beta, zeta = -r cos beta. A part point
+//! at (V1, Z - dt) = (-r sin psi, r cos psi) comes to beta where theta1 = beta - psi, by Eq (26), and
+//! then phi1 = alpha - beta + psi.
+
+use std::f64::consts::PI;
+
+use super::super::domain::{Binding, stroke_binding};
+use super::super::path::{Limits, intervals};
+use super::section::{Piece, Setting};
+
+/// Looks along a circle, at least.
+const LOOKS: f64 = 24.0;
+/// Looks along an arc, at least.
+const LEAST: f64 = 3.0;
+
+/// A part of a circle on which the tool's place is within all limits but the table's, and on which
+/// phi1 + psi goes one way.
+#[derive(Clone, Copy)]
+pub(super) struct Arc<'a> {
+    pub(super) circle: Circle<'a>,
+    /// Least and greatest beta.
+    pub(super) ends: [f64; 2],
+    /// What ends it; `None` where it was only cut.
+    pub(super) bindings: [Option<Binding>; 2],
+    /// alpha - beta rises with beta: the part's map is folded.
+    pub(super) folded: bool,
+}
+
+/// A circle and a piece of the section that it crosses.
+#[derive(Clone, Copy)]
+pub(super) struct Circle<'a> {
+    pub(super) setting: &'a Setting<'a>,
+    pub(super) piece: &'a Piece,
+    pub(super) radius: f64,
+}
+
+/// The arcs of the circle of a radius in a section.
+pub(super) fn arcs<'a>(setting: &'a Setting<'a>, section: &'a [Piece], radius: f64) -> Vec<Arc<'a>> {
+    let mut found = Vec::new();
+    for piece in section {
+        let circle = Circle { setting, piece, radius };
+        for (window, bindings) in windows(piece, radius) {
+            circle.within(window, bindings, &mut found);
+        }
+    }
+    found
+}
+
+/// The angles at which a circle is within a piece's range of eta.
+fn windows(piece: &Piece, radius: f64) -> Vec<([f64; 2], [Option<Binding>; 2])> {
+    let ([least, greatest], [low, high]) = (piece.range(), piece.bindings);
+    let [from, to] = [least / radius, greatest / radius];
+    match (from > -1.0, to < 1.0) {
+        _ if from >= 1.0 || to <= -1.0 || radius <= 0.0 => Vec::new(),
+        (false, false) => vec![([-PI, PI], [None; 2])],
+        (true, false) => vec![([from.asin(), PI - from.asin()], [low; 2])],
+        (false, true) => vec![([-PI - to.asin(), to.asin()], [high; 2])],
+        (true, true) => {
+            vec![([from.asin(), to.asin()], [low, high]), ([PI - to.asin(), PI - from.asin()], [high, low])]
+        }
+    }
+}
+
+impl<'a> Circle<'a> {
+    /// The arcs of a window on which the strokes are kept.
+    fn within(self, window: [f64; 2], bindings: [Option<Binding>; 2], found: &mut Vec<Arc<'a>>) {
+        for cuts in intervals(&Strokes(self), window, looks(window)) {
+            let name = |end: usize| match cuts[end].limit {
+                Some(limit) => Some(stroke_binding(SLIDERS[limit / 2], limit % 2 == 1)),
+                None if cuts[end].t == window[end] => bindings[end],
+                None => None,
+            };
+            let ends = cuts.map(|cut| cut.t);
+            let arc = Arc { circle: self, ends, bindings: [name(0), name(1)], folded: false };
+            if self.piece.folds { arc.unfolded(found) } else { found.push(arc) }
+        }
+    }
+
+    /// alpha at an angle.
+    #[inline]
+    pub(super) fn alpha(&self, beta: f64) -> f64 {
+        self.setting.column(self.piece, self.radius * beta.sin()).alpha()
+    }
+}
+
+const SLIDERS: [u8; 3] = [0, 1, 2];
+
+/// Looks for an interval of the angle.
+pub(super) fn looks([from, to]: [f64; 2]) -> u32 {
+    let count = (LOOKS * (to - from) / (2.0 * PI)).ceil().max(LEAST).min(4.0 * LOOKS);
+    // Of a positive number of this size nothing is lost.
+    (1..).find(|&n| f64::from(n) >= count).unwrap_or(1)
+}
+
+impl<'a> Arc<'a> {
+    /// The arc, cut where the part's map folds.
+    fn unfolded(self, found: &mut Vec<Self>) {
+        for folded in [false, true] {
+            let sign = if folded { -1.0 } else { 1.0 };
+            for cuts in intervals(&Upright(self.circle, sign), self.ends, looks(self.ends)) {
+                let ends = cuts.map(|cut| cut.t);
+                let kept = |end: usize| self.bindings[end].filter(|_| ends[end] == self.ends[end]);
+                found.push(Arc { ends, bindings: [kept(0), kept(1)], folded, ..self });
+            }
+        }
+    }
+
+    /// Whether it is a whole circle.
+    pub(super) fn closed(&self) -> bool {
+        self.ends == [-PI, PI] && self.bindings == [None; 2] && !self.folded
+    }
+}
+
+/// The six ends of the strokes along a circle, mm.
+struct Strokes<'a>(Circle<'a>);
+
+impl Strokes<'_> {
+    #[inline]
+    fn rho(&self, beta: f64) -> [f64; 3] {
+        let Circle { setting, piece, radius } = self.0;
+        let column = setting.column(piece, radius * beta.sin());
+        let z = setting.z(&column, -radius * beta.cos());
+        column.f.map(|f| z - f)
+    }
+}
+
+impl Limits<6> for Strokes<'_> {
+    fn all(&self, beta: f64) -> [f64; 6] {
+        let (rho, stroke) = (self.rho(beta), &self.0.setting.machine.limits().stroke);
+        std::array::from_fn(|n| of_end(rho[n / 2], stroke[n / 2], n % 2))
+    }
+
+    fn one(&self, limit: usize, beta: f64) -> f64 {
+        let slider = limit / 2;
+        of_end(self.rho(beta)[slider], self.0.setting.machine.limits().stroke[slider], limit % 2)
+    }
+}
+
+fn of_end(rho: f64, [low, high]: [f64; 2], end: usize) -> f64 {
+    if end == 0 { rho - low } else { high - rho }
+}
+
+/// The sign of d(beta - alpha)/d(beta).
+struct Upright<'a>(Circle<'a>, f64);
+
+impl Limits<1> for Upright<'_> {
+    fn all(&self, beta: f64) -> [f64; 1] {
+        [self.one(0, beta)]
+    }
+
+    fn one(&self, _: usize, beta: f64) -> f64 {
+        let Circle { setting, piece, radius } = self.0;
+        let column = setting.column(piece, radius * beta.sin());
+        let [_, rate] = column.angle_rates(setting.machine);
+        let zeta = -radius * beta.cos();
+        self.1 * (1.0 + rate * zeta / setting.eta_rate(&column))
+    }
+}

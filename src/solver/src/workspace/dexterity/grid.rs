@@ -1,0 +1,134 @@
+//! The grid of nodes over the reachable set.
+
+use super::super::observer::{Observer, go_on};
+use super::super::request::WorkspaceError;
+use super::section::{Piece, Setting};
+use super::{DexterityRequest, MOST_NODES};
+use crate::machine::Machine;
+use crate::pose::Point;
+
+/// Sections looked at for the set's extent.
+const SECTIONS: u32 = 128;
+/// Part of the set's size that is added all around, for what lies between the looks.
+const ROOM: f64 = 0.02;
+
+/// Nodes in the part frame turned about Z by phi2: its first axis is the machine's x, so that a
+/// layer of nodes is one section of the machine. Node (i, j, k) has the number
+/// (i · counts\[1\] + j) · counts\[2\] + k. Coordinates are multiples of the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// Node (0, 0, 0) in the turned frame, mm.
+    pub origin: Point,
+    /// Distance of neighbours along each axis, mm.
+    pub step: f64,
+    /// Nodes along each axis; zero where nothing is reachable.
+    pub counts: [u32; 3],
+    /// Angle from the part frame to the turned frame about Z: phi2, rad.
+    pub turn: f64,
+}
+
+impl Grid {
+    /// The grid over all that is reachable, with nodes beyond it on each side;
+    /// [`WorkspaceError::TooManyNodes`] before any work on the nodes.
+    pub fn new(
+        machine: &Machine,
+        request: &DexterityRequest,
+        observer: &dyn Observer,
+    ) -> Result<Self, WorkspaceError> {
+        request.check()?;
+        let (step, turn) = (request.cell, request.phi2);
+        let setting = Setting::new(machine, request);
+        let Some([low, high]) = extent(&setting, request.phi1, observer)? else {
+            return Ok(Self { origin: [0.0; 3], step, counts: [0; 3], turn });
+        };
+        let room = [0, 1, 2].map(|axis| ROOM * (high[axis] - low[axis]));
+        let first = [0, 1, 2].map(|axis| ((low[axis] - room[axis]) / step).floor() - 1.0);
+        let last = [0, 1, 2].map(|axis| ((high[axis] + room[axis]) / step).ceil() + 1.0);
+        let counts = [0, 1, 2].map(|axis| last[axis] - first[axis] + 1.0);
+        let nodes = counts[0] * counts[1] * counts[2];
+        if nodes > MOST_NODES {
+            return Err(WorkspaceError::TooManyNodes { nodes });
+        }
+        Ok(Self { origin: first.map(|n| n * step), step, counts: counts.map(whole), turn })
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.counts.iter().map(|&count| count as usize).product()
+    }
+
+    /// A node's position in the turned frame, mm.
+    pub fn node(&self, number: [u32; 3]) -> Point {
+        [0, 1, 2].map(|axis| self.origin[axis] + self.step * f64::from(number[axis]))
+    }
+
+    /// A point of the turned frame in the part frame.
+    pub fn in_part_frame(&self, [x, y, z]: Point) -> Point {
+        let (s, c) = self.turn.sin_cos();
+        [x * c - y * s, x * s + y * c, z]
+    }
+
+    /// Whether a node is one of the outermost, which count as outside of every region.
+    pub(super) fn outermost(&self, number: [u32; 3]) -> bool {
+        (0..3).any(|axis| number[axis] == 0 || number[axis] + 1 >= self.counts[axis])
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 2^32, and positive")]
+fn whole(count: f64) -> u32 {
+    count as u32
+}
+
+/// A box that holds what is reachable, in the turned frame; `None` if nothing is.
+fn extent(
+    setting: &Setting<'_>,
+    phi1: [f64; 2],
+    observer: &dyn Observer,
+) -> Result<Option<[Point; 2]>, WorkspaceError> {
+    let [low, high] = setting.domain.rectangle();
+    let step = (high[0] - low[0]) / f64::from(SECTIONS);
+    let mut found: Option<[Point; 2]> = None;
+    for number in 0..=SECTIONS {
+        go_on(observer)?;
+        let x = low[0] + step * f64::from(number);
+        for piece in setting.section(x) {
+            let [v1, z] = flat_extent(setting, &piece, phi1);
+            let [a, b] = found.unwrap_or([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]]);
+            found = Some([
+                // What begins between two sections is less than their distance away.
+                [a[0].min(x - step), a[1].min(v1[0]), a[2].min(z[0])],
+                [b[0].max(x + step), b[1].max(v1[1]), b[2].max(z[1])],
+            ]);
+        }
+    }
+    Ok(found)
+}
+
+/// The ranges of V1 and Z of a piece's outline, turned through the range of phi1.
+fn flat_extent(setting: &Setting<'_>, piece: &Piece, [from, to]: [f64; 2]) -> [[f64; 2]; 2] {
+    let (mut v1, mut z) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
+    for place in piece.places() {
+        let column = setting.domain.column(place);
+        let (eta, alpha) = (setting.eta(&column), column.alpha());
+        for zeta in setting.zetas(&column) {
+            let (radius, beta) = (eta.hypot(zeta), eta.atan2(-zeta));
+            // psi = beta - alpha + phi1: the arc's ends, and the axes that it crosses.
+            let [first, last] = [from, to].map(|phi1| beta - alpha + phi1);
+            let mut psi = first;
+            loop {
+                meet(&mut v1, -radius * psi.sin());
+                meet(&mut z, setting.machine.table().dt + radius * psi.cos());
+                if psi >= last {
+                    break;
+                }
+                let quarter = std::f64::consts::FRAC_PI_2;
+                psi = (((psi / quarter).floor() + 1.0) * quarter).min(last);
+            }
+        }
+    }
+    [v1, z]
+}
+
+fn meet(range: &mut [f64; 2], value: f64) {
+    *range = [range[0].min(value), range[1].max(value)];
+}

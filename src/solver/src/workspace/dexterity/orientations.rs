@@ -1,0 +1,133 @@
+//! The inclinations with which one point is reached.
+
+use std::f64::consts::TAU;
+
+use super::super::domain::Binding;
+use super::super::request::WorkspaceError;
+use super::DexterityRequest;
+use super::arc::{Arc, arcs};
+use super::section::{Piece, Setting};
+use crate::limit::{Constraint, DOMAIN, Element};
+use crate::machine::Machine;
+use crate::pose::Point;
+
+/// Intervals that are nearer to each other are one, rad.
+const APART: f64 = 1e-9;
+
+/// Inclinations with which a point is reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// `[from, to]` of phi1, rad.
+    pub ends: [f64; 2],
+    /// What ends it at either end; `None` where the asked range does.
+    pub bindings: [Option<Binding>; 2],
+}
+
+/// The intervals of phi1 within `range` for which the working mode reaches the part point with
+/// every limit kept, ascending; ends to 1e-9 rad. Intervals less than that apart are one.
+///
+/// They are found as arcs of a circle (see the module) on which each stroke's limit is looked at
+/// every 1/48 of a turn or more closely, as a parabola between the looks, and again half-way where
+/// that may vanish twice. What is wider than the looks are apart is always found; what is narrower,
+/// unless a limit turns twice between two looks.
+pub fn orientations(
+    machine: &Machine,
+    point: Point,
+    phi2: f64,
+    tool_length: f64,
+    range: [f64; 2],
+) -> Result<Vec<Interval>, WorkspaceError> {
+    let request = DexterityRequest { tool_length, phi2, phi1: range, cell: 1.0 };
+    request.check()?;
+    if !point.iter().all(|coordinate| coordinate.abs() <= DOMAIN) {
+        return Err(WorkspaceError::OutOfDomain { field: "point" });
+    }
+    let setting = Setting::new(machine, &request);
+    let [x, y, z] = point;
+    let (s, c) = phi2.sin_cos();
+    let section = setting.section(x * c + y * s);
+    Ok(at(&setting, &section, [y * c - x * s, z], range))
+}
+
+/// The intervals at a section's point (V1, Z).
+pub(super) fn at(
+    setting: &Setting<'_>,
+    section: &[Piece],
+    [v1, z]: [f64; 2],
+    range: [f64; 2],
+) -> Vec<Interval> {
+    let up = z - setting.machine.table().dt;
+    let (radius, psi) = (v1.hypot(up), (-v1).atan2(up));
+    let mut found = Vec::new();
+    if !section.is_empty() {
+        for arc in arcs(setting, section, radius) {
+            turned(&arc, psi, &mut |ends, bindings| {
+                inclinations(&arc, psi, range, ends, bindings, &mut found)
+            });
+        }
+    }
+    joined(found)
+}
+
+/// The parts of an arc on which the table's tilt is within its range.
+fn turned(arc: &Arc<'_>, psi: f64, part: &mut dyn FnMut([f64; 2], [Option<Binding>; 2])) {
+    let Some([middle, half]) = arc.circle.setting.tilt else {
+        part(arc.ends, arc.bindings);
+        return;
+    };
+    let ([from, to], middle) = (arc.ends, middle + psi);
+    for turn in turns(from - middle - half, to - middle + half) {
+        let [low, high] = [middle + turn - half, middle + turn + half];
+        let tilt = |high| Some(Binding { constraint: Constraint::Tilt, element: Element::Range { high } });
+        let (start, first) = if low > from { (low, tilt(false)) } else { (from, arc.bindings[0]) };
+        let (end, last) = if high < to { (high, tilt(true)) } else { (to, arc.bindings[1]) };
+        if start <= end {
+            part([start, end], [first, last]);
+        }
+    }
+}
+
+/// Whole turns between two angles.
+fn turns(from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let first = (from / TAU).ceil();
+    (0..).map(move |n| (first + f64::from(n)) * TAU).take_while(move |turn| *turn <= to)
+}
+
+/// phi1 along a part of an arc, within the range.
+fn inclinations(
+    arc: &Arc<'_>,
+    psi: f64,
+    [from, to]: [f64; 2],
+    ends: [f64; 2],
+    [first, last]: [Option<Binding>; 2],
+    found: &mut Vec<Interval>,
+) {
+    let [start, end] = ends.map(|beta| arc.circle.alpha(beta) - beta + psi);
+    let (low, high, bindings) =
+        if arc.folded { (start, end, [first, last]) } else { (end, start, [last, first]) };
+    for turn in turns(from - high, to - low) {
+        let (least, below) = if low + turn > from { (low + turn, bindings[0]) } else { (from, None) };
+        let (greatest, above) = if high + turn < to { (high + turn, bindings[1]) } else { (to, None) };
+        if least <= greatest {
+            found.push(Interval { ends: [least, greatest], bindings: [below, above] });
+        }
+    }
+}
+
+/// Intervals in order, those that meet made one.
+fn joined(mut found: Vec<Interval>) -> Vec<Interval> {
+    found.sort_by(|a, b| a.ends[0].total_cmp(&b.ends[0]).then(a.ends[1].total_cmp(&b.ends[1])));
+    let mut joined: Vec<Interval> = Vec::with_capacity(found.len());
+    for interval in found {
+        match joined.last_mut() {
+            Some(last) if interval.ends[0] <= last.ends[1] + APART => {
+                if interval.ends[1] > last.ends[1] {
+                    last.ends[1] = interval.ends[1];
+                    last.bindings[1] = interval.bindings[1];
+                }
+            }
+            _ => joined.push(interval),
+        }
+    }
+    joined
+}

@@ -1,0 +1,219 @@
+//! Volumes by integration: over x, over the radius about the tilting axis, and in closed form over
+//! the angle psi.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::super::measure::Volume;
+use super::super::observer::{Observer, go_on};
+use super::super::quadrature::{Integral, rule};
+use super::super::request::WorkspaceError;
+use super::DexterityRequest;
+use super::angles::angles;
+use super::section::{Piece, Setting};
+use crate::machine::Machine;
+
+/// Sections looked at for the range of x.
+const SECTIONS: u32 = 96;
+/// Panels along x and along the radius, halved where they have to be.
+const PANELS: [u32; 2] = [8, 4];
+const DEPTH: [u32; 2] = [5, 7];
+/// Aim of the relative error.
+const ACCURACY: f64 = 1e-5;
+/// Errors are given larger than they are estimated.
+const SAFETY: f64 = 2.0;
+/// Halvings of the place where the set begins or ends along x.
+const HALVINGS: u32 = 40;
+
+/// Volumes of what is reachable and of what is dexterous, with bounds of their errors.
+///
+/// A region narrower than a hundredth of the machine along x may be missed.
+/// [`Volume::Folded`] where the part's map folds.
+pub fn volumes(
+    machine: &Machine,
+    request: &DexterityRequest,
+    observer: &dyn Observer,
+) -> Result<[Volume; 2], WorkspaceError> {
+    request.check()?;
+    let setting = Setting::new(machine, request);
+    let work = Work { setting: &setting, phi1: request.phi1, observer };
+    let ranges = work.ranges()?;
+    let count = ranges.len() * PANELS[0] as usize;
+    let rough: Vec<[f64; 2]> =
+        ranges.par_iter().map(|&range| work.rough(range)).collect::<Result<_, WorkspaceError>>()?;
+    let total = rough.iter().fold([0.0; 2], |sum, part| [0, 1].map(|n| sum[n] + part[n]));
+    let done = AtomicUsize::new(0);
+    let panels: Vec<(Integral<2>, bool)> = (0..count)
+        .into_par_iter()
+        .map(|number| {
+            let [from, to] = ranges[number / PANELS[0] as usize];
+            let part = |n: usize| super::ratio(n, PANELS[0] as usize);
+            let within = number % PANELS[0] as usize;
+            // Towards the ends of x the section's area goes like a root: 3 t² - 2 t³ makes it smooth.
+            let allowed = total.map(|total| ACCURACY * total / super::count(count));
+            let panel = work.panel([from, to], [part(within), part(within + 1)], &allowed, DEPTH[0])?;
+            observer.progress(super::ratio(done.fetch_add(1, Ordering::Relaxed) + 1, count));
+            Ok(panel)
+        })
+        .collect::<Result<_, WorkspaceError>>()?;
+    let mut sum = Integral::ZERO;
+    for (panel, _) in &panels {
+        sum.add(panel);
+    }
+    let folded = panels.iter().any(|(_, folded)| *folded);
+    Ok([0, 1].map(|n| {
+        if folded {
+            return Volume::Folded;
+        }
+        let rounding = 1e-9 * sum.value[n];
+        Volume::Value { value: sum.value[n], error: SAFETY * sum.error[n] + rounding }
+    }))
+}
+
+struct Work<'a> {
+    setting: &'a Setting<'a>,
+    phi1: [f64; 2],
+    observer: &'a dyn Observer,
+}
+
+impl Work<'_> {
+    /// The ranges of x in which sections are not empty.
+    fn ranges(&self) -> Result<Vec<[f64; 2]>, WorkspaceError> {
+        let [low, high] = self.setting.domain.rectangle();
+        let step = (high[0] - low[0]) / f64::from(SECTIONS);
+        let (mut ranges, mut last): (Vec<[f64; 2]>, Option<f64>) = (Vec::new(), None);
+        for number in 0..=SECTIONS {
+            go_on(self.observer)?;
+            let x = low[0] + step * f64::from(number);
+            let there = !self.setting.section(x).is_empty();
+            match (there, last) {
+                (true, None) => {
+                    let from = if number == 0 { x } else { self.end(x, x - step)? };
+                    ranges.push([from, x]);
+                }
+                (false, Some(before)) => {
+                    if let Some(range) = ranges.last_mut() {
+                        range[1] = self.end(before, x)?;
+                    }
+                }
+                (true, Some(_)) => {
+                    if let Some(range) = ranges.last_mut() {
+                        range[1] = x;
+                    }
+                }
+                (false, None) => {}
+            }
+            last = there.then_some(x);
+        }
+        Ok(ranges)
+    }
+
+    /// Where sections end between one that is not empty and one that is.
+    fn end(&self, mut inside: f64, mut outside: f64) -> Result<f64, WorkspaceError> {
+        for _ in 0..HALVINGS {
+            go_on(self.observer)?;
+            let middle = 0.5 * (inside + outside);
+            if self.setting.section(middle).is_empty() { outside = middle } else { inside = middle }
+        }
+        Ok(inside)
+    }
+
+    /// A first value, for the scale of the errors.
+    fn rough(&self, [from, to]: [f64; 2]) -> Result<[f64; 2], WorkspaceError> {
+        let mut sum = [0.0; 2];
+        for part in [0.1, 0.3, 0.5, 0.7, 0.9] {
+            let (area, _) = self.area(from + part * (to - from), &[f64::INFINITY; 2])?;
+            sum = [0, 1].map(|n| sum[n] + 0.2 * (to - from) * area.value[n]);
+        }
+        Ok(sum)
+    }
+
+    /// The part `[a, b]`, in t, of a range of x.
+    fn panel(
+        &self,
+        range: [f64; 2],
+        [a, b]: [f64; 2],
+        allowed: &[f64; 2],
+        depth: u32,
+    ) -> Result<(Integral<2>, bool), WorkspaceError> {
+        let width = range[1] - range[0];
+        let mut folded = false;
+        let whole = rule([a, b], |t| {
+            let weight = 6.0 * width * t * (1.0 - t);
+            let share = allowed.map(|allowed| 0.1 * allowed / (b - a) / weight);
+            let (mut area, fold) = self.area(range[0] + width * t * t * (3.0 - 2.0 * t), &share)?;
+            folded |= fold;
+            area.value = area.value.map(|value| value * weight);
+            area.error = area.error.map(|error| error * weight);
+            Ok::<_, WorkspaceError>(area)
+        })?;
+        if depth == 0 || whole.within(allowed) {
+            return Ok((whole, folded));
+        }
+        let (middle, allowed) = (0.5 * (a + b), allowed.map(|allowed| 0.5 * allowed));
+        let (mut sum, first) = self.panel(range, [a, middle], &allowed, depth - 1)?;
+        let (rest, second) = self.panel(range, [middle, b], &allowed, depth - 1)?;
+        sum.add(&rest);
+        Ok((sum, folded || first || second))
+    }
+
+    /// Areas of a section's reachable and dexterous parts, and whether its map may fold.
+    fn area(&self, x: f64, allowed: &[f64; 2]) -> Result<(Integral<2>, bool), WorkspaceError> {
+        let section = self.setting.section(x);
+        let mut sum = Integral::ZERO;
+        let Some([least, greatest]) = self.radii(&section) else { return Ok((sum, false)) };
+        let step = (greatest - least) / f64::from(PANELS[1]);
+        let allowed = allowed.map(|allowed| allowed / f64::from(PANELS[1]));
+        for panel in 0..PANELS[1] {
+            let from = least + step * f64::from(panel);
+            sum.add(&self.ring(&section, [from, from + step], &allowed, DEPTH[1])?);
+        }
+        Ok((sum, section.iter().any(|piece| piece.folds)))
+    }
+
+    fn ring(
+        &self,
+        section: &[Piece],
+        radii: [f64; 2],
+        allowed: &[f64; 2],
+        depth: u32,
+    ) -> Result<Integral<2>, WorkspaceError> {
+        let whole = rule(radii, |radius| {
+            go_on(self.observer)?;
+            let value = angles(self.setting, section, radius, self.phi1).map(|angle| angle * radius);
+            Ok::<_, WorkspaceError>(Integral { value, error: [0.0; 2] })
+        })?;
+        if depth == 0 || whole.within(allowed) {
+            return Ok(whole);
+        }
+        let (middle, allowed) = (0.5 * (radii[0] + radii[1]), allowed.map(|allowed| 0.5 * allowed));
+        let mut sum = self.ring(section, [radii[0], middle], &allowed, depth - 1)?;
+        sum.add(&self.ring(section, [middle, radii[1]], &allowed, depth - 1)?);
+        Ok(sum)
+    }
+
+    /// The least and the greatest distance of a section's outline from the axis, and some room.
+    fn radii(&self, section: &[Piece]) -> Option<[f64; 2]> {
+        let mut found: Option<[f64; 2]> = None;
+        for piece in section {
+            let mut zetas = [f64::INFINITY, f64::NEG_INFINITY];
+            for place in piece.places() {
+                let column = self.setting.domain.column(place);
+                let [low, high] = self.setting.zetas(&column);
+                zetas = [zetas[0].min(low), zetas[1].max(high)];
+            }
+            // Of the box around the piece: the outline may bulge between the looks.
+            let room = 0.02 * (zetas[1] - zetas[0]);
+            let [low, high] = [zetas[0] - room, zetas[1] + room];
+            let [from, to] = piece.range();
+            let beside = |[low, high]: [f64; 2]| f64::max(0.0, f64::max(low, -high));
+            let far = |[low, high]: [f64; 2]| f64::max(low.abs(), high.abs());
+            let least = beside([from, to]).hypot(beside([low, high]));
+            let greatest = far([from, to]).hypot(far([low, high]));
+            let [a, b] = found.unwrap_or([least, greatest]);
+            found = Some([a.min(least), b.max(greatest)]);
+        }
+        found
+    }
+}
