@@ -8,7 +8,7 @@ import { keepAddress, onNewAddress, viewOfAddress } from "./state/address_bar";
 import { keepWorkspace } from "./state/computation";
 import { listMachines, loadMachine } from "./state/machines";
 import { stay } from "./state/motion";
-import { failure, machine, view } from "./state/store";
+import { failure, ghostKind, machine, tool, view } from "./state/store";
 import type { View } from "./state/view";
 
 async function load(next: View): Promise<void> {
@@ -36,7 +36,7 @@ async function start(): Promise<void> {
 function followTool(): void {
   let before = "";
   effect(() => {
-    const now = `${view.value.tool} ${view.value.ghosts}`;
+    const now = `${tool.value} ${ghostKind.value}`;
     if (before !== "" && now !== before && machine.peek()) stay();
     before = now;
   });

@@ -1,13 +1,13 @@
 /** The workspace and its slice as files. */
 
 import { BASE, type WorkspaceSummary } from "../api/client";
-import { view } from "../state/store";
+import { section } from "../state/store";
 
 const MESHES = ["glb", "stl", "ply"] as const;
 const DRAWINGS = ["dxf", "svg"] as const;
 
 export function Downloads({ found }: { found: WorkspaceSummary }) {
-  const { section } = view.value;
+  const z = section.value;
   const name = `${found.machine.name}-${found.kind}`;
   return (
     <div class="downloads">
@@ -19,11 +19,11 @@ export function Downloads({ found }: { found: WorkspaceSummary }) {
           </a>
         ))}
       </div>
-      {section !== null && (
+      {z !== null && (
         <div role="group" aria-label="Download the slice">
           <span>Slice</span>
           {DRAWINGS.map((format) => (
-            <a key={format} href={`${BASE}${found.links.self}/slice?z=${section}&format=${format}`} download={`${name}-z${section}.${format}`}>
+            <a key={format} href={`${BASE}${found.links.self}/slice?z=${z}&format=${format}`} download={`${name}-z${z}.${format}`}>
               {format.toUpperCase()}
             </a>
           ))}

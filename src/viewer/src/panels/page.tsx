@@ -3,6 +3,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { failure, position } from "../state/store";
 import { link } from "../state/address_bar";
+import { drawing } from "../scene/software";
 import { World, type Side } from "../scene/world";
 import { JointsPanel } from "./joints";
 import { MachinePicker } from "./machine";
@@ -54,7 +55,8 @@ function Scene() {
   const [trouble, setTrouble] = useState<string | null>(null);
   useEffect(() => {
     if (!canvas.current || !labels.current) return;
-    if (canvas.current.getContext("webgl2", { antialias: true })) setWorld(new World(canvas.current, labels.current));
+    const kind = drawing();
+    if (kind !== "none") setWorld(new World(canvas.current, labels.current, kind));
     else setTrouble("This browser draws no 3D (WebGL 2): the figures beside remain.");
   }, []);
   return (

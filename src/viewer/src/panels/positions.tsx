@@ -1,7 +1,7 @@
 /** Every position with the same sliders, or with the same tool pose: the same platform position, shown as ghosts, and picked. */
 
 import type { Position } from "../state/store";
-import { change, ghosts, pointed, position, view } from "../state/store";
+import { change, ghosts, ghostKind, pointed, position } from "../state/store";
 import { samePosition } from "../state/same";
 import { pick } from "../state/motion";
 import { degrees, mm } from "../words/numbers";
@@ -15,7 +15,7 @@ const SHOWN = [
 ] as const;
 
 export function PositionsPanel() {
-  const kind = view.value.ghosts;
+  const kind = ghostKind.value;
   const found = ghosts.value;
   const here = position.value;
   return (

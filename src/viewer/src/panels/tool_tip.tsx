@@ -1,6 +1,6 @@
 /** Where the tool's tip is on the part, to type or to drag. */
 
-import { change, complaint, position, view } from "../state/store";
+import { change, complaint, drag, position, tool } from "../state/store";
 import { moveTo } from "../state/motion";
 import { degrees, mm, number } from "../words/numbers";
 import { Choice, NumberField } from "./fields";
@@ -32,12 +32,12 @@ export function ToolTipPanel() {
       <div class="row three">
         <NumberField label="Inclination phi 1" symbol="φ₁" unit="°" value={phi1} commit={(phi1) => put({ phi1 })} />
         <NumberField label="Azimuth phi 2" symbol="φ₂" unit="°" value={phi2} commit={(phi2) => put({ phi2 })} />
-        <NumberField label="Tool length" symbol="Tool" unit="mm" value={view.value.tool} min={0} max={1e6} commit={(tool) => change({ tool })} />
+        <NumberField label="Tool length" symbol="Tool" unit="mm" value={tool.value} min={0} max={1e6} commit={(tool) => change({ tool })} />
       </div>
       <p role="status" class={trouble ? "trouble" : "hint"} data-testid="trouble">
         {trouble ? trouble.sentence : "Drag the arrows at the tip, or type."}
       </p>
-      <Choice legend="Dragging keeps" name="drag" value={view.value.drag} options={KEPT} choose={(drag) => change({ drag })} />
+      <Choice legend="Dragging keeps" name="drag" value={drag.value} options={KEPT} choose={(drag) => change({ drag })} />
       <dl class="figures">
         <dt>Platform x, y, z</dt>
         <dd>{number(platform.x)}, {number(platform.y)}, {mm(platform.z)}</dd>

@@ -2,7 +2,7 @@
 
 import type { WorkspaceKind, WorkspaceSummary } from "../api/client";
 import { again, cancelComputation } from "../state/computation";
-import { change, changeWorkspace, computing, view, workspace, workspaceNote } from "../state/store";
+import { change, changeWorkspace, computing, tool, wanted, workspace, workspaceNote } from "../state/store";
 import { cubicMetres, number, squareMetres } from "../words/numbers";
 import { Downloads } from "./downloads";
 import { Choice, NumberField, SlideField } from "./fields";
@@ -19,31 +19,31 @@ const KINDS = [
 const LONGEST = 400;
 
 export function WorkspacePanel() {
-  const { workspace: wanted, tool } = view.value;
+  const asked = wanted.value;
   const found = workspace.value;
   return (
     <section aria-labelledby="workspace">
       <header>
         <h2 id="workspace">Workspace</h2>
         <label class="check">
-          <input type="checkbox" checked={wanted.shown} onChange={(event) => changeWorkspace({ shown: event.currentTarget.checked })} />
+          <input type="checkbox" checked={asked.shown} onChange={(event) => changeWorkspace({ shown: event.currentTarget.checked })} />
           show
         </label>
         <label class="check">
-          <input type="checkbox" checked={wanted.solid} onChange={(event) => changeWorkspace({ solid: event.currentTarget.checked })} />
+          <input type="checkbox" checked={asked.solid} onChange={(event) => changeWorkspace({ solid: event.currentTarget.checked })} />
           solid
         </label>
       </header>
-      <Choice legend="Positions of" name="kind" value={wanted.kind} options={KINDS} choose={(kind) => change({ workspace: { ...wanted, kind }, section: null })} />
-      <SlideField label="Tool length" symbol="Tool" unit="mm" value={tool} min={0} max={LONGEST} step={5} commit={(tool) => change({ tool })} />
+      <Choice legend="Positions of" name="kind" value={asked.kind} options={KINDS} choose={(kind) => change({ workspace: { ...asked, kind }, section: null })} />
+      <SlideField label="Tool length" symbol="Tool" unit="mm" value={tool.value} min={0} max={LONGEST} step={5} commit={(tool) => change({ tool })} />
       <div class="row three">
-        {wanted.kind === "part" && (
+        {asked.kind === "part" && (
           <>
-            <NumberField label="Tool inclination on the part, phi 1" symbol="φ₁" unit="°" value={wanted.phi1} step={5} commit={(phi1) => changeWorkspace({ phi1 })} />
-            <NumberField label="Tool azimuth on the part, phi 2" symbol="φ₂" unit="°" value={wanted.phi2} step={5} commit={(phi2) => changeWorkspace({ phi2 })} />
+            <NumberField label="Tool inclination on the part, phi 1" symbol="φ₁" unit="°" value={asked.phi1} step={5} commit={(phi1) => changeWorkspace({ phi1 })} />
+            <NumberField label="Tool azimuth on the part, phi 2" symbol="φ₂" unit="°" value={asked.phi2} step={5} commit={(phi2) => changeWorkspace({ phi2 })} />
           </>
         )}
-        <NumberField label="Tolerance of the mesh" symbol="Within" unit="mm" value={wanted.tolerance} decimals={2} step={0.05} min={0.01} max={1000} commit={(tolerance) => changeWorkspace({ tolerance })} />
+        <NumberField label="Tolerance of the mesh" symbol="Within" unit="mm" value={asked.tolerance} decimals={2} step={0.05} min={0.01} max={1000} commit={(tolerance) => changeWorkspace({ tolerance })} />
       </div>
       <Progress />
       {found && <Figures found={found} />}

@@ -1,52 +1,71 @@
-/** Coarser pictures while the machine draws too slowly for the hand that moves it; full ones at rest. */
+/** Quick pictures while the hand moves, good ones at rest. */
 
 import type { WebGLRenderer } from "three";
 
 /** Time between pictures above which they become coarser, ms. */
 const SLOW = 30;
 /** Time after which the hand has stopped, ms. */
-const REST = 200;
+const REST = 500;
 const LEAST = 0.5;
 
 export class Resolution {
-  private last = 0;
-  private mean = 16;
-  private factor = 1;
+  /** Whether pictures of a moving scene cannot be drawn in time as they are. */
+  slow = false;
+  /** Whether the hand moves now. */
+  moving = false;
+  private last = Number.NEGATIVE_INFINITY;
+  private mean = 0;
+  private factor = 0;
   /** What was fast enough when the hand moved last. */
   private learned = 1;
   private timer = 0;
 
+  /** `atRest`: pixels drawn for each that is shown, each way; more than one where the renderer smooths no edges. */
   constructor(
     private readonly renderer: WebGLRenderer,
+    private readonly atRest: number,
     private readonly redraw: () => void,
   ) {
     this.apply(1);
   }
 
-  /** Tells that a picture was drawn. */
-  drawn(now: number): void {
+  /** Tells that a picture is about to be drawn. */
+  prepare(now: number): void {
     const step = now - this.last;
     this.last = now;
+    if (this.timer === 0 && this.moving) {
+      // The good picture after the movement.
+      this.moving = false;
+      this.apply(this.atRest);
+      return;
+    }
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => this.rest(), REST);
-    if (step > REST) return;
-    if (this.factor > this.learned) this.apply(this.learned);
-    this.mean += (step - this.mean) * 0.3;
-    if (this.mean > SLOW && this.factor > LEAST) {
-      this.mean = 16;
-      this.learned = Math.max(LEAST, this.factor * 0.75);
-      this.apply(this.learned);
+    if (!this.moving) {
+      this.moving = true;
+      this.mean = 0;
+    } else {
+      this.judge(step);
     }
+    this.apply(this.learned);
+  }
+
+  private judge(step: number): void {
+    this.mean = this.mean === 0 ? step : this.mean + (step - this.mean) * 0.25;
+    if (this.mean <= SLOW) return;
+    this.slow = true;
+    this.mean = 0;
+    this.learned = Math.max(LEAST, this.learned * 0.75);
   }
 
   private rest(): void {
-    if (this.factor === 1) return;
-    this.apply(1);
-    this.last = 0;
+    this.timer = 0;
     this.redraw();
   }
 
+  /** Before a picture: the canvas is emptied by it. */
   private apply(factor: number): void {
+    if (factor === this.factor) return;
     this.factor = factor;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2) * factor);
   }

@@ -12,18 +12,23 @@ export class Stage {
   readonly controls: OrbitControls;
   /** Called before each picture. */
   readonly beforeDrawing: (() => void)[] = [];
-  private readonly resolution: Resolution;
+  readonly resolution: Resolution;
   private asked = false;
 
-  constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    drawing: "software" | "hardware",
+  ) {
+    // Smoothing edges by the processor triples the work: there the picture at rest is drawn twice as fine instead.
+    const software = drawing === "software";
+    this.renderer = new WebGLRenderer({ canvas, antialias: !software, powerPreference: "high-performance" });
     this.renderer.localClippingEnabled = true;
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.minDistance = 0.2;
     this.controls.maxDistance = 25;
     this.controls.listenToKeyEvents(canvas);
     this.controls.addEventListener("change", () => this.draw());
-    this.resolution = new Resolution(this.renderer, () => this.draw());
+    this.resolution = new Resolution(this.renderer, software ? 2 : 1, () => this.draw());
     this.light();
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement ?? canvas);
     this.fit();
@@ -35,9 +40,9 @@ export class Stage {
     this.asked = true;
     requestAnimationFrame((now) => {
       this.asked = false;
+      this.resolution.prepare(now);
       for (const call of this.beforeDrawing) call();
       this.renderer.render(this.scene, this.camera);
-      this.resolution.drawn(now);
       const drawn = Number(this.canvas.dataset["pictures"] ?? 0) + 1;
       this.canvas.dataset["pictures"] = String(drawn);
     });

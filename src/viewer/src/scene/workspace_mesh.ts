@@ -6,18 +6,24 @@ import { BASE, type WorkspaceSummary } from "../api/client";
 import type { Surface } from "../state/store";
 import { shares } from "../geometry/shares";
 
+/** As it is, and coarser for machines that cannot move it so. */
+type Grade = "fine" | "coarse";
+
 export class WorkspaceMesh {
   readonly group = new Group();
+  private readonly grades = { fine: new Group(), coarse: new Group() };
+  private readonly shown: Record<Grade, string | null> = { fine: null, coarse: null };
   private readonly loader = new GLTFLoader();
   private readonly inside = new MeshLambertMaterial({ vertexColors: true, side: BackSide });
   private readonly outside = new MeshLambertMaterial({ vertexColors: true, side: FrontSide });
   private readonly plane = new Plane();
-  private shown: string | null = null;
   /** In the GLB's own frame, metres: what lies below it is shown. */
   private height: number | null = null;
 
   constructor() {
     this.group.matrixAutoUpdate = false;
+    this.group.add(this.grades.fine, this.grades.coarse);
+    this.quick(false);
     this.solid(false);
   }
 
@@ -31,15 +37,15 @@ export class WorkspaceMesh {
   }
 
   /** Loads and shows; answers the pieces of the surface, or null if something newer came between. */
-  async show(summary: WorkspaceSummary | null): Promise<Surface[] | null> {
-    this.shown = summary?.id ?? null;
+  async show(summary: WorkspaceSummary | null, grade: Grade = "fine"): Promise<Surface[] | null> {
+    this.shown[grade] = summary?.id ?? null;
     if (!summary || summary.triangles === 0) {
-      this.clear();
+      clear(this.grades[grade]);
       return [];
     }
     const loaded = await this.loader.loadAsync(`${BASE}${summary.links.mesh}?format=glb`);
-    if (this.shown !== summary.id) return null;
-    this.clear();
+    if (this.shown[grade] !== summary.id) return null;
+    clear(this.grades[grade]);
     let pieces: Surface[] = [];
     loaded.scene.traverse((node) => {
       if (!(node instanceof Mesh)) return;
@@ -49,10 +55,17 @@ export class WorkspaceMesh {
         const side = new Mesh(geometry, material);
         side.position.copy(node.position);
         side.renderOrder = 10 + order;
-        this.group.add(side);
+        this.grades[grade].add(side);
       }
     });
     return pieces;
+  }
+
+  /** The coarser one, where there is one, while the hand moves. */
+  quick(quick: boolean): void {
+    const { fine, coarse } = this.grades;
+    coarse.visible = quick && coarse.children.length > 0;
+    fine.visible = !coarse.visible;
   }
 
   /** Where the GLB's frame stands in the scene. */
@@ -76,9 +89,9 @@ export class WorkspaceMesh {
     this.plane.setFromNormalAndCoplanarPoint(new Vector3(0, -1, 0), new Vector3(0, this.height, 0));
     this.plane.applyMatrix4(this.group.matrix);
   }
+}
 
-  private clear(): void {
-    for (const side of this.group.children) if (side instanceof Mesh) (side.geometry as BufferGeometry).dispose();
-    this.group.clear();
-  }
+function clear(group: Group): void {
+  for (const side of group.children) if (side instanceof Mesh) (side.geometry as BufferGeometry).dispose();
+  group.clear();
 }

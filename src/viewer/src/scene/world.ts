@@ -1,10 +1,29 @@
 /** The whole scene: follows the signals, and tells where the hand drags the tool. */
 
-import { effect } from "@preact/signals";
+import { computed, effect } from "@preact/signals";
 import { Group, Matrix4, Vector2, Vector3 } from "three";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
 import { baseFromTable, SCENE_FROM_BASE, sceneFromPartGlb, type TableAngles } from "../geometry/frames";
-import { complaint, ghosts, machine, pointed, position, slice, surfaces, view, workspace, workspaceNote, change, type InUse } from "../state/store";
+import {
+  camera,
+  change,
+  complaint,
+  drag,
+  ghosts,
+  machine,
+  pointed,
+  position,
+  section,
+  slice,
+  slowDrawing,
+  standIn,
+  surfaces,
+  tool,
+  wanted,
+  workspace,
+  workspaceNote,
+  type InUse,
+} from "../state/store";
 import { moveTo, pick } from "../state/motion";
 import { bars } from "../words/margins";
 import { inWords } from "../api/client";
@@ -47,8 +66,8 @@ export class World {
   private mechanism: Mechanism | null = null;
   private surroundings: Surroundings | null = null;
 
-  constructor(canvas: HTMLCanvasElement, labels: HTMLElement) {
-    this.stage = new Stage(canvas);
+  constructor(canvas: HTMLCanvasElement, labels: HTMLElement, drawing: "software" | "hardware") {
+    this.stage = new Stage(canvas, drawing);
     this.labels = new CSS2DRenderer({ element: labels });
     this.ghosts = new Ghosts(this.materials, this.stage);
     this.handle = new Handle(this.stage, this.materials, (tip) => this.dragged(tip), () => this.placeHandle());
@@ -57,7 +76,10 @@ export class World {
     this.base.add(this.fixed, this.ghosts.group, this.section.group, this.baseTriad.group, this.partTriad.group);
     this.partTriad.group.matrixAutoUpdate = false;
     this.stage.scene.add(this.base, this.mesh.group, this.handle.group);
-    this.stage.beforeDrawing.push(() => this.drawLabels());
+    this.stage.beforeDrawing.push(
+      () => this.drawLabels(),
+      () => this.hurry(),
+    );
     this.stage.controls.addEventListener("end", () => change({ camera: rounded(this.stage.seen()) }));
     followPalette((palette) => this.paint(palette));
     this.follow();
@@ -75,11 +97,12 @@ export class World {
   }
 
   private follow(): void {
+    const solid = computed(() => wanted.value.solid);
     effect(() => this.build(machine.value));
     effect(() => this.move());
     effect(() => {
       const { geometry } = machine.value?.definition ?? {};
-      if (geometry) this.ghosts.show(geometry, ghosts.value, position.value, view.value.tool, pointed.value);
+      if (geometry) this.ghosts.show(geometry, ghosts.value, position.value, tool.value, pointed.value);
       this.stage.draw();
     });
     effect(() => {
@@ -92,16 +115,18 @@ export class World {
         })
         .catch((thrown: unknown) => (workspaceNote.value = inWords(thrown)));
     });
+    effect(() => void this.mesh.show(standIn.value, "coarse").catch(() => undefined));
     effect(() => {
-      this.mesh.solid(view.value.workspace.solid);
+      this.mesh.solid(solid.value);
       this.stage.draw();
     });
     effect(() => {
       this.section.show(slice.value);
-      this.cut();
+      this.stage.draw();
     });
+    effect(() => this.cut());
     effect(() => {
-      const seen = view.value.camera;
+      const seen = camera.value;
       if (seen) this.stage.look(seen);
     });
   }
@@ -116,7 +141,7 @@ export class World {
     this.baseTriad.group.scale.setScalar(unit);
     this.partTriad.group.scale.setScalar(unit);
     this.fixed.add(this.mechanism.group, this.surroundings.group, ...sliderLabels(found));
-    if (!view.peek().camera) this.lookFrom("whole");
+    if (!camera.peek()) this.lookFrom("whole");
   }
 
   /** Machine, table, handle and marker where they are now. */
@@ -124,9 +149,8 @@ export class World {
     const at = position.value;
     const found = machine.value;
     if (!at || !found || !this.mechanism || !this.surroundings) return;
-    const { tool } = view.value;
     const { rho } = at.joints;
-    this.mechanism.place(rho, at.solution.platform, tool);
+    this.mechanism.place(rho, at.solution.platform, tool.value);
     const worst = bars(at.solution.margins, found.definition, found.home)[0];
     const near = worst && worst.part < NEAR ? worst : null;
     this.mechanism.mark(near, near && near.part < 0 ? this.materials.bad : this.materials.warn);
@@ -141,21 +165,21 @@ export class World {
   private placeHandle(): void {
     const at = position.value;
     if (!at) return;
-    const part = view.value.drag === "part";
+    const part = drag.value === "part";
     const tip = part ? at.solution.part : at.solution.tool;
     if (tip) this.handle.place(this.sceneFrom(part ? "part" : "base"), new Vector3(tip.x, tip.y, tip.z));
   }
 
   private mark(): void {
-    const wanted = complaint.value?.wanted;
-    const point = wanted ? new Vector3(wanted.x, wanted.y, wanted.z).applyMatrix4(this.sceneFrom(wanted.frame)) : null;
+    const missed = complaint.value?.wanted;
+    const point = missed ? new Vector3(missed.x, missed.y, missed.z).applyMatrix4(this.sceneFrom(missed.frame)) : null;
     this.handle.mark(point);
   }
 
   private dragged(tip: Vector3): void {
     const [x, y, z] = tip.toArray();
     const part = position.peek()?.solution.part;
-    if (view.peek().drag === "part" && part) {
+    if (drag.peek() === "part" && part) {
       moveTo({ by: "part", pose: { x, y, z, phi1: part.phi1, phi2: part.phi2 } });
     } else {
       moveTo({ by: "tool", pose: { x, y, z } });
@@ -184,9 +208,9 @@ export class World {
 
   private cut(): void {
     const found = workspace.value;
-    const { section } = view.value;
+    const at = section.value;
     const up = found?.frame === "part" ? 1e-3 : -1e-3;
-    this.mesh.cut(found && section !== null ? section * up : null);
+    this.mesh.cut(found && at !== null ? at * up : null);
     this.stage.draw();
   }
 
@@ -195,6 +219,13 @@ export class World {
     this.stage.scene.background = palette.background;
     for (const triad of [this.baseTriad, this.partTriad]) triad.paint(palette);
     this.stage.draw();
+  }
+
+  /** Slow machines move a coarser workspace. */
+  private hurry(): void {
+    const { slow, moving } = this.stage.resolution;
+    if (slow) slowDrawing.value = true;
+    this.mesh.quick(slow && moving);
   }
 
   private drawLabels(): void {

@@ -5,27 +5,29 @@ import { inWords, type WorkspaceRequest, type WorkspaceSummary } from "../api/cl
 import { Cancelled, cancel } from "../api/jobs";
 import { latest } from "../api/latest";
 import { slice as fetchSlice, workspace as compute } from "../api/workspace";
-import { computing, machine, slice, view, workspace, workspaceNote } from "./store";
+import { computing, machine, section, slice, slowDrawing, standIn, tool, wanted, workspace, workspaceNote } from "./store";
 
 /** A control that is being dragged is not asked at every step, ms. */
 const REST = 120;
 
+/** Triangles that a slow machine cannot move, and about as many as it can: they go with the tolerance's inverse. */
+const MANY = 12_000;
+const FEW = 5_000;
+
 /** The question as text, so that equal ones are equal. */
 const question = computed(() => {
-  const { workspace: wanted, tool } = view.value;
   const known = machine.value;
-  if (!known || !wanted.shown) return null;
-  const { kind, phi1, phi2, tolerance } = wanted;
+  if (!known || !wanted.value.shown) return null;
+  const { kind, phi1, phi2, tolerance } = wanted.value;
   const request: WorkspaceRequest = { machine: known.ref, kind, tolerance };
-  if (kind !== "platform") request.tool_length = tool;
+  if (kind !== "platform") request.tool_length = tool.value;
   if (kind === "part") Object.assign(request, { phi1, phi2 });
   return JSON.stringify(request);
 });
 
 const cut = computed(() => {
-  const { section } = view.value;
   const found = workspace.value;
-  return found && section !== null ? JSON.stringify({ id: found.id, z: section }) : null;
+  return found && section.value !== null ? JSON.stringify({ id: found.id, z: section.value }) : null;
 });
 
 let stop = new AbortController();
@@ -41,6 +43,7 @@ export function keepWorkspace(): void {
     const timer = setTimeout(() => void ask(JSON.parse(asked) as WorkspaceRequest), REST);
     return () => clearTimeout(timer);
   });
+  keepStandIn();
   const askSlice = latest<string>(async (asked) => {
     const { id, z } = JSON.parse(asked) as { id: string; z: number };
     const found = await fetchSlice(id, z).catch(() => null);
@@ -49,6 +52,21 @@ export function keepWorkspace(): void {
   effect(() => {
     if (cut.value === null) slice.value = null;
     else askSlice(cut.value);
+  });
+}
+
+/** Where drawing is slow, a mesh of many triangles moves as a coarser one. */
+function keepStandIn(): void {
+  const ask = latest<WorkspaceRequest>(async (request) => {
+    const signal = new AbortController().signal;
+    standIn.value = await compute(request, { signal, progress: () => undefined }).catch(() => null);
+  });
+  effect(() => {
+    const found = workspace.value;
+    const known = machine.value;
+    standIn.value = null;
+    if (!found || !known || !slowDrawing.value || found.triangles <= MANY) return;
+    ask({ ...found.request, machine: known.ref, tolerance: (found.request.tolerance * found.triangles) / FEW });
   });
 }
 

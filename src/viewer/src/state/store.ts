@@ -1,6 +1,6 @@
 /** What the page knows, as signals: panels and scene follow them. */
 
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 import type { Machine, MachineRef, Schemas, Slice, Solution, WorkspaceSummary } from "../api/client";
 import type { Home } from "../words/margins";
 import { INITIAL, type Joints, type View } from "./view";
@@ -43,6 +43,14 @@ export interface Surface {
 }
 
 export const view = signal<View>(INITIAL);
+/** Parts of the view: who needs one is not woken by the others. */
+export const wanted = computed(() => view.value.workspace);
+export const tool = computed(() => view.value.tool);
+export const section = computed(() => view.value.section);
+export const drag = computed(() => view.value.drag);
+export const ghostKind = computed(() => view.value.ghosts);
+export const camera = computed(() => view.value.camera);
+
 export const published = signal<Schemas["MachineEntry"][]>([]);
 export const machine = signal<InUse | null>(null);
 export const position = signal<Position | null>(null);
@@ -50,6 +58,10 @@ export const ghosts = signal<Position[]>([]);
 export const complaint = signal<Complaint | null>(null);
 
 export const workspace = signal<WorkspaceSummary | null>(null);
+/** A coarser mesh of the same workspace, for slow machines while the hand moves. */
+export const standIn = signal<WorkspaceSummary | null>(null);
+/** Whether pictures of a moving scene cannot be drawn in time. */
+export const slowDrawing = signal(false);
 export const computing = signal<Computing | null>(null);
 /** Why there is no workspace to see. */
 export const workspaceNote = signal<string | null>(null);
