@@ -12,7 +12,11 @@ async function violations(page) {
 }
 
 for (const colorScheme of ["light", "dark"]) {
-  for (const [name, viewport] of [["desk", { width: 1280, height: 720 }], ["tablet", { width: 1024, height: 768 }], ["narrow", { width: 768, height: 1024 }]]) {
+  for (const [name, viewport] of [
+    ["desk", { width: 1280, height: 720 }],
+    ["tablet", { width: 1024, height: 768 }],
+    ["narrow", { width: 768, height: 1024 }],
+  ]) {
     test.describe(`${colorScheme}, ${name}`, () => {
       test.use({ colorScheme, viewport, provoked: [/status of 422/] });
 

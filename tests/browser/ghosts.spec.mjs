@@ -1,23 +1,38 @@
 // Every solution can be seen and taken.
 import { ask, expect, figure, open, test } from "./viewer.mjs";
 
-test("the four assembly modes of the paper's Fig. 6; one is picked and followed", async ({ page, request }) => {
+test("the four assembly modes of the paper's Fig. 6; one is picked and followed", async ({
+  page,
+  request,
+}) => {
   await open(page, "#joints=674,685,250,0,0");
   await page.getByRole("radio", { name: "sliders", exact: true }).check();
   const list = page.getByRole("list", { name: "Assembly modes" });
   await expect(list.getByRole("listitem")).toHaveCount(4);
-  const { solutions } = await ask(request, "/fk", { joints: { rho: [674, 685, 250], theta1: 0, theta2: 0 }, tool_length: 50, solutions: "all" });
+  const { solutions } = await ask(request, "/fk", {
+    joints: { rho: [674, 685, 250], theta1: 0, theta2: 0 },
+    tool_length: 50,
+    solutions: "all",
+  });
   const other = solutions.findIndex(({ working }) => !working);
   const ghost = list.getByRole("button").nth(other);
   await ghost.click();
   await expect(ghost).toHaveAttribute("aria-pressed", "true");
-  await expect(figure(page, "Platform tilt")).toHaveText(`${solutions[other].platform.alpha.toFixed(2).replace("-", "−")}°`);
+  await expect(figure(page, "Platform tilt")).toHaveText(
+    `${solutions[other].platform.alpha.toFixed(2).replace("-", "−")}°`,
+  );
 
   // Its slider moves it within its mode.
   await page.getByRole("slider", { name: "Slider 1, mm" }).press("ArrowLeft");
   await expect(page).toHaveURL(/#joints=673,685,250,0,0&mode=/);
-  const moved = await ask(request, "/fk", { joints: { rho: [673, 685, 250] }, solutions: "all", near: solutions[other].platform });
-  await expect(figure(page, "Platform tilt")).toHaveText(`${moved.solutions[0].platform.alpha.toFixed(2).replace("-", "−")}°`);
+  const moved = await ask(request, "/fk", {
+    joints: { rho: [673, 685, 250] },
+    solutions: "all",
+    near: solutions[other].platform,
+  });
+  await expect(figure(page, "Platform tilt")).toHaveText(
+    `${moved.solutions[0].platform.alpha.toFixed(2).replace("-", "−")}°`,
+  );
 });
 
 test("the sixteen inverse solutions of the paper's Fig. 5", async ({ page }) => {

@@ -1,7 +1,9 @@
 // Debian's Chromium (or the one that CHROMIUM names), drawing in software, asking nobody else.
 import { execFileSync } from "node:child_process";
 
-const chromium = execFileSync("sh", ["-c", 'command -v "${CHROMIUM:-chromium}"'], { encoding: "utf8" }).trim();
+const chromium = execFileSync("sh", ["-c", 'command -v "${CHROMIUM:-chromium}"'], {
+  encoding: "utf8",
+}).trim();
 
 export const LAUNCH = {
   executablePath: chromium,

@@ -32,7 +32,11 @@ test("a good file becomes the machine, and the link carries it", async ({ page, 
   await expect(volume).toBeVisible();
   const machine = await verne(request);
   machine.name = "short stroke";
-  machine.limits.stroke = [[0, 400], [0, 400], [0, 400]];
+  machine.limits.stroke = [
+    [0, 400],
+    [0, 400],
+    [0, 400],
+  ];
   await drop(page, "short.json", JSON.stringify(machine));
   await expect(page.getByLabel("Machine", { exact: true })).toContainText("short stroke (own file)");
   const answer = await request.post("/workspace", { data: { machine, kind: "part", tool_length: 50 } });

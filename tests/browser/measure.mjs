@@ -32,15 +32,22 @@ for (const run of ["cold", "warm", "warm", "warm"]) {
   await page.goto(`${address}/`);
   await page.waitForFunction(() => window.workspaceSeen !== undefined);
   const [machine, workspace] = await page.evaluate(() => [window.machineSeen, window.workspaceSeen]);
-  console.log(`first picture, ${run}: machine ${machine.toFixed(0)} ms, workspace ${workspace.toFixed(0)} ms`);
+  console.log(
+    `first picture, ${run}: machine ${machine.toFixed(0)} ms, workspace ${workspace.toFixed(0)} ms`,
+  );
 }
 
 for (const tolerance of TOLERANCES) {
   await page.goto("about:blank");
   await page.goto(`${address}/#tolerance=${tolerance}`);
   await page.locator(".legend li").first().waitFor();
-  const triangles = await page.locator("dt", { hasText: "Mesh" }).locator("xpath=following-sibling::dd[1]").textContent();
-  console.log(`${triangles}: turning ${await pictures(turn)}, a slider dragged ${await pictures(slide)} pictures a second`);
+  const triangles = await page
+    .locator("dt", { hasText: "Mesh" })
+    .locator("xpath=following-sibling::dd[1]")
+    .textContent();
+  console.log(
+    `${triangles}: turning ${await pictures(turn)}, a slider dragged ${await pictures(slide)} pictures a second`,
+  );
 }
 await browser.close();
 

@@ -4,7 +4,9 @@ import { ask, expect, figure, open, test } from "./viewer.mjs";
 test("the machine stands in its workspace when the page opens", async ({ page }) => {
   await open(page);
   await expect(page.getByTestId("volume")).toHaveText(/^0\.300444.m³$/);
-  await expect(page.getByTestId("margins").getByRole("listitem").first()).toHaveText(/slider 1 is 343\.7.mm from its upper end/);
+  await expect(page.getByTestId("margins").getByRole("listitem").first()).toHaveText(
+    /slider 1 is 343\.7.mm from its upper end/,
+  );
   await expect(page.getByText("invented round dimensions, not Fatronik’s")).toBeVisible();
 });
 
@@ -12,14 +14,20 @@ test("a slider moves the machine through /fk, by keyboard too", async ({ page, r
   await open(page, "#joints=400,450,420,0,0");
   const before = await page.locator("canvas").getAttribute("data-pictures");
   await page.getByRole("slider", { name: "Slider 2, mm" }).press("ArrowRight");
-  const { solutions } = await ask(request, "/fk", { joints: { rho: [400, 451, 420], theta1: 0, theta2: 0 }, tool_length: 50 });
+  const { solutions } = await ask(request, "/fk", {
+    joints: { rho: [400, 451, 420], theta1: 0, theta2: 0 },
+    tool_length: 50,
+  });
   const { alpha } = solutions[0].platform;
   await expect(figure(page, "Platform tilt")).toHaveText(`${alpha.toFixed(2).replace("-", "−")}°`);
   await expect(page.locator("canvas")).not.toHaveAttribute("data-pictures", before);
   await expect(page).toHaveURL(/#joints=400,451,420,0,0/);
 });
 
-test("a typed pose moves the machine through /ik; one out of reach leaves it and says why", async ({ page, request }) => {
+test("a typed pose moves the machine through /ik; one out of reach leaves it and says why", async ({
+  page,
+  request,
+}) => {
   await open(page);
   const x = page.getByLabel("X on the part, mm");
   await x.fill("120");
@@ -33,7 +41,9 @@ test("a typed pose moves the machine through /ik; one out of reach leaves it and
 
   await x.fill("900");
   await x.press("Enter");
-  await expect(page.getByTestId("trouble")).toHaveText(/^Out of reach: leg \d too short by [\d\u202f.]+.mm\.$/);
+  await expect(page.getByTestId("trouble")).toHaveText(
+    /^Out of reach: leg \d too short by [\d\u202f.]+.mm\.$/,
+  );
   expect(await rho1.inputValue()).toBe(stood);
 });
 

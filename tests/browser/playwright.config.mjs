@@ -22,5 +22,9 @@ export default defineConfig({
   },
   webServer: process.env.VERNE_ADDRESS
     ? undefined
-    : { command: `${verne} serve --memory-only --listen ${address}`, url: `http://${address}/readyz`, reuseExistingServer: false },
+    : {
+        command: `${verne} serve --memory-only --listen ${address}`,
+        url: `http://${address}/readyz`,
+        reuseExistingServer: false,
+      },
 });

@@ -14,7 +14,12 @@ const PICTURES = [
   ["narrow", { width: 768, height: 1024 }, "dark", ""],
   ["assembly-modes", DESK, "light", "#joints=674,685,250,0,0&ghosts=assembly&workspace=hidden"],
   ["inverse-solutions", DESK, "dark", "#joints=287.718,4.604,94.242,0,0&ghosts=platform&workspace=hidden"],
-  ["tilted-section", DESK, "light", "#joints=398.764,561.144,589.474,-18.904,-30&phi=20,30&section=300&solid=1"],
+  [
+    "tilted-section",
+    DESK,
+    "light",
+    "#joints=398.764,561.144,589.474,-18.904,-30&phi=20,30&section=300&solid=1",
+  ],
   ["broken-limit", DESK, "dark", "#joints=20,730,400,0,0&workspace=platform&section=1100"],
 ];
 

@@ -9,7 +9,8 @@ export const test = base.extend({
   page: async ({ page, provoked }, use) => {
     const errors = [];
     page.on("console", (message) => {
-      if (message.type() === "error" && !provoked.some((known) => known.test(message.text()))) errors.push(message.text());
+      if (message.type() === "error" && !provoked.some((known) => known.test(message.text())))
+        errors.push(message.text());
     });
     page.on("pageerror", (error) => errors.push(String(error)));
     await use(page);

@@ -47,7 +47,11 @@ test("a long computation shows its progress and is cancelled", async ({ page, re
   for (const name of Object.keys(machine.geometry)) machine.geometry[name] *= 9;
   machine.name = "ninefold";
   machine.table = { da: 13500, dt: 1800 };
-  machine.limits.stroke = [[0, 6750], [0, 6750], [0, 6750]];
+  machine.limits.stroke = [
+    [0, 6750],
+    [0, 6750],
+    [0, 6750],
+  ];
   await drop(page, "ninefold.json", JSON.stringify(machine));
   await expect(page.getByLabel("Machine", { exact: true })).toContainText("ninefold");
   const tolerance = page.getByLabel("Tolerance of the mesh");

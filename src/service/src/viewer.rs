@@ -2,10 +2,11 @@
 
 use axum::Router;
 use axum::extract::Path;
-use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, ETAG, IF_NONE_MATCH};
+use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, ETAG};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
+use headers::{ETag, HeaderMapExt, IfNoneMatch};
 use rust_embed::{EmbeddedFile, RustEmbed};
 
 use crate::delivery::FOR_EVER;
@@ -29,7 +30,10 @@ async fn page(headers: HeaderMap) -> Response {
         return ([(CACHE_CONTROL, "no-cache")], NO_VIEWER).into_response();
     };
     let tag = format!("\"{}\"", blake3::hash(&file.data).to_hex().as_str().get(..32).unwrap_or_default());
-    let known = headers.get(IF_NONE_MATCH).is_some_and(|tags| tags.to_str().is_ok_and(|tags| tags.contains(&tag)));
+    let condition = headers.typed_get::<IfNoneMatch>();
+    let known = tag
+        .parse::<ETag>()
+        .is_ok_and(|tag| condition.is_some_and(|condition| !condition.precondition_passes(&tag)));
     let about = [(CACHE_CONTROL, "no-cache"), (ETAG, &tag)];
     if known {
         return (StatusCode::NOT_MODIFIED, about).into_response();

@@ -7,11 +7,16 @@ export type Job = Schemas["Job"];
 
 /** Follows a job to its end; answers the path of its result. */
 export async function follow(started: Job, report: (job: Job) => void, signal: AbortSignal): Promise<string> {
-  const response = await fetch(`${BASE}${started.links.events}`, { headers: { accept: "text/event-stream" }, signal });
+  const response = await fetch(`${BASE}${started.links.events}`, {
+    headers: { accept: "text/event-stream" },
+    signal,
+  });
   if (!response.ok || !response.body) {
     throw new Refused({ detail: `The job cannot be followed: ${response.status}.` });
   }
-  const events = response.body.pipeThrough(new TextDecoderStream()).pipeThrough(new EventSourceParserStream());
+  const events = response.body
+    .pipeThrough(new TextDecoderStream())
+    .pipeThrough(new EventSourceParserStream());
   const reader = events.getReader();
   for (;;) {
     const { value, done } = await reader.read();

@@ -23,7 +23,11 @@ export function Downloads({ found }: { found: WorkspaceSummary }) {
         <div role="group" aria-label="Download the slice">
           <span>Slice</span>
           {DRAWINGS.map((format) => (
-            <a key={format} href={`${BASE}${found.links.self}/slice?z=${z}&format=${format}`} download={`${name}-z${z}.${format}`}>
+            <a
+              key={format}
+              href={`${BASE}${found.links.self}/slice?z=${z}&format=${format}`}
+              download={`${name}-z${z}.${format}`}
+            >
               {format.toUpperCase()}
             </a>
           ))}

@@ -16,7 +16,17 @@ interface NumberProps {
 }
 
 /** A number with its unit; while it is typed, nothing overwrites it. */
-export function NumberField({ label, symbol, unit, value, decimals = 1, step = 1, min, max, commit }: NumberProps) {
+export function NumberField({
+  label,
+  symbol,
+  unit,
+  value,
+  decimals = 1,
+  step = 1,
+  min,
+  max,
+  commit,
+}: NumberProps) {
   const input = useRef<HTMLInputElement>(null);
   const [typing, setTyping] = useState(false);
   const shown = clean(value, decimals);
@@ -29,7 +39,9 @@ export function NumberField({ label, symbol, unit, value, decimals = 1, step = 1
   };
   return (
     <label class="number">
-      <span class="name" aria-hidden={symbol ? "true" : undefined}>{symbol ?? label}</span>
+      <span class="name" aria-hidden={symbol ? "true" : undefined}>
+        {symbol ?? label}
+      </span>
       <span class="box">
         <input
           ref={input}
@@ -44,7 +56,9 @@ export function NumberField({ label, symbol, unit, value, decimals = 1, step = 1
           onBlur={() => setTyping(false)}
           onChange={take}
         />
-        <span class="unit" aria-hidden="true">{unit}</span>
+        <span class="unit" aria-hidden="true">
+          {unit}
+        </span>
       </span>
     </label>
   );

@@ -25,7 +25,9 @@ function Faults({ file }: { file: Rejected }) {
       <h2 id="faults">{file.file} makes no machine</h2>
       <p>{file.summary}</p>
       {astray.map((fault) => (
-        <p class="trouble" key={fault.pointer}><code>{fault.pointer || "the whole file"}</code> {fault.detail}</p>
+        <p class="trouble" key={fault.pointer}>
+          <code>{fault.pointer || "the whole file"}</code> {fault.detail}
+        </p>
       ))}
       {fields.length > 0 && (
         <div class="fields" tabIndex={0} role="region" aria-label="Fields of the file">
@@ -45,8 +47,12 @@ function Faults({ file }: { file: Rejected }) {
           </table>
         </div>
       )}
-      <p class="hint">The machine on the page has not changed. <a href="machines/schema">The schema of a machine</a></p>
-      <button type="button" onClick={() => (rejected.value = null)}>Close</button>
+      <p class="hint">
+        The machine on the page has not changed. <a href="machines/schema">The schema of a machine</a>
+      </p>
+      <button type="button" onClick={() => (rejected.value = null)}>
+        Close
+      </button>
     </>
   );
 }
@@ -58,9 +64,13 @@ interface Leaf {
 
 /** The fields with a value of their own; short lists of numbers are one. */
 function leaves(value: unknown, pointer = ""): Leaf[] {
-  if (Array.isArray(value) && value.every((item) => typeof item !== "object")) return [{ pointer, value: `[${value.join(", ")}]` }];
-  if (typeof value !== "object" || value === null) return pointer === "" ? [] : [{ pointer, value: JSON.stringify(value) }];
-  return Object.entries(value).flatMap(([name, item]) => leaves(item, `${pointer}/${name.replaceAll("~", "~0").replaceAll("/", "~1")}`));
+  if (Array.isArray(value) && value.every((item) => typeof item !== "object"))
+    return [{ pointer, value: `[${value.join(", ")}]` }];
+  if (typeof value !== "object" || value === null)
+    return pointer === "" ? [] : [{ pointer, value: JSON.stringify(value) }];
+  return Object.entries(value).flatMap(([name, item]) =>
+    leaves(item, `${pointer}/${name.replaceAll("~", "~0").replaceAll("/", "~1")}`),
+  );
 }
 
 /** Whether a fault concerns this field: it, or an item of its list. */

@@ -41,7 +41,11 @@ export async function offer(file: File): Promise<void> {
     await takeOwn(machine as Machine);
   } catch (thrown) {
     const faults = thrown instanceof Refused ? (thrown.problem.errors ?? []) : [];
-    reject(inWords(thrown), content, faults.map(({ pointer, detail }) => ({ pointer: pointer.replace(/^\/machine/, ""), detail })));
+    reject(
+      inWords(thrown),
+      content,
+      faults.map(({ pointer, detail }) => ({ pointer: pointer.replace(/^\/machine/, ""), detail })),
+    );
   }
 }
 

@@ -17,7 +17,9 @@ export function MarginsPanel() {
     <section aria-labelledby="margins">
       <header>
         <h2 id="margins">Margins of this pose</h2>
-        <span class={broken > 0 ? "tag bad" : "tag good"}>{broken > 0 ? `${broken} broken` : "all kept"}</span>
+        <span class={broken > 0 ? "tag bad" : "tag good"}>
+          {broken > 0 ? `${broken} broken` : "all kept"}
+        </span>
       </header>
       <ol class="bars" data-testid="margins">
         {(all ? found : found.slice(0, FEW)).map((bar) => (

@@ -14,7 +14,12 @@ import { PositionsPanel } from "./positions";
 import { ToolTipPanel } from "./tool_tip";
 import { WorkspacePanel } from "./workspace";
 
-const SIDES: [Side, string][] = [["whole", "Whole"], ["front", "Front"], ["side", "Side"], ["top", "Top"]];
+const SIDES: [Side, string][] = [
+  ["whole", "Whole"],
+  ["front", "Front"],
+  ["side", "Side"],
+  ["top", "Top"],
+];
 
 export function Page() {
   const [dropping, setDropping] = useState(false);
@@ -26,7 +31,9 @@ export function Page() {
         <MachinePicker />
         <nav aria-label="Elsewhere">
           <CopyLink />
-          <a class="button" href="docs/">API</a>
+          <a class="button" href="docs/">
+            API
+          </a>
         </nav>
       </header>
       <main>
@@ -41,8 +48,16 @@ export function Page() {
           <WorkspacePanel />
         </div>
       </main>
-      {failure.value && <p class="failure" role="alert">{failure.value}</p>}
-      {dropping && <div class="dropping" aria-hidden="true">Drop a machine’s JSON file</div>}
+      {failure.value && (
+        <p class="failure" role="alert">
+          {failure.value}
+        </p>
+      )}
+      {dropping && (
+        <div class="dropping" aria-hidden="true">
+          Drop a machine’s JSON file
+        </div>
+      )}
       <MachineFaults />
     </>
   );
@@ -61,12 +76,19 @@ function Scene() {
   }, []);
   return (
     <section class="scene" aria-label="The machine in its workspace">
-      <canvas ref={canvas} tabIndex={0} role="img" data-ready={position.value ? "yes" : "no"}
-        aria-label="The machine in 3D. Drag to turn, wheel to come nearer; arrow keys move, with shift they turn." />
+      <canvas
+        ref={canvas}
+        tabIndex={0}
+        role="img"
+        data-ready={position.value ? "yes" : "no"}
+        aria-label="The machine in 3D. Drag to turn, wheel to come nearer; arrow keys move, with shift they turn."
+      />
       <div ref={labels} class="labels" aria-hidden="true" />
       <div class="views" role="group" aria-label="Look from">
         {SIDES.map(([side, name]) => (
-          <button type="button" key={side} onClick={() => world?.lookFrom(side)}>{name}</button>
+          <button type="button" key={side} onClick={() => world?.lookFrom(side)}>
+            {name}
+          </button>
         ))}
       </div>
       {trouble && <p class="trouble">{trouble}</p>}
@@ -81,7 +103,12 @@ function CopyLink() {
     setCopied(true);
   };
   return (
-    <button type="button" title="An address that shows this view" onClick={() => void copy()} onBlur={() => setCopied(false)}>
+    <button
+      type="button"
+      title="An address that shows this view"
+      onClick={() => void copy()}
+      onBlur={() => setCopied(false)}
+    >
       {copied ? "Link copied" : "Copy link"}
     </button>
   );

@@ -24,7 +24,13 @@ export function PositionsPanel() {
         <h2 id="positions">Other solutions</h2>
         {kind !== "none" && <output data-testid="ghost-count">{found.length}</output>}
       </header>
-      <Choice legend="Ghosts with the same" name="ghosts" value={kind} options={SHOWN} choose={(ghosts) => change({ ghosts })} />
+      <Choice
+        legend="Ghosts with the same"
+        name="ghosts"
+        value={kind}
+        options={SHOWN}
+        choose={(ghosts) => change({ ghosts })}
+      />
       {found.length > 0 && (
         <ul class="ghosts" aria-label={kind === "assembly" ? "Assembly modes" : "Inverse solutions"}>
           {found.map((ghost, i) => (
@@ -53,7 +59,10 @@ export function PositionsPanel() {
 
 function Tags({ ghost: { solution } }: { ghost: Position }) {
   const { working, feasible, mode } = solution;
-  if (working) return <span class={feasible ? "tag good" : "tag warn"}>{feasible ? "working" : "working, limit broken"}</span>;
+  if (working)
+    return (
+      <span class={feasible ? "tag good" : "tag warn"}>{feasible ? "working" : "working, limit broken"}</span>
+    );
   const below = [mode.leg1, mode.leg2, mode.leg3].flatMap((side, i) => (side === "below" ? [i + 1] : []));
   const words = [below.length > 0 ? `leg ${below.join(", ")} below` : "", mode.crossed ? "crossed" : ""];
   return <span class="tag">{words.filter(Boolean).join("; ") || "other branch"}</span>;
@@ -66,4 +75,3 @@ function byPose({ solution: { platform } }: Position): string {
 function bySliders({ joints: { rho } }: Position): string {
   return `ρ ${rho.map((value) => mm(value, 0).replace(/\u00a0mm$/, "")).join(", ")} mm`;
 }
-

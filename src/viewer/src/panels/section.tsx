@@ -18,14 +18,19 @@ export function SectionControls({ found, bounds }: Props) {
   const area = slice.value?.area;
   const toggle = (wanted: boolean) => {
     if (!wanted) last.value = height;
-    const start = last.value !== null && last.value > min && last.value < max ? last.value : Math.round((min + max) / 2);
+    const start =
+      last.value !== null && last.value > min && last.value < max ? last.value : Math.round((min + max) / 2);
     change({ section: wanted ? start : null });
   };
   return (
     <div class="section">
       <div class="row between">
         <label class="check">
-          <input type="checkbox" checked={height !== null} onChange={(event) => toggle(event.currentTarget.checked)} />
+          <input
+            type="checkbox"
+            checked={height !== null}
+            onChange={(event) => toggle(event.currentTarget.checked)}
+          />
           Section plane
         </label>
         {height !== null && area !== undefined && (
@@ -33,7 +38,17 @@ export function SectionControls({ found, bounds }: Props) {
         )}
       </div>
       {height !== null && (
-        <SlideField label={found.frame === "base" ? "Height of the section, z down" : "Height of the section above the table"} symbol="z" unit="mm" value={height} min={Math.ceil(min)} max={Math.floor(max)} commit={(section) => change({ section })} />
+        <SlideField
+          label={
+            found.frame === "base" ? "Height of the section, z down" : "Height of the section above the table"
+          }
+          symbol="z"
+          unit="mm"
+          value={height}
+          min={Math.ceil(min)}
+          max={Math.floor(max)}
+          commit={(section) => change({ section })}
+        />
       )}
     </div>
   );

@@ -30,17 +30,45 @@ export function ToolTipPanel() {
         <NumberField label="Z above the table" symbol="Z" unit="mm" value={z} commit={(z) => put({ z })} />
       </div>
       <div class="row three">
-        <NumberField label="Inclination phi 1" symbol="φ₁" unit="°" value={phi1} commit={(phi1) => put({ phi1 })} />
-        <NumberField label="Azimuth phi 2" symbol="φ₂" unit="°" value={phi2} commit={(phi2) => put({ phi2 })} />
-        <NumberField label="Tool length" symbol="Tool" unit="mm" value={tool.value} min={0} max={1e6} commit={(tool) => change({ tool })} />
+        <NumberField
+          label="Inclination phi 1"
+          symbol="φ₁"
+          unit="°"
+          value={phi1}
+          commit={(phi1) => put({ phi1 })}
+        />
+        <NumberField
+          label="Azimuth phi 2"
+          symbol="φ₂"
+          unit="°"
+          value={phi2}
+          commit={(phi2) => put({ phi2 })}
+        />
+        <NumberField
+          label="Tool length"
+          symbol="Tool"
+          unit="mm"
+          value={tool.value}
+          min={0}
+          max={1e6}
+          commit={(tool) => change({ tool })}
+        />
       </div>
       <p role="status" class={trouble ? "trouble" : "hint"} data-testid="trouble">
         {trouble ? trouble.sentence : "Drag the arrows at the tip, or type."}
       </p>
-      <Choice legend="Dragging keeps" name="drag" value={drag.value} options={KEPT} choose={(drag) => change({ drag })} />
+      <Choice
+        legend="Dragging keeps"
+        name="drag"
+        value={drag.value}
+        options={KEPT}
+        choose={(drag) => change({ drag })}
+      />
       <dl class="figures">
         <dt>Platform x, y, z</dt>
-        <dd>{number(platform.x)}, {number(platform.y)}, {mm(platform.z)}</dd>
+        <dd>
+          {number(platform.x)}, {number(platform.y)}, {mm(platform.z)}
+        </dd>
         <dt>Platform tilt α</dt>
         <dd>{degrees(platform.alpha, 2)}</dd>
       </dl>

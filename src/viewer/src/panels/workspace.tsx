@@ -26,24 +26,71 @@ export function WorkspacePanel() {
       <header>
         <h2 id="workspace">Workspace</h2>
         <label class="check">
-          <input type="checkbox" checked={asked.shown} onChange={(event) => changeWorkspace({ shown: event.currentTarget.checked })} />
+          <input
+            type="checkbox"
+            checked={asked.shown}
+            onChange={(event) => changeWorkspace({ shown: event.currentTarget.checked })}
+          />
           show
         </label>
         <label class="check">
-          <input type="checkbox" checked={asked.solid} onChange={(event) => changeWorkspace({ solid: event.currentTarget.checked })} />
+          <input
+            type="checkbox"
+            checked={asked.solid}
+            onChange={(event) => changeWorkspace({ solid: event.currentTarget.checked })}
+          />
           solid
         </label>
       </header>
-      <Choice legend="Positions of" name="kind" value={asked.kind} options={KINDS} choose={(kind) => change({ workspace: { ...asked, kind }, section: null })} />
-      <SlideField label="Tool length" symbol="Tool" unit="mm" value={tool.value} min={0} max={LONGEST} step={5} commit={(tool) => change({ tool })} />
+      <Choice
+        legend="Positions of"
+        name="kind"
+        value={asked.kind}
+        options={KINDS}
+        choose={(kind) => change({ workspace: { ...asked, kind }, section: null })}
+      />
+      <SlideField
+        label="Tool length"
+        symbol="Tool"
+        unit="mm"
+        value={tool.value}
+        min={0}
+        max={LONGEST}
+        step={5}
+        commit={(tool) => change({ tool })}
+      />
       <div class="row three">
         {asked.kind === "part" && (
           <>
-            <NumberField label="Tool inclination on the part, phi 1" symbol="φ₁" unit="°" value={asked.phi1} step={5} commit={(phi1) => changeWorkspace({ phi1 })} />
-            <NumberField label="Tool azimuth on the part, phi 2" symbol="φ₂" unit="°" value={asked.phi2} step={5} commit={(phi2) => changeWorkspace({ phi2 })} />
+            <NumberField
+              label="Tool inclination on the part, phi 1"
+              symbol="φ₁"
+              unit="°"
+              value={asked.phi1}
+              step={5}
+              commit={(phi1) => changeWorkspace({ phi1 })}
+            />
+            <NumberField
+              label="Tool azimuth on the part, phi 2"
+              symbol="φ₂"
+              unit="°"
+              value={asked.phi2}
+              step={5}
+              commit={(phi2) => changeWorkspace({ phi2 })}
+            />
           </>
         )}
-        <NumberField label="Tolerance of the mesh" symbol="Within" unit="mm" value={asked.tolerance} decimals={2} step={0.05} min={0.01} max={1000} commit={(tolerance) => changeWorkspace({ tolerance })} />
+        <NumberField
+          label="Tolerance of the mesh"
+          symbol="Within"
+          unit="mm"
+          value={asked.tolerance}
+          decimals={2}
+          step={0.05}
+          min={0.01}
+          max={1000}
+          commit={(tolerance) => changeWorkspace({ tolerance })}
+        />
       </div>
       <Progress />
       {found && <Figures found={found} />}
@@ -58,22 +105,39 @@ function Progress() {
   const now = computing.value;
   const note = workspaceNote.value;
   if (now) {
-    const words = { waiting: "Computing …", queued: "Waiting for its turn …", running: "Computing …" }[now.state];
+    const words = { waiting: "Computing …", queued: "Waiting for its turn …", running: "Computing …" }[
+      now.state
+    ];
     return (
       <div class="progress" data-testid="progress">
         <label>
-          <span>{words}{now.progress !== null && now.job ? ` ${number(now.progress * 100, 0)} %` : ""}</span>
-          <progress max={1} {...(now.progress === null ? {} : { value: now.progress })} aria-label="Progress of the workspace" />
+          <span>
+            {words}
+            {now.progress !== null && now.job ? ` ${number(now.progress * 100, 0)} %` : ""}
+          </span>
+          <progress
+            max={1}
+            {...(now.progress === null ? {} : { value: now.progress })}
+            aria-label="Progress of the workspace"
+          />
         </label>
-        <button type="button" class="small" onClick={() => void cancelComputation()}>Cancel</button>
+        <button type="button" class="small" onClick={() => void cancelComputation()}>
+          Cancel
+        </button>
       </div>
     );
   }
   if (!note) return null;
   return (
     <div class="progress">
-      <p role="status" class="trouble" data-testid="workspace-note">{note}</p>
-      {!workspace.value && <button type="button" class="small" onClick={again}>Compute again</button>}
+      <p role="status" class="trouble" data-testid="workspace-note">
+        {note}
+      </p>
+      {!workspace.value && (
+        <button type="button" class="small" onClick={again}>
+          Compute again
+        </button>
+      )}
     </div>
   );
 }
@@ -86,7 +150,13 @@ function Figures({ found }: { found: WorkspaceSummary }) {
       <dl class={`figures${stale}`}>
         <dt>Volume</dt>
         <dd class="main">
-          {found.volume == null ? "none" : <data data-testid="volume" value={found.volume}>{cubicMetres(found.volume)}</data>}
+          {found.volume == null ? (
+            "none"
+          ) : (
+            <data data-testid="volume" value={found.volume}>
+              {cubicMetres(found.volume)}
+            </data>
+          )}
         </dd>
         <dt>Plan area</dt>
         <dd>{squareMetres(found.area)}</dd>
@@ -97,7 +167,11 @@ function Figures({ found }: { found: WorkspaceSummary }) {
         {["x", "y", up].map((axis, i) => (
           <div key={axis}>
             <dt>{axis}, mm</dt>
-            <dd>{found.bounds ? `${number(found.bounds.min[i] ?? 0, 0)} … ${number(found.bounds.max[i] ?? 0, 0)}` : "none"}</dd>
+            <dd>
+              {found.bounds
+                ? `${number(found.bounds.min[i] ?? 0, 0)} … ${number(found.bounds.max[i] ?? 0, 0)}`
+                : "none"}
+            </dd>
           </div>
         ))}
       </dl>

@@ -20,7 +20,13 @@ export class Ghosts {
   ) {}
 
   /** Shows those that are not where the machine itself is. */
-  show(geometry: Machine["geometry"], positions: Position[], here: Position | null, tool: number, pointed: number | null): void {
+  show(
+    geometry: Machine["geometry"],
+    positions: Position[],
+    here: Position | null,
+    tool: number,
+    pointed: number | null,
+  ): void {
     if (geometry !== this.geometry) {
       this.geometry = geometry;
       this.drawn = [];
@@ -37,7 +43,9 @@ export class Ghosts {
       if (!at) return;
       const { rho } = at.joints;
       ghost.place(rho, at.solution.platform, tool);
-      ghost.hideSliders(rho.map((value, slider) => Math.abs(value - (here?.joints.rho[slider] ?? Infinity)) < 1e-3));
+      ghost.hideSliders(
+        rho.map((value, slider) => Math.abs(value - (here?.joints.rho[slider] ?? Infinity)) < 1e-3),
+      );
       this.dress(ghost, i === pointed);
     });
   }

@@ -20,7 +20,12 @@ export class Materials {
   readonly slot = new LineBasicMaterial();
   readonly grid = new LineBasicMaterial({ transparent: true, opacity: 0.55 });
   readonly cutLine = new LineBasicMaterial({ depthTest: false, transparent: true });
-  readonly cutFill = new MeshBasicMaterial({ transparent: true, opacity: 0.6, depthWrite: false, side: DoubleSide });
+  readonly cutFill = new MeshBasicMaterial({
+    transparent: true,
+    opacity: 0.6,
+    depthWrite: false,
+    side: DoubleSide,
+  });
   readonly ghost = new MeshLambertMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
   readonly pointedGhost = new MeshLambertMaterial({ transparent: true, opacity: 0.75 });
 

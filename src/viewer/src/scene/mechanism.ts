@@ -42,7 +42,10 @@ export class Mechanism {
     }));
     this.plate = this.plateOf(rest);
     this.platform.matrixAutoUpdate = false;
-    this.platform.add(this.plate, column([62 * this.unit, 62 * this.unit], -190 * this.unit, -20 * this.unit, materials.metal));
+    this.platform.add(
+      this.plate,
+      column([62 * this.unit, 62 * this.unit], -190 * this.unit, -20 * this.unit, materials.metal),
+    );
     this.platform.add(this.toolPart);
     this.group.add(...this.sliders, ...this.rods.flatMap(({ body, ends }) => [body, ...ends]), this.platform);
   }
@@ -69,7 +72,9 @@ export class Mechanism {
   /** Colours the part that a limit belongs to. */
   mark(limit: Limit | null, as: Material): void {
     const element = limit?.element ?? "";
-    this.sliders.forEach((slider, i) => (slider.material = element.startsWith(`slider${i + 1}.`) ? as : this.materials.metal));
+    this.sliders.forEach(
+      (slider, i) => (slider.material = element.startsWith(`slider${i + 1}.`) ? as : this.materials.metal),
+    );
     joints(this.geometry).forEach((rod, i) => {
       const drawn = this.rods[i];
       if (drawn) drawn.body.material = names(element, rod) ? as : this.materials.rod;
@@ -85,7 +90,11 @@ export class Mechanism {
     const at = rods[0]?.slider.clone() ?? new Vector3();
     at.addScaledVector(along, -at.dot(along));
     const corner = (side: number, depth: number, height: number) =>
-      at.clone().addScaledVector(along, side).addScaledVector(out, depth * u).setZ(height * u);
+      at
+        .clone()
+        .addScaledVector(along, side)
+        .addScaledVector(out, depth * u)
+        .setZ(height * u);
     const from = corner(Math.min(...ends) - 45 * u, 8, -75);
     const to = corner(Math.max(...ends) + 45 * u, 80, 75);
     return box(from, to, this.materials.metal, this.materials);
@@ -115,7 +124,10 @@ export class Mechanism {
     const nose = Math.min(tool * 0.55, 70 * u);
     const { metal, tool: tip } = this.materials;
     this.toolPart.add(column([44 * u, 26 * u], 0, nose, metal));
-    this.toolPart.add(column([9 * u, 9 * u], 0, tool - point, tip), column([9 * u, 0.5 * u], tool - point, tool, tip));
+    this.toolPart.add(
+      column([9 * u, 9 * u], 0, tool - point, tip),
+      column([9 * u, 0.5 * u], tool - point, tool, tip),
+    );
   }
 }
 

@@ -2,7 +2,23 @@
 
 import { Color } from "three";
 
-const NAMES = ["background", "grid", "frame", "metal", "rod", "platform", "table", "accent", "ghost", "tool", "bad", "warn", "ink", "cut", "cut-line"] as const;
+const NAMES = [
+  "background",
+  "grid",
+  "frame",
+  "metal",
+  "rod",
+  "platform",
+  "table",
+  "accent",
+  "ghost",
+  "tool",
+  "bad",
+  "warn",
+  "ink",
+  "cut",
+  "cut-line",
+] as const;
 export type Tone = (typeof NAMES)[number];
 export type Palette = Record<Tone, Color>;
 

@@ -1,6 +1,16 @@
 /** Simple bodies, in the millimetres of the group they are put in. */
 
-import { BoxGeometry, CylinderGeometry, EdgesGeometry, LineSegments, Mesh, SphereGeometry, Vector3, type BufferGeometry, type Material } from "three";
+import {
+  BoxGeometry,
+  CylinderGeometry,
+  EdgesGeometry,
+  LineSegments,
+  Mesh,
+  SphereGeometry,
+  Vector3,
+  type BufferGeometry,
+  type Material,
+} from "three";
 import type { Materials } from "./materials";
 
 const Y = new Vector3(0, 1, 0);
@@ -14,7 +24,11 @@ export function edged(geometry: BufferGeometry, material: Material, materials: M
 
 export function box(from: Vector3, to: Vector3, material: Material, materials: Materials): Mesh {
   const size = new Vector3().subVectors(to, from);
-  const mesh = edged(new BoxGeometry(Math.abs(size.x), Math.abs(size.y), Math.abs(size.z)), material, materials);
+  const mesh = edged(
+    new BoxGeometry(Math.abs(size.x), Math.abs(size.y), Math.abs(size.z)),
+    material,
+    materials,
+  );
   mesh.position.addVectors(from, to).multiplyScalar(0.5);
   return mesh;
 }

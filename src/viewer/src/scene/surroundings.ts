@@ -50,14 +50,36 @@ export class Surroundings {
     const parts = feet.flatMap(({ at, out, stroke: [low = 0, high = 0] }) => {
       const middle = at.clone().addScaledVector(out, 128 * u);
       const half = new Vector3(30 * u, 30 * u, 0);
-      const post = box(middle.clone().sub(half).setZ(this.top), middle.clone().add(half).setZ(this.floor), materials.frame, materials);
+      const post = box(
+        middle.clone().sub(half).setZ(this.top),
+        middle.clone().add(half).setZ(this.floor),
+        materials.frame,
+        materials,
+      );
       const rail = at.clone().addScaledVector(out, 89 * u);
-      const side = new Vector3(Math.abs(out.y), Math.abs(out.x), 0).multiplyScalar(22 * u).addScaledVector(out, 9 * u);
-      const guideway = box(rail.clone().sub(side).setZ(low - 75 * u), rail.clone().add(side).setZ(high + 75 * u), materials.metal, materials);
+      const side = new Vector3(Math.abs(out.y), Math.abs(out.x), 0)
+        .multiplyScalar(22 * u)
+        .addScaledVector(out, 9 * u);
+      const guideway = box(
+        rail
+          .clone()
+          .sub(side)
+          .setZ(low - 75 * u),
+        rail
+          .clone()
+          .add(side)
+          .setZ(high + 75 * u),
+        materials.metal,
+        materials,
+      );
       heads.push(middle.setZ(this.top + 30 * u));
       return [post, guideway];
     });
-    const beams = [[0, 1], [1, 2], [2, 0]].map(([i = 0, j = 0]) => {
+    const beams = [
+      [0, 1],
+      [1, 2],
+      [2, 0],
+    ].map(([i = 0, j = 0]) => {
       const beam = bar(26 * u, materials.frame, 4);
       span(beam, heads[i] ?? new Vector3(), heads[j] ?? new Vector3());
       return beam;
@@ -69,7 +91,12 @@ export class Surroundings {
     const { unit: u, materials } = this;
     const { da } = this.machine.table;
     return [-1, 1].map((side) =>
-      box(new Vector3(side * 455 * u, -70 * u, da - 60 * u), new Vector3(side * 515 * u, 70 * u, this.floor), materials.frame, materials),
+      box(
+        new Vector3(side * 455 * u, -70 * u, da - 60 * u),
+        new Vector3(side * 515 * u, 70 * u, this.floor),
+        materials.frame,
+        materials,
+      ),
     );
   }
 
@@ -88,12 +115,24 @@ export class Surroundings {
     const { table, metal } = materials;
     const under = dt + 44 * u;
     for (const side of [-1, 1]) {
-      const cheek = box(new Vector3(side * 365 * u, -75 * u, -75 * u), new Vector3(side * 410 * u, 75 * u, under + 60 * u), table, materials);
+      const cheek = box(
+        new Vector3(side * 365 * u, -75 * u, -75 * u),
+        new Vector3(side * 410 * u, 75 * u, under + 60 * u),
+        table,
+        materials,
+      );
       const shaft = bar(38 * u, metal, 24);
       span(shaft, new Vector3(side * 405 * u, 0, 0), new Vector3(side * 470 * u, 0, 0));
       this.cradle.add(cheek, shaft);
     }
-    this.cradle.add(box(new Vector3(-365 * u, -110 * u, under + 4 * u), new Vector3(365 * u, 110 * u, under + 60 * u), table, materials));
+    this.cradle.add(
+      box(
+        new Vector3(-365 * u, -110 * u, under + 4 * u),
+        new Vector3(365 * u, 110 * u, under + 60 * u),
+        table,
+        materials,
+      ),
+    );
     // The table frame's z points up, away from the disc.
     this.turntable.add(column([330 * u, 330 * u], -44 * u, 0, metal), this.slots());
   }

@@ -13,7 +13,9 @@ export class Triad {
 
   constructor(names: [string, string, string], lengths: [number, number, number]) {
     const axes = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
-    this.arrows = axes.map((axis, i) => new ArrowHelper(axis, new Vector3(), lengths[i], 0x888888, HEAD, HEAD * 0.45));
+    this.arrows = axes.map(
+      (axis, i) => new ArrowHelper(axis, new Vector3(), lengths[i], 0x888888, HEAD, HEAD * 0.45),
+    );
     axes.forEach((axis, i) => {
       const text = label(names[i] ?? "");
       text.position.copy(axis).multiplyScalar((lengths[i] ?? 0) + HEAD);

@@ -1,6 +1,16 @@
 /** The workspace's surface, coloured by what limits each piece, and cut where a section is wanted. */
 
-import { BackSide, FrontSide, Group, Matrix4, Mesh, MeshLambertMaterial, Plane, Vector3, type BufferGeometry } from "three";
+import {
+  BackSide,
+  FrontSide,
+  Group,
+  Matrix4,
+  Mesh,
+  MeshLambertMaterial,
+  Plane,
+  Vector3,
+  type BufferGeometry,
+} from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { BASE, type WorkspaceSummary } from "../api/client";
 import type { Surface } from "../state/store";
@@ -28,7 +38,10 @@ export class WorkspaceMesh {
   }
 
   solid(solid: boolean): void {
-    for (const [material, opacity] of [[this.inside, 0.22], [this.outside, 0.36]] as const) {
+    for (const [material, opacity] of [
+      [this.inside, 0.22],
+      [this.outside, 0.36],
+    ] as const) {
       material.transparent = !solid;
       material.opacity = solid ? 1 : opacity;
       material.depthWrite = solid;

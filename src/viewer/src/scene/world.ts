@@ -70,10 +70,21 @@ export class World {
     this.stage = new Stage(canvas, drawing);
     this.labels = new CSS2DRenderer({ element: labels });
     this.ghosts = new Ghosts(this.materials, this.stage);
-    this.handle = new Handle(this.stage, this.materials, (tip) => this.dragged(tip), () => this.placeHandle());
+    this.handle = new Handle(
+      this.stage,
+      this.materials,
+      (tip) => this.dragged(tip),
+      () => this.placeHandle(),
+    );
     this.base.matrixAutoUpdate = false;
     this.base.matrix.copy(SCENE_FROM_BASE);
-    this.base.add(this.fixed, this.ghosts.group, this.section.group, this.baseTriad.group, this.partTriad.group);
+    this.base.add(
+      this.fixed,
+      this.ghosts.group,
+      this.section.group,
+      this.baseTriad.group,
+      this.partTriad.group,
+    );
     this.partTriad.group.matrixAutoUpdate = false;
     this.stage.scene.add(this.base, this.mesh.group, this.handle.group);
     this.stage.beforeDrawing.push(
@@ -172,7 +183,9 @@ export class World {
 
   private mark(): void {
     const missed = complaint.value?.wanted;
-    const point = missed ? new Vector3(missed.x, missed.y, missed.z).applyMatrix4(this.sceneFrom(missed.frame)) : null;
+    const point = missed
+      ? new Vector3(missed.x, missed.y, missed.z).applyMatrix4(this.sceneFrom(missed.frame))
+      : null;
     this.handle.mark(point);
   }
 
@@ -189,7 +202,9 @@ export class World {
   private sceneFrom(frame: "base" | "part"): Matrix4 {
     const definition = machine.peek()?.definition;
     if (frame === "base" || !definition) return SCENE_FROM_BASE.clone();
-    return SCENE_FROM_BASE.clone().multiply(baseFromTable(definition.table, position.peek()?.joints ?? AT_REST));
+    return SCENE_FROM_BASE.clone().multiply(
+      baseFromTable(definition.table, position.peek()?.joints ?? AT_REST),
+    );
   }
 
   /** The workspace stands in the base frame, or on the table. */
@@ -231,7 +246,8 @@ export class World {
   private drawLabels(): void {
     const { clientWidth, clientHeight } = this.stage.canvas;
     const size = this.labels.getSize();
-    if (size.width !== clientWidth || size.height !== clientHeight) this.labels.setSize(clientWidth, clientHeight);
+    if (size.width !== clientWidth || size.height !== clientHeight)
+      this.labels.setSize(clientWidth, clientHeight);
     this.labels.render(this.stage.scene, this.stage.camera);
     // Where the tip is seen, -1 to 1 both ways: for tests that drag it.
     const [u, v] = this.handle.tip().project(this.stage.camera).toArray();
@@ -259,7 +275,11 @@ export class World {
 
 function sliderLabels({ definition }: InUse) {
   const { geometry: g, limits } = definition;
-  const places: [number, number][] = [[g.d1, 0], [g.d2, -g.r4], [g.d2, g.r4]];
+  const places: [number, number][] = [
+    [g.d1, 0],
+    [g.d2, -g.r4],
+    [g.d2, g.r4],
+  ];
   return places.map(([x, y], i) => {
     const text = label(`slider ${i + 1}`, "slider");
     text.position.set(x, y, (limits.stroke[i]?.[0] ?? 0) - 110 * unitOf(g));
@@ -268,6 +288,7 @@ function sliderLabels({ definition }: InUse) {
 }
 
 function rounded(camera: { eye: [number, number, number]; target: [number, number, number] }) {
-  const round = (point: [number, number, number]) => point.map((value) => Math.round(value * 1000) / 1000) as [number, number, number];
+  const round = (point: [number, number, number]) =>
+    point.map((value) => Math.round(value * 1000) / 1000) as [number, number, number];
   return { eye: round(camera.eye), target: round(camera.target) };
 }

@@ -5,7 +5,18 @@ import { inWords, type WorkspaceRequest, type WorkspaceSummary } from "../api/cl
 import { Cancelled, cancel } from "../api/jobs";
 import { latest } from "../api/latest";
 import { slice as fetchSlice, workspace as compute } from "../api/workspace";
-import { computing, machine, section, slice, slowDrawing, standIn, tool, wanted, workspace, workspaceNote } from "./store";
+import {
+  computing,
+  machine,
+  section,
+  slice,
+  slowDrawing,
+  standIn,
+  tool,
+  wanted,
+  workspace,
+  workspaceNote,
+} from "./store";
 
 /** A control that is being dragged is not asked at every step, ms. */
 const REST = 120;
@@ -66,7 +77,11 @@ function keepStandIn(): void {
     const known = machine.value;
     standIn.value = null;
     if (!found || !known || !slowDrawing.value || found.triangles <= MANY) return;
-    ask({ ...found.request, machine: known.ref, tolerance: (found.request.tolerance * found.triangles) / FEW });
+    ask({
+      ...found.request,
+      machine: known.ref,
+      tolerance: (found.request.tolerance * found.triangles) / FEW,
+    });
   });
 }
 
@@ -99,7 +114,8 @@ async function ask(request: WorkspaceRequest): Promise<void> {
     const found = await compute(request, {
       signal: own.signal,
       progress: ({ id, state, progress }) => {
-        if (own === stop) computing.value = { progress, state: state === "queued" ? "queued" : "running", job: id };
+        if (own === stop)
+          computing.value = { progress, state: state === "queued" ? "queued" : "running", job: id };
       },
     });
     if (own === stop) finish(found, found.explanation ?? null);

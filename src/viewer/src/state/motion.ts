@@ -4,7 +4,17 @@ import { batch } from "@preact/signals";
 import { client, inWords, unwrap, type Answer, type PlatformPose, type Schemas } from "../api/client";
 import { latest } from "../api/latest";
 import { broken, refusal } from "../words/limits";
-import { change, complaint, failure, ghosts, machine, position, view, type Complaint, type Position } from "./store";
+import {
+  change,
+  complaint,
+  failure,
+  ghosts,
+  machine,
+  position,
+  view,
+  type Complaint,
+  type Position,
+} from "./store";
 import type { Joints } from "./view";
 
 type TargetPose = Schemas["TargetPose"];
@@ -37,7 +47,10 @@ export function pick(ghost: Position): void {
   moveTo({ by: "joints", joints: ghost.joints, mode: working ? null : platform });
 }
 
-async function byJoints({ joints, mode = view.value.mode }: Target & { by: "joints" }): Promise<Position | null> {
+async function byJoints({
+  joints,
+  mode = view.value.mode,
+}: Target & { by: "joints" }): Promise<Position | null> {
   const answer = await forward(joints, mode);
   const solution = answer.solutions[0];
   if (solution) return { joints, solution };

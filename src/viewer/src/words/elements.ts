@@ -32,7 +32,6 @@ export function boundary(constraint: Constraint, element: string): string {
   }
 }
 
-
 export function end(which: string | undefined): "upper" | "lower" {
   return which === "max" ? "lower" : "upper";
 }

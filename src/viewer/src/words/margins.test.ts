@@ -36,7 +36,11 @@ test("worst first, by the part of each constraint's range, in an operator's word
 
 test("the first bar is what the service calls the worst", () => {
   const { constraint, element, value } = bars(AT_HOME, VERNE, HOME)[0]!;
-  expect({ constraint, element, value }).toEqual({ constraint: "slider_joint", element: "rod31", value: -1.25 });
+  expect({ constraint, element, value }).toEqual({
+    constraint: "slider_joint",
+    element: "rod31",
+    value: -1.25,
+  });
 });
 
 test("a question without an answer says why", () => {

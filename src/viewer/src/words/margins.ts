@@ -37,13 +37,22 @@ export function bars(margins: Margins, machine: Machine, home: Home): Bar[] {
     const limit: Limit = { constraint, unit, element, value };
     found.push({ ...limit, part: value / range, sentence: value < 0 ? broken(limit) : kept(limit) });
   };
-  const nearest = (ends: number[], range: number[], name: string, ...what: ["stroke" | "tilt" | "rotary", "mm" | "deg"]) => {
+  const nearest = (
+    ends: number[],
+    range: number[],
+    name: string,
+    ...what: ["stroke" | "tilt" | "rotary", "mm" | "deg"]
+  ) => {
     const [low = 0, high = 0] = ends;
     const [least = 0, most = 0] = range;
     add(...what, `${name}.${high < low ? "max" : "min"}`, Math.min(low, high), most - least);
   };
-  margins.stroke.forEach((ends, i) => nearest(ends, limits.stroke[i] ?? [], `slider${i + 1}`, "stroke", "mm"));
-  margins.leg_length.forEach((value, i) => add("leg_length", "mm", `leg${i + 1}`, value, [g.L1, g.L2, g.L3][i] ?? 1));
+  margins.stroke.forEach((ends, i) =>
+    nearest(ends, limits.stroke[i] ?? [], `slider${i + 1}`, "stroke", "mm"),
+  );
+  margins.leg_length.forEach((value, i) =>
+    add("leg_length", "mm", `leg${i + 1}`, value, [g.L1, g.L2, g.L3][i] ?? 1),
+  );
   for (const [rod, i] of RODS) {
     add("serial_singularity", "1", rod, margins.serial_singularity[i] ?? 0, 1);
     add("slider_joint", "deg", rod, margins.slider_joint[i] ?? 0, limits.slider_cone);
