@@ -36,6 +36,7 @@ for (const [name, viewport, colorScheme, view] of PICTURES) {
   await page.locator("canvas[data-ready=yes]").waitFor();
   if (!view.includes("hidden")) await page.getByTestId("volume").waitFor();
   await page.waitForLoadState("networkidle");
+  await page.locator("canvas[data-picture=good]").waitFor();
   await page.screenshot({ path: `${out}/${name}.png` });
   await page.close();
 }

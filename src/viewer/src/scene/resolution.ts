@@ -9,11 +9,12 @@ const REST = 500;
 const LEAST = 0.5;
 
 export class Resolution {
-  /** Whether pictures of a moving scene cannot be drawn in time as they are. */
+  /** Whether pictures of a scene in the hand cannot be drawn in time as they are. */
   slow = false;
-  /** Whether the hand moves now. */
+  /** Whether the next picture is one of a movement; the last one after it is good. */
   moving = false;
   private last = Number.NEGATIVE_INFINITY;
+  private touched = Number.NEGATIVE_INFINITY;
   private mean = 0;
   private factor = 0;
   /** What was fast enough when the hand moved last. */
@@ -27,6 +28,10 @@ export class Resolution {
     private readonly redraw: () => void,
   ) {
     this.apply(1);
+    const touch = () => (this.touched = performance.now());
+    for (const event of ["pointerdown", "wheel", "keydown", "input"])
+      addEventListener(event, touch, { passive: true });
+    addEventListener("pointermove", ({ buttons }) => buttons > 0 && touch(), { passive: true });
   }
 
   /** Tells that a picture is about to be drawn. */
@@ -34,20 +39,16 @@ export class Resolution {
     const step = now - this.last;
     this.last = now;
     if (this.timer === 0 && this.moving) {
-      // The good picture after the movement.
       this.moving = false;
       this.apply(this.atRest);
       return;
     }
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => this.rest(), REST);
-    if (!this.moving) {
-      this.moving = true;
-      this.mean = 0;
-    } else {
-      this.judge(step);
-    }
-    this.apply(this.learned);
+    this.moving = true;
+    const inHand = now - this.touched < REST;
+    if (inHand && step < REST) this.judge(step);
+    this.apply(inHand ? this.learned : 1);
   }
 
   private judge(step: number): void {

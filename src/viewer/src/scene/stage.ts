@@ -43,6 +43,8 @@ export class Stage {
       this.resolution.prepare(now);
       for (const call of this.beforeDrawing) call();
       this.renderer.render(this.scene, this.camera);
+      // For those who wait for a picture: how many there were, and whether this one stays.
+      this.canvas.dataset["picture"] = this.resolution.moving ? "quick" : "good";
       const drawn = Number(this.canvas.dataset["pictures"] ?? 0) + 1;
       this.canvas.dataset["pictures"] = String(drawn);
     });
