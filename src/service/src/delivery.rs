@@ -17,7 +17,6 @@ use verne_store::Content;
 
 use crate::error::Error;
 
-
 /// For what lies under its own id.
 pub(crate) const FOR_EVER: &str = "public, max-age=31536000, immutable";
 

@@ -47,6 +47,10 @@ pub(crate) enum Error {
     NoSuchWorkspace(String),
     /// This result has no mesh.
     NoMesh(String),
+    /// This result cannot be cut.
+    NoSlice(String),
+    /// This result has no grid of points.
+    NoCells(String),
     /// No job is known under this id.
     NoSuchJob(String),
     /// The queue is full; after so many seconds a place is likely to be free.
@@ -108,6 +112,8 @@ impl fmt::Display for Error {
             Self::NoMesh(id) => {
                 write!(f, "{id:?} is a table of workspaces: each of its members has a mesh and slices.")
             }
+            Self::NoSlice(id) => write!(f, "{id:?} is no single workspace: there is nothing to cut."),
+            Self::NoCells(id) => write!(f, "{id:?} is no dexterity map: it has no grid of points."),
             Self::NoSuchJob(id) => {
                 write!(f, "No job is known as {id:?} (any more); GET /jobs lists them.")
             }

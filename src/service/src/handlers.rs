@@ -2,9 +2,11 @@
 
 pub(crate) mod batch;
 pub(crate) mod contains;
+pub(crate) mod dexterity;
 pub(crate) mod jobs;
 pub(crate) mod kinematics;
 pub(crate) mod machines;
+mod sending;
 pub(crate) mod service;
 pub(crate) mod workspace;
 pub(crate) mod workspace_results;

@@ -65,7 +65,12 @@ impl fmt::Debug for Results {
 impl Collector for Results {
     fn encode(&self, mut encoder: DescriptorEncoder<'_>) -> fmt::Result {
         let stats = self.0.stats();
-        gauge(&mut encoder, "results_memory_bytes", "Bytes of results in memory", number(stats.memory_bytes))?;
+        gauge(
+            &mut encoder,
+            "results_memory_bytes",
+            "Bytes of results in memory",
+            number(stats.memory_bytes),
+        )?;
         gauge(&mut encoder, "results_disk_bytes", "Bytes of results on disk", number(stats.disk_bytes))?;
         counter(&mut encoder, "results_memory_hits", "Results found in memory", stats.memory_hits)?;
         counter(&mut encoder, "results_disk_hits", "Results found on disk", stats.disk_hits)?;

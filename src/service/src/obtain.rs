@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use verne_jobs::{Claim, Failure, Job};
 use verne_jobs::State as JobState;
+use verne_jobs::{Claim, Failure, Job};
 
 use crate::answers::{Question, TaskFault};
 use crate::error::Error;

@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use utoipa::OpenApi;
 
 use crate::problem::Problem;
+use crate::wire::dexterity::DexteritySummary;
 use crate::wire::family::FamilySummary;
 use crate::wire::workspace_summary::WorkspaceSummary;
 
@@ -32,7 +33,7 @@ use crate::wire::workspace_summary::WorkspaceSummary;
             root of the sum of squares of lengths in mm and of angles as arcs of radius R1.\n\n\
             **Failures** are `application/problem+json` (RFC 9457) with a stable `code`, all of them: `bad_json`, \
             `bad_request`, `invalid_request`, `machine_not_found`, `not_found`, `method_not_allowed`, `body_too_large`, \
-            `too_many_rows`, `unsupported_media_type`, `workspace_not_found`, `no_mesh`, `job_not_found`, \
+            `too_many_rows`, `unsupported_media_type`, `workspace_not_found`, `no_mesh`, `no_slice`, `no_cells`, `job_not_found`, \
             `not_acceptable`, `range_not_satisfiable`, `queue_full`, `stopping`, `jobs_unavailable`, `disk_failing`, `job_cancelled`, \
             `job_too_long`, `other_version`, `no_room`, `timed_out`, `internal`. Bad fields are listed in `errors` with \
             a JSON Pointer into the body, or `/query/<name>`. Unknown and repeated fields are refused."
@@ -45,7 +46,7 @@ use crate::wire::workspace_summary::WorkspaceSummary;
         (name = "machines", description = "Machines that requests may name."),
         (name = "service", description = "The service itself.")
     ),
-    components(schemas(Problem, WorkspaceSummary, FamilySummary))
+    components(schemas(Problem, WorkspaceSummary, FamilySummary, DexteritySummary))
 )]
 pub(crate) struct Document;
 

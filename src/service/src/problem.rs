@@ -63,6 +63,8 @@ fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
         Error::NoSuchMachine(_) => (StatusCode::NOT_FOUND, "machine_not_found"),
         Error::NoSuchWorkspace(_) => (StatusCode::NOT_FOUND, "workspace_not_found"),
         Error::NoMesh(_) => (StatusCode::NOT_FOUND, "no_mesh"),
+        Error::NoSlice(_) => (StatusCode::NOT_FOUND, "no_slice"),
+        Error::NoCells(_) => (StatusCode::NOT_FOUND, "no_cells"),
         Error::NoSuchJob(_) => (StatusCode::NOT_FOUND, "job_not_found"),
         Error::QueueFull(_) => (StatusCode::SERVICE_UNAVAILABLE, "queue_full"),
         Error::Stopping => (StatusCode::SERVICE_UNAVAILABLE, "stopping"),

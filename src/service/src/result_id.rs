@@ -7,6 +7,8 @@ use serde::{Serialize, Serializer};
 use verne_jobs::JobId;
 use verne_store::Key;
 
+use crate::registry::Published;
+
 /// BLAKE3 of a question, its machine and the solver's version; 64 hexadecimal digits to readers. The job that makes
 /// the result has the same id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +25,21 @@ impl ResultId {
         let mut hasher = blake3::Hasher::new();
         hasher.update(self.0.as_bytes()).update(part.as_bytes());
         hasher.finalize().into()
+    }
+
+    /// The id of a question's answer: of a layout of bytes, this version of the solver, the question's numbers, and the
+    /// machine; its name and description count here, as the answer shows them.
+    pub(crate) fn of(layout: &[u8], published: &Published, numbers: impl IntoIterator<Item = f64>) -> Self {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(layout).update(env!("CARGO_PKG_VERSION").as_bytes());
+        for number in numbers {
+            hasher.update(&number.to_le_bytes());
+        }
+        for text in [&*published.id.hash, &*published.id.name, &*published.machine.data().description] {
+            // Hashed by itself, a text cannot run into the next one.
+            hasher.update(blake3::hash(text.as_bytes()).as_bytes());
+        }
+        Self(hasher.finalize())
     }
 
     /// The path of the result.

@@ -8,7 +8,6 @@ use verne_store::{Content, Store};
 use crate::answers::Question;
 use crate::error::Error;
 use crate::result_id::ResultId;
-use crate::wire::format::MeshFormat;
 use crate::workers::on_workers;
 
 /// An answered question.
@@ -33,7 +32,11 @@ struct Kept<'a> {
 }
 
 const RECORD: &str = "record";
-const MESH: &str = "mesh";
+/// The part that is a workspace's mesh.
+pub(crate) const MESH: &str = "mesh";
+
+/// The part that lists the points of a dexterity map.
+pub(crate) const CELLS: &str = "cells";
 
 /// The results that are kept. Its clones are one.
 #[derive(Clone)]
@@ -64,47 +67,51 @@ impl Results {
         read(&content.bytes, id)
     }
 
-    /// Keeps an answer, its mesh first: where there is a record, there was a mesh.
+    /// Keeps an answer, its parts first: where there is a record, there were parts.
     pub(crate) async fn keep(
         &self,
         question: &Question,
         summary: &[u8],
-        mesh: Option<(&Mesh, Option<f64>)>,
+        parts: Vec<(&str, Vec<u8>)>,
+        inclination: Option<f64>,
     ) -> Result<(), Error> {
         let id = question.id();
-        if let Some((mesh, _)) = mesh {
-            let bytes = packed::pack(mesh).map_err(|_| Error::Internal)?;
-            self.0.put(&id.key(MESH), bytes.into()).await;
+        for (name, bytes) in parts {
+            self.0.put(&id.key(name), bytes.into()).await;
         }
         let (question, summary) = (raw(&question.written()?)?, raw(summary)?);
-        let inclination = mesh.and_then(|(_, inclination)| inclination);
         let kept = Kept { question: &question, summary: &summary, inclination };
         let bytes = serde_json::to_vec(&kept).map_err(|_| Error::Internal)?;
         self.0.put(&id.key(RECORD), bytes.into()).await;
         Ok(())
     }
 
-    /// A workspace's mesh.
-    pub(crate) async fn mesh(&self, id: ResultId) -> Option<Mesh> {
-        let content = self.0.get(&id.key(MESH)).await?;
-        on_workers(move || packed::unpack(&content.bytes).map_err(|_| Error::Internal)).await.ok()
+    /// A part of a result.
+    pub(crate) async fn part(&self, id: ResultId, name: &str) -> Option<Content> {
+        self.0.get(&id.key(name)).await
     }
 
-    /// A mesh in a format, if it has been written.
-    pub(crate) async fn file(&self, id: ResultId, format: MeshFormat) -> Option<Content> {
-        self.0.get(&id.key(format.name())).await
-    }
-
-    /// A mesh in a format, written if it has not been.
-    pub(crate) async fn file_or(
+    /// A part of a result, made if it is not there.
+    pub(crate) async fn part_or(
         &self,
         id: ResultId,
-        format: MeshFormat,
-        write: impl Future<Output = Result<Vec<u8>, Error>> + Send,
+        name: &str,
+        make: impl Future<Output = Result<Vec<u8>, Error>> + Send,
     ) -> Result<Content, Error> {
-        let write = async { write.await.map(Into::into) };
-        self.0.get_or_make(&id.key(format.name()), write).await
+        let make = async { make.await.map(Into::into) };
+        self.0.get_or_make(&id.key(name), make).await
     }
+
+    /// A mesh that is part of a result.
+    pub(crate) async fn mesh(&self, id: ResultId, name: &str) -> Option<Mesh> {
+        let content = self.part(id, name).await?;
+        on_workers(move || packed::unpack(&content.bytes).map_err(|_| Error::Internal)).await.ok()
+    }
+}
+
+/// A mesh as a part of a result.
+pub(crate) fn packed_mesh(mesh: &Mesh) -> Result<Vec<u8>, Error> {
+    packed::pack(mesh).map_err(|_| Error::Internal)
 }
 
 fn raw(json: &[u8]) -> Result<Box<RawValue>, Error> {

@@ -4,7 +4,9 @@ use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use crate::handlers::{batch, contains, jobs, kinematics, machines, service, workspace, workspace_results};
+use crate::handlers::{
+    batch, contains, dexterity, jobs, kinematics, machines, service, workspace, workspace_results,
+};
 use crate::openapi::Document;
 use crate::state::Shared;
 
@@ -17,9 +19,11 @@ pub(crate) fn routes() -> OpenApiRouter<Shared> {
         .routes(routes!(batch::ik_batch))
         .routes(routes!(workspace::get_workspace, workspace::post_workspace))
         .routes(routes!(contains::post_contains))
+        .routes(routes!(dexterity::post_dexterity))
         .routes(routes!(workspace_results::get_summary))
         .routes(routes!(workspace_results::get_mesh))
         .routes(routes!(workspace_results::get_slice))
+        .routes(routes!(dexterity::get_cells))
         .routes(routes!(jobs::get_jobs))
         .routes(routes!(jobs::get_job, jobs::delete_job))
         .routes(routes!(jobs::get_events))

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use axum::body::Bytes;
 use tokio_util::sync::CancellationToken;
 use verne_jobs::Backend;
 
@@ -40,8 +39,6 @@ pub(crate) struct State {
     pub metrics: Metrics,
     /// Cancelled when the service is told to stop.
     pub stopping: CancellationToken,
-    /// The OpenAPI document, as it is sent.
-    pub openapi: Bytes,
 }
 
 /// A handle on the state.

@@ -4,11 +4,14 @@ use tokio::runtime::Handle;
 use verne_jobs::{JobId, Stop, Watch, Work};
 use verne_solver::workspace::Observer;
 
-use crate::answers::{FamilyQuestion, FamilyTable, Question, TaskFault, compute_workspace, part_of};
-use crate::answers::WorkspaceQuestion;
+use crate::answers::{
+    DexterityQuestion, FamilyQuestion, FamilyTable, Question, TaskFault, WorkspaceQuestion,
+    compute_dexterity, compute_workspace, part_of,
+};
 use crate::error::Error;
 use crate::result_id::ResultId;
-use crate::results::Results;
+use crate::results::{CELLS, MESH, Record, Results, packed_mesh};
+use crate::wire::dexterity::SetName;
 use crate::wire::json::write_json;
 
 /// About the bytes of a failure.
@@ -31,22 +34,24 @@ impl Tasks {
         match question {
             Question::Workspace(workspace) => self.workspace(workspace, observer).map(drop),
             Question::Family(family) => self.family(family, observer),
+            Question::Dexterity(dexterity) => self.dexterity(dexterity, observer),
         }
     }
 
     /// Computes a workspace unless it is there, mesh and all; its summary.
     fn workspace(&self, asked: &WorkspaceQuestion, observer: &dyn Observer) -> Result<Vec<u8>, Error> {
-        let known = self.runtime.block_on(async {
-            let record = self.results.record(asked.id).await?;
-            self.results.mesh(asked.id).await.map(|_| record.summary)
-        });
-        if let Some(summary) = known {
-            return Ok(summary.bytes.to_vec());
+        if let Some(record) = self.known(asked.id, &[MESH]) {
+            return Ok(record.summary.bytes.to_vec());
         }
         let computed = compute_workspace(asked, observer)?;
+        let parts = vec![(MESH, packed_mesh(&computed.mesh)?)];
         let question = Question::Workspace(asked.clone());
-        let mesh = Some((&computed.mesh, computed.inclination));
-        self.runtime.block_on(self.results.keep(&question, &computed.summary, mesh))?;
+        self.runtime.block_on(self.results.keep(
+            &question,
+            &computed.summary,
+            parts,
+            computed.inclination,
+        ))?;
         Ok(computed.summary)
     }
 
@@ -58,7 +63,33 @@ impl Tasks {
             table.add(member, summary.as_deref().map_err(Clone::clone))?;
         }
         let summary = table.written(family)?;
-        self.runtime.block_on(self.results.keep(&Question::Family(family.clone()), &summary, None))
+        let question = Question::Family(family.clone());
+        self.runtime.block_on(self.results.keep(&question, &summary, Vec::new(), None))
+    }
+
+    fn dexterity(&self, asked: &DexterityQuestion, observer: &dyn Observer) -> Result<(), Error> {
+        let names = SetName::ALL.map(SetName::name);
+        if self.known(asked.id, &[names[0], names[1], CELLS]).is_some() {
+            return Ok(());
+        }
+        let computed = compute_dexterity(asked, observer)?;
+        let mut parts = vec![(CELLS, computed.cells)];
+        for (name, mesh) in names.into_iter().zip(&computed.meshes) {
+            parts.push((name, packed_mesh(mesh)?));
+        }
+        let question = Question::Dexterity(asked.clone());
+        self.runtime.block_on(self.results.keep(&question, &computed.summary, parts, None))
+    }
+
+    /// The record of a result that is there with these parts.
+    fn known(&self, id: ResultId, parts: &[&str]) -> Option<Record> {
+        self.runtime.block_on(async {
+            let record = self.results.record(id).await?;
+            for part in parts {
+                self.results.part(id, part).await?;
+            }
+            Some(record)
+        })
     }
 }
 

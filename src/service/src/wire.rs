@@ -6,6 +6,7 @@ pub(crate) mod batch;
 pub(crate) mod catalogue;
 pub(crate) mod contains;
 pub(crate) mod degrees;
+pub(crate) mod dexterity;
 pub(crate) mod family;
 pub(crate) mod format;
 pub(crate) mod job;

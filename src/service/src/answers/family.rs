@@ -33,7 +33,8 @@ impl FamilyTable {
             Err(error) => return Err(error),
         };
         let figures: Option<Figures> = figures;
-        let member = FamilyMember { id: question.id.to_string(), request: question.request, figures, failure };
+        let member =
+            FamilyMember { id: question.id.to_string(), request: question.request, figures, failure };
         self.0.push(member);
         Ok(())
     }

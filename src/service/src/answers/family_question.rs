@@ -60,7 +60,8 @@ impl FamilyQuestion {
             outside.into_iter().for_each(|length| faults.tool_length(length));
         }
         for (pointer, numbers) in [("/phi1", &phi1), ("/phi2", &phi2)] {
-            let outside = extremes(numbers).into_iter().find(|angle| !numbers.is_empty() && !is_angle(*angle));
+            let outside =
+                extremes(numbers).into_iter().find(|angle| !numbers.is_empty() && !is_angle(*angle));
             faults.angle(pointer, outside);
         }
         check_tolerance(asked.tolerance, resolved.as_deref().ok(), &mut faults);

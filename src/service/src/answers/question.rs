@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use verne_jobs::Submission;
 
+use super::dexterity_question::DexterityQuestion;
 use super::family_question::FamilyQuestion;
 use super::workspace_question::WorkspaceQuestion;
 use crate::error::{Error, Fault};
@@ -19,6 +20,8 @@ pub(crate) enum Question {
     Workspace(WorkspaceQuestion),
     /// A table of workspaces.
     Family(FamilyQuestion),
+    /// A dexterity map.
+    Dexterity(DexterityQuestion),
 }
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -26,6 +29,7 @@ pub(crate) enum Question {
 enum Asked {
     Workspace,
     Family,
+    Dexterity,
 }
 
 /// A question with its machine, as text: all that another process needs to answer it.
@@ -44,6 +48,7 @@ impl Question {
         match self {
             Self::Workspace(question) => question.id,
             Self::Family(question) => question.id,
+            Self::Dexterity(question) => question.id,
         }
     }
 
@@ -51,6 +56,7 @@ impl Question {
         match self {
             Self::Workspace(question) => &question.published,
             Self::Family(question) => &question.published,
+            Self::Dexterity(question) => &question.published,
         }
     }
 
@@ -59,6 +65,7 @@ impl Question {
         match self {
             Self::Workspace(question) => question.cost(),
             Self::Family(question) => question.members.iter().map(WorkspaceQuestion::cost).sum(),
+            Self::Dexterity(question) => question.cost(),
         }
     }
 
@@ -67,6 +74,7 @@ impl Question {
         let (asked, request) = match self {
             Self::Workspace(question) => (Asked::Workspace, raw(&question.request)?),
             Self::Family(question) => (Asked::Family, raw(&question.request)?),
+            Self::Dexterity(question) => (Asked::Dexterity, raw(&question.request)?),
         };
         let published = self.published();
         let machine = MachineObject::from(published.machine.data());
@@ -84,6 +92,8 @@ impl Question {
                 .map(|request| Self::Workspace(WorkspaceQuestion::of(published, request))),
             Asked::Family => serde_json::from_str(request)
                 .map(|request| Self::Family(FamilyQuestion::of(&published, request))),
+            Asked::Dexterity => serde_json::from_str(request)
+                .map(|request| Self::Dexterity(DexterityQuestion::of(published, request))),
         };
         question.ok().filter(|question| question.id() == id).ok_or(Error::OtherVersion)
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use verne_solver::MachineData;
 use verne_solver::workspace::WorkspaceError;
 
+use super::dexterity::too_many_points;
 use crate::error::{Error, Fault};
 use crate::faults::Faults;
 use crate::registry::{Published, Registry};
@@ -25,7 +26,7 @@ const VOLUME_COST: f64 = 0.015;
 const SURFACE_COST: f64 = 1e-5;
 
 /// Changes when the bytes do that the same question is answered with.
-const LAYOUT: &[u8] = b"verne workspace 1";
+const LAYOUT: &[u8] = b"verne workspace 2";
 
 /// A question that has an answer.
 #[derive(Clone, Debug)]
@@ -53,7 +54,14 @@ impl WorkspaceQuestion {
 
     /// A question that was checked before.
     pub(crate) fn of(published: Arc<Published>, request: CanonicalRequest) -> Self {
-        Self { id: id(&published, &request), published, request }
+        let kind = match request.kind {
+            KindName::Platform => 0.0,
+            KindName::Tool => 1.0,
+            KindName::Part => 2.0,
+        };
+        let numbers = [Some(kind), request.tool_length, request.phi1, request.phi2, Some(request.tolerance)];
+        let numbers = numbers.map(Option::unwrap_or_default);
+        Self { id: ResultId::of(LAYOUT, &published, numbers), published, request }
     }
 
     /// Estimated work, seconds of one core: what the reference machine's mesh takes at the same fraction of its size.
@@ -73,28 +81,10 @@ pub(super) fn check_tolerance(tolerance: f64, published: Option<&Published>, fau
     }
 }
 
-fn longest(machine: &MachineData) -> f64 {
+/// A machine's longest dimension, mm.
+pub(super) fn longest(machine: &MachineData) -> f64 {
     let g = &machine.geometry;
     [g.L1, g.L2, g.L3, g.R1, g.R2, g.r1, g.r4].into_iter().fold(0.0, f64::max)
-}
-
-/// BLAKE3. The machine's name and description count here: the answer shows them.
-fn id(published: &Published, request: &CanonicalRequest) -> ResultId {
-    let mut hasher = blake3::Hasher::new();
-    let kind = match request.kind {
-        KindName::Platform => 0,
-        KindName::Tool => 1,
-        KindName::Part => 2,
-    };
-    hasher.update(LAYOUT).update(env!("CARGO_PKG_VERSION").as_bytes()).update(&[kind]);
-    for number in [request.tool_length, request.phi1, request.phi2, Some(request.tolerance)] {
-        hasher.update(&number.unwrap_or_default().to_le_bytes());
-    }
-    for text in [&*published.id.hash, &*published.id.name, &*published.machine.data().description] {
-        // Hashed by itself, a text cannot run into the next one.
-        hasher.update(blake3::hash(text.as_bytes()).as_bytes());
-    }
-    hasher.finalize().into()
 }
 
 /// What the solver refuses, in the words of the request.
@@ -106,10 +96,7 @@ pub(crate) fn workspace_error(error: WorkspaceError) -> Error {
         WorkspaceError::TooFine => {
             Error::Fields(vec![Fault::new("/tolerance", "asks for more vertices than can be numbered")])
         }
-        WorkspaceError::TooManyNodes { nodes } => Error::Fields(vec![Fault::new(
-            "/cell",
-            format!("gives a grid of {nodes} nodes, which is too many"),
-        )]),
+        WorkspaceError::TooManyNodes { nodes } => too_many_points(nodes),
         WorkspaceError::Open => Error::Fields(vec![Fault::new(
             "/tolerance",
             "gives a surface that cannot be closed on this machine; a finer or coarser one may do",

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::progress::Bar;
 use super::question::{in_flags, machine, written};
-use crate::answers::{WorkspaceQuestion, answer_slice, compute_workspace, write_mesh};
+use crate::answers::{Described, WorkspaceQuestion, answer_slice, compute_workspace, write_mesh};
 use crate::error::{Error, Fault};
 use crate::registry::Registry;
 use crate::wire::alphas::Alphas;
@@ -57,7 +57,9 @@ impl WorkspaceCommand {
                 .map_err(|error| in_flags(named(error)))
         };
         let bytes = match &wanted {
-            Some(Wanted::Mesh(format)) => write_mesh(&question, &workspace.mesh, *format).map_err(in_flags)?,
+            Some(Wanted::Mesh(format)) => {
+                write_mesh(&Described::workspace(&question), &workspace.mesh, *format).map_err(in_flags)?
+            }
             Some(Wanted::Slice(format)) => slice(*format)?,
             None if self.slice.is_some() => slice(SliceFormat::Json)?,
             None => workspace.summary,

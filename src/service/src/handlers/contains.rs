@@ -24,7 +24,9 @@ pub(crate) async fn post_contains(
     State(state): State<Shared>,
     Batch(body): Batch,
 ) -> Result<([(HeaderName, &'static str); 1], Vec<u8>), Error> {
-    let answer =
-        on_workers_while_waited_for(move |observer| answer_contains(&body, &state.machines, state.limits.rows, observer)).await?;
+    let answer = on_workers_while_waited_for(move |observer| {
+        answer_contains(&body, &state.machines, state.limits.rows, observer)
+    })
+    .await?;
     Ok(([(CONTENT_TYPE, "application/json")], answer))
 }

@@ -120,10 +120,7 @@ fn known(id: Id) -> Result<(String, JobId), Error> {
 /// 202: a job will have the answer.
 pub(super) fn accepted(job: &Job) -> Result<Response, Error> {
     let object = JobObject::new(job)?;
-    let headers = [
-        (LOCATION, object.links.itself.clone()),
-        (RETRY_AFTER, "1".to_owned()),
-        (LIVE.0, LIVE.1.to_owned()),
-    ];
+    let headers =
+        [(LOCATION, object.links.itself.clone()), (RETRY_AFTER, "1".to_owned()), (LIVE.0, LIVE.1.to_owned())];
     Ok((StatusCode::ACCEPTED, headers, Json(object)).into_response())
 }

@@ -1,11 +1,11 @@
 //! The OpenAPI document and the probes.
 
 use axum::Json;
-use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::header::{CONTENT_TYPE, HeaderName};
 use axum::response::IntoResponse;
 
+use crate::app::DOCUMENT;
 use crate::error::Error;
 use crate::metrics::OPEN_METRICS;
 use crate::openapi::binary::Text;
@@ -20,8 +20,8 @@ use crate::wire::catalogue::Health;
     get, path = "/openapi.json", operation_id = "openapi", tag = "service",
     responses((status = 200, description = "The document.", body = Object), ServiceProblems)
 )]
-pub(crate) async fn get_openapi(State(state): State<Shared>) -> ([(HeaderName, &'static str); 1], Bytes) {
-    ([(CONTENT_TYPE, "application/json")], state.openapi.clone())
+pub(crate) async fn get_openapi() -> ([(HeaderName, &'static str); 1], &'static str) {
+    ([(CONTENT_TYPE, "application/json")], DOCUMENT)
 }
 
 /// Liveness

@@ -2,10 +2,9 @@
 
 use axum::extract::State as Extracted;
 use axum::response::Response;
-use verne_store::Content;
 
-use super::jobs::accepted;
-use crate::answers::{FamilyQuestion, Question, WorkspaceQuestion, write_mesh};
+use super::sending::{figures, mesh, respond};
+use crate::answers::{FamilyQuestion, Question, WorkspaceQuestion};
 use crate::delivery::{Conditions, Delivery};
 use crate::error::Error;
 use crate::extract::{Params, Single};
@@ -14,15 +13,12 @@ use crate::obtain::{Obtained, Patience};
 use crate::openapi::binary::{Binary, SummaryOrMesh};
 use crate::openapi::problems::{WorkspaceBodyProblems, WorkspaceQueryProblems};
 use crate::prefer::Prefer;
-use crate::result_id::ResultId;
-use crate::results::Record;
 use crate::state::{Shared, State};
 use crate::wire::family::WorkspaceBody;
 use crate::wire::format::MeshFormat;
 use crate::wire::job::JobObject;
 use crate::wire::query::point_into_query;
 use crate::wire::workspace_query::{MeshQuery, WorkspaceQuery};
-use crate::workers::on_workers;
 
 /// The answer depends on the published machines, which change only with a restart.
 const FOR_A_WHILE: &str = "public, max-age=300";
@@ -116,81 +112,9 @@ async fn answer(
     wanted: Option<MeshFormat>,
     patience: &Patience,
 ) -> Result<Obtained<Delivery>, Error> {
+    let question = Question::Workspace(question);
     match wanted {
-        None => figures(state, &Question::Workspace(question), patience).await,
-        Some(format) => mesh(state, question, format, patience).await,
-    }
-}
-
-/// The figures that answer a question.
-async fn figures(
-    state: &State,
-    question: &Question,
-    patience: &Patience,
-) -> Result<Obtained<Delivery>, Error> {
-    Ok(match state.obtain(question, patience).await? {
-        Obtained::Ready(record) => Obtained::Ready(summary(record)),
-        Obtained::Pending(job) => Obtained::Pending(job),
-    })
-}
-
-/// A workspace's mesh in a format. The mesh itself may have left the store before the figures did.
-pub(super) async fn mesh(
-    state: &State,
-    question: WorkspaceQuestion,
-    format: MeshFormat,
-    patience: &Patience,
-) -> Result<Obtained<Delivery>, Error> {
-    let id = question.id;
-    if let Some(content) = state.results.file(id, format).await {
-        return Ok(Obtained::Ready(file(id, format, content)));
-    }
-    let mut mesh = state.results.mesh(id).await;
-    if mesh.is_none() {
-        if let Obtained::Pending(job) = state.compute(&Question::Workspace(question.clone()), patience).await? {
-            return Ok(Obtained::Pending(job));
-        }
-        mesh = state.results.mesh(id).await;
-    }
-    let mesh = mesh.ok_or(Error::NoRoom)?;
-    let write = on_workers(move || write_mesh(&question, &mesh, format));
-    Ok(Obtained::Ready(file(id, format, state.results.file_or(id, format, write).await?)))
-}
-
-/// Sends the answer, or the address of the job that will have it.
-pub(super) fn respond(
-    obtained: Obtained<Delivery>,
-    describe: impl FnOnce(Delivery) -> Delivery,
-    prefer: Prefer,
-    conditions: &Conditions,
-) -> Result<Response, Error> {
-    let mut response = match obtained {
-        Obtained::Ready(delivery) => describe(delivery).answer(conditions)?,
-        Obtained::Pending(job) => accepted(&job)?,
-    };
-    prefer.tell(&mut response);
-    Ok(response)
-}
-
-/// Sends a summary.
-pub(super) fn summary(record: Record) -> Delivery {
-    Delivery {
-        location: record.question.id().path(),
-        content: record.summary,
-        media: "application/json",
-        cache_control: None,
-        file_name: None,
-    }
-}
-
-/// Sends a mesh.
-fn file(id: ResultId, format: MeshFormat, content: Content) -> Delivery {
-    let name = format.name();
-    Delivery {
-        content,
-        media: format.media(),
-        cache_control: None,
-        location: format!("{}/mesh?format={name}", id.path()),
-        file_name: Some(format!("workspace-{id:.8}.{name}")),
+        None => figures(state, &question, patience).await,
+        Some(format) => mesh(state, question, None, format, patience).await,
     }
 }

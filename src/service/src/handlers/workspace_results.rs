@@ -4,7 +4,7 @@ use axum::extract::rejection::PathRejection;
 use axum::extract::{Path, State};
 use axum::response::Response;
 
-use super::workspace::{mesh, respond, summary};
+use super::sending::{mesh, respond, summary};
 use crate::answers::{Question, WorkspaceQuestion, answer_slice};
 use crate::delivery::{Conditions, Delivery, FOR_EVER};
 use crate::error::Error;
@@ -15,14 +15,16 @@ use crate::openapi::problems::{KeptProblems, KeptQueryProblems, MeshProblems};
 use crate::prefer::Prefer;
 use crate::results::{Record, content};
 use crate::state::Shared;
+use crate::wire::dexterity::KeptMeshQuery;
 use crate::wire::format::{MeshFormat, SliceFormat};
+use crate::wire::job::JobObject;
 use crate::wire::query::point_into_query;
 use crate::wire::slice::SliceObject;
-use crate::wire::workspace_query::{MeshQuery, SliceQuery};
-use crate::wire::job::JobObject;
+use crate::wire::workspace_query::SliceQuery;
 use crate::workers::on_workers_while_waited_for;
 
-type Id = Result<Path<String>, PathRejection>;
+/// The id in a path.
+pub(super) type Id = Result<Path<String>, PathRejection>;
 
 /// A computed workspace in figures
 ///
@@ -32,7 +34,7 @@ type Id = Result<Path<String>, PathRejection>;
     get, path = "/workspace/{id}", operation_id = "workspace_summary", tag = "workspace",
     params(("id" = String, Path, description = "The id that /workspace answered.")),
     responses(
-        (status = 200, description = "The summary, or the table of a family.", body = Summary),
+        (status = 200, description = "The summary, the table of a family, or the figures of a dexterity map.", body = Summary),
         KeptProblems
     )
 )]
@@ -54,7 +56,7 @@ pub(crate) async fn get_summary(
 /// `format` or Accept, else GLB. Strong ETags, conditional requests and byte ranges.
 #[utoipa::path(
     get, path = "/workspace/{id}/mesh", operation_id = "workspace_mesh", tag = "workspace",
-    params(("id" = String, Path, description = "The id that /workspace answered."), MeshQuery),
+    params(("id" = String, Path, description = "The id that /workspace answered."), KeptMeshQuery),
     responses(
         (status = 200, description = "The mesh.", content(
             (Binary = "model/gltf-binary"), (Binary = "model/stl"), (Binary = "model/ply"),
@@ -68,7 +70,7 @@ pub(crate) async fn get_summary(
 pub(crate) async fn get_mesh(
     State(state): State<Shared>,
     id: Id,
-    Params(query): Params<MeshQuery>,
+    Params(query): Params<KeptMeshQuery>,
     accept: Accept,
     prefer: Prefer,
     conditions: Conditions,
@@ -78,8 +80,8 @@ pub(crate) async fn get_mesh(
         Some(format) => format,
         None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format)))?,
     };
-    let (question, _) = workspace(kept(&state, id).await?)?;
-    let obtained = mesh(&state, question, format, &prefer.patience).await?;
+    let question = kept(&state, id).await?.question;
+    let obtained = mesh(&state, question, query.set, format, &prefer.patience).await?;
     let kept = |delivery| Delivery { cache_control: Some(FOR_EVER), ..delivery };
     respond(obtained, kept, prefer, &conditions)
 }
@@ -132,7 +134,7 @@ pub(crate) async fn get_slice(
 }
 
 /// The record under an id.
-async fn kept(state: &Shared, Path(id): Path<String>) -> Result<Record, Error> {
+pub(super) async fn kept(state: &crate::state::State, Path(id): Path<String>) -> Result<Record, Error> {
     match id.parse() {
         Ok(known) => state.results.record(known).await.ok_or(Error::NoSuchWorkspace(id)),
         Err(_) => Err(Error::NoSuchWorkspace(id)),
@@ -143,6 +145,6 @@ async fn kept(state: &Shared, Path(id): Path<String>) -> Result<Record, Error> {
 fn workspace(record: Record) -> Result<(WorkspaceQuestion, Option<f64>), Error> {
     match record.question {
         Question::Workspace(question) => Ok((question, record.inclination)),
-        Question::Family(family) => Err(Error::NoMesh(family.id.to_string())),
+        Question::Family(_) | Question::Dexterity(_) => Err(Error::NoSlice(record.question.id().to_string())),
     }
 }

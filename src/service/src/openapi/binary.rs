@@ -27,7 +27,7 @@ impl PartialSchema for Text {
 
 impl ToSchema for Text {}
 
-/// The summary of a workspace, or the table of a family.
+/// The summary of a workspace, the table of a family, or the figures of a dexterity map.
 pub(crate) struct Summary;
 
 /// A summary, or with `format=json` a mesh.
@@ -37,13 +37,13 @@ fn any_of(schemas: impl IntoIterator<Item = RefOr<Schema>>) -> RefOr<Schema> {
     schemas.into_iter().fold(AnyOfBuilder::new(), AnyOfBuilder::item).into()
 }
 
-fn summaries() -> [RefOr<Schema>; 2] {
-    ["WorkspaceSummary", "FamilySummary"].map(|name| Ref::from_schema_name(name).into())
+fn summaries(names: &[&str]) -> Vec<RefOr<Schema>> {
+    names.iter().map(|name| Ref::from_schema_name(*name).into()).collect()
 }
 
 impl PartialSchema for Summary {
     fn schema() -> RefOr<Schema> {
-        any_of(summaries())
+        any_of(summaries(&["WorkspaceSummary", "FamilySummary", "DexteritySummary"]))
     }
 }
 
@@ -52,7 +52,7 @@ impl ToSchema for Summary {}
 impl PartialSchema for SummaryOrMesh {
     fn schema() -> RefOr<Schema> {
         let mesh = ObjectBuilder::new().schema_type(Type::Object).required("positions").required("indices");
-        any_of(summaries().into_iter().chain([mesh.into()]))
+        any_of(summaries(&["WorkspaceSummary", "FamilySummary"]).into_iter().chain([mesh.into()]))
     }
 }
 

@@ -149,9 +149,9 @@ fn of_workspaces(machines: &Registry) -> Vec<Example> {
     let question = parse_body(asked.to_string().as_bytes())
         .and_then(|body: WorkspaceBody| body.single().ok_or(Error::Internal))
         .and_then(|request| WorkspaceQuestion::new(&request, machines));
-    let computed = question.clone().and_then(|question| {
-        compute_workspace(&question, &Unobserved).map(|computed| (question, computed))
-    });
+    let computed = question
+        .clone()
+        .and_then(|question| compute_workspace(&question, &Unobserved).map(|computed| (question, computed)));
     let summary = computed.as_ref().map_err(Clone::clone).and_then(|(_, found)| parse_body(&found.summary));
     let slice = computed.as_ref().map_err(Clone::clone).and_then(|(question, found)| {
         let alphas = Alphas::These(vec![0.0]);
@@ -159,16 +159,24 @@ fn of_workspaces(machines: &Registry) -> Vec<Example> {
             .and_then(|text| parse_body(&text))
     });
     let id = question.map(|question| question.id.to_string()).unwrap_or_default();
+    let dexterity = json!({"tool_length": 50, "phi1": {"from": -20, "to": 20}, "cell": 200});
     let get = |path, asked, answer| Example { method: "get", path, asked: Asked::Parameters(asked), answer };
     let summary: Value = answered(summary as Result<Value, Error>);
     let slice: Value = answered(slice as Result<Value, Error>);
     vec![
         get("/workspace", asked.clone(), Some(summary.clone())),
         post("/workspace", asked, |_| Ok(summary.clone())),
+        // Its answer takes seconds.
+        Example { method: "post", path: "/workspace/dexterity", asked: Asked::Body(dexterity), answer: None },
         get("/jobs", json!({"state": "failed", "limit": 10}), Some(json!({"jobs": [], "next": null}))),
         get("/jobs/{id}", json!({"id": id}), None),
         get("/jobs/{id}/events", json!({"id": id}), None),
-        Example { method: "delete", path: "/jobs/{id}", asked: Asked::Parameters(json!({"id": id})), answer: None },
+        Example {
+            method: "delete",
+            path: "/jobs/{id}",
+            asked: Asked::Parameters(json!({"id": id})),
+            answer: None,
+        },
         get("/workspace/{id}", json!({"id": id}), Some(summary.clone())),
         get("/workspace/{id}/mesh", json!({"id": id, "format": "glb"}), None),
         get("/workspace/{id}/slice", json!({"id": id, "z": 300, "alpha": "0"}), Some(slice)),

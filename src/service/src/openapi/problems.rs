@@ -104,7 +104,10 @@ impl IntoResponses for WorkspaceBodyProblems {
 impl IntoResponses for KeptProblems {
     fn responses() -> Responses {
         let unknown = Error::NoSuchWorkspace("1f2e".to_owned());
-        let unknown = documented("No result is kept under this id, or it has no mesh (`workspace_not_found`, `no_mesh`).", unknown);
+        let unknown = documented(
+            "No result is kept under this id, or it has no such part (`workspace_not_found`, `no_mesh`, `no_slice`, `no_cells`).",
+            unknown,
+        );
         with(ServiceProblems::responses(), [unknown, not_acceptable(), beyond_the_end()])
     }
 }
@@ -145,8 +148,10 @@ impl IntoResponses for ReadyProblems {
 fn of_jobs() -> [(String, RefOr<Response>); 3] {
     [
         documented(BUSY, Error::QueueFull(12)),
-        documented("The job was cancelled, or asked for by another version (`job_cancelled`, `other_version`).",
-            Error::JobCancelled),
+        documented(
+            "The job was cancelled, or asked for by another version (`job_cancelled`, `other_version`).",
+            Error::JobCancelled,
+        ),
         documented("The result is larger than the room for results (`no_room`).", Error::NoRoom),
     ]
 }

@@ -22,6 +22,8 @@ pub(crate) type Pair = Exactly<f64, 2>;
 pub(crate) type Triple = Exactly<f64, 3>;
 /// One number for each rod: 11, 12, 21, 22, 31, 32.
 pub(crate) type PerRod = Exactly<f64, 6>;
+/// Points along x, y, z.
+pub(crate) type Counts = Exactly<u32, 3>;
 /// A pair for each slider.
 pub(crate) type PairPerSlider = Exactly<Pair, 3>;
 /// Four directions: rod 11, rod 12, the rods of leg II, the rods of leg III.

@@ -35,10 +35,12 @@ pub(crate) struct Steps {
 
 impl PartialSchema for Span {
     fn schema() -> RefOr<Schema> {
-        let list = ArrayBuilder::new().items(ArrayItems::RefOrSchema(Box::new(f64::schema()))).min_items(Some(1));
+        let list =
+            ArrayBuilder::new().items(ArrayItems::RefOrSchema(Box::new(f64::schema()))).min_items(Some(1));
         let schemas = [f64::schema(), list.into(), Ref::from_schema_name("Steps").into()];
         let any = schemas.into_iter().fold(AnyOfBuilder::new(), AnyOfBuilder::item);
-        any.description(Some("A number, a list of numbers, or equal steps from one number to another.")).into()
+        any.description(Some("A number, a list of numbers, or equal steps from one number to another."))
+            .into()
     }
 }
 
@@ -72,7 +74,9 @@ impl Steps {
         let Self { from, to, step } = self;
         let steps = ((to - from) / step + 1e-9).floor();
         if !(step > 0.0 && steps >= 0.0) {
-            return Err("must run from the lesser number to the greater in steps greater than zero".to_owned());
+            return Err(
+                "must run from the lesser number to the greater in steps greater than zero".to_owned()
+            );
         }
         #[expect(clippy::cast_precision_loss, reason = "a bound on a count")]
         if steps >= most as f64 {

@@ -28,6 +28,29 @@ fn machines() -> Vec<Machine> {
     machines
 }
 
+/// Less than this beside an end the point is reached on the one side and not on the other.
+const SHARP: f64 = 2e-9;
+
+/// An end is where the margins say it is, and what they say ends it.
+fn ends_hold(machine: &Machine, point: [f64; 3], [phi2, length]: [f64; 2], interval: &Interval) {
+    let [from, to] = interval.ends;
+    for (end, sign, binding) in [(from, -1.0, interval.bindings[0]), (to, 1.0, interval.bindings[1])] {
+        let beside = |step: f64| end + sign * step;
+        let Some(binding) = binding else { continue };
+        assert!(!reached(machine, point, [beside(SHARP), phi2], length), "{point:?} {interval:?}");
+        if to - from > 4.0 * SHARP {
+            assert!(reached(machine, point, [beside(-SHARP), phi2], length), "{point:?} {interval:?}");
+        }
+        let [x, y, z] = point;
+        let pose = PartPose { x, y, z, phi1: beside(1e-7), phi2 };
+        if let Ok(posture) = part_working(machine, &pose, length) {
+            let table = table_angles(machine, posture.pose.alpha, pose.phi1, phi2);
+            let worst = Margins::of(machine, &posture, Some(table)).worst(machine);
+            assert_eq!(worst.constraint, binding.constraint, "{point:?} {interval:?}");
+        }
+    }
+}
+
 /// Every inclination of a dense scan is in an interval exactly if the margins say so.
 #[test]
 fn a_dense_scan_finds_the_same() {
@@ -48,6 +71,9 @@ fn a_dense_scan_finds_the_same() {
                 assert!(found.windows(2).all(|pair| pair[0].ends[1] < pair[1].ends[0]));
                 several += usize::from(found.len() > 1);
                 some += usize::from(!found.is_empty());
+                for interval in &found {
+                    ends_hold(&machine, point, [phi2, length], interval);
+                }
                 for n in 0..=SCAN {
                     let phi1 = range[0] + (range[1] - range[0]) * f64::from(n) / f64::from(SCAN);
                     let near = found.iter().flat_map(|i| i.ends).any(|end| (end - phi1).abs() < 1e-8);

@@ -10,7 +10,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::super::path::{Limits, intervals};
-use super::arc::{Arc, Circle, arcs, looks};
+use super::arc::{Arc, Circle, arcs, looks, turns};
 use super::section::{Piece, Setting};
 
 /// The angles, rad, of what is reachable and of what is dexterous.
@@ -29,11 +29,8 @@ pub(super) fn angles(setting: &Setting<'_>, section: &[Piece], radius: f64, phi1
 fn tilts(setting: &Setting<'_>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let Some([middle, half]) = setting.tilt else { return vec![[f64::NEG_INFINITY, f64::INFINITY]] };
     let (least, greatest) = (-FRAC_PI_2 - to, FRAC_PI_2 - from);
-    let first = ((least - middle - half) / TAU).ceil();
-    (0..)
-        .map(|n| middle + (first + f64::from(n)) * TAU)
-        .take_while(|middle| middle - half <= greatest)
-        .map(|middle| [middle - half, middle + half])
+    turns(least - middle - half, greatest - middle + half)
+        .map(|turn| [middle + turn - half, middle + turn + half])
         .collect()
 }
 
@@ -62,8 +59,8 @@ fn dexterous(arc: &Arc<'_>, [from, to]: [f64; 2], [low, high]: [f64; 2], found: 
 
 /// The parts of an interval of beta on which alpha is within a range.
 fn inclined(circle: Circle<'_>, ends: [f64; 2], [least, greatest]: [f64; 2]) -> Vec<[f64; 2]> {
-    // In the working mode the platform is inclined by less than a quarter of a turn.
-    if least <= -FRAC_PI_2 && greatest >= FRAC_PI_2 {
+    let [low, high] = circle.piece.alphas;
+    if least <= low && high <= greatest {
         return vec![ends];
     }
     let limits = Inclination { circle, least, greatest };

@@ -4,11 +4,12 @@
 //! at (V1, Z - dt) = (-r sin psi, r cos psi) comes to beta where theta1 = beta - psi, by Eq (26), and
 //! then phi1 = alpha - beta + psi.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use super::super::domain::{Binding, stroke_binding};
 use super::super::path::{Limits, intervals};
 use super::section::{Piece, Setting};
+use crate::angle::sin_cos;
 
 /// Looks along a circle, at least.
 const LOOKS: f64 = 24.0;
@@ -42,7 +43,9 @@ pub(super) fn arcs<'a>(setting: &'a Setting<'a>, section: &'a [Piece], radius: f
     for piece in section {
         let circle = Circle { setting, piece, radius };
         for (window, bindings) in windows(piece, radius) {
-            circle.within(window, bindings, &mut found);
+            if circle.meets(window) {
+                circle.within(window, bindings, &mut found);
+            }
         }
     }
     found
@@ -64,6 +67,16 @@ fn windows(piece: &Piece, radius: f64) -> Vec<([f64; 2], [Option<Binding>; 2])> 
 }
 
 impl<'a> Circle<'a> {
+    /// Whether a window is anywhere as high as the piece.
+    fn meets(self, [from, to]: [f64; 2]) -> bool {
+        // Between its ends zeta has no extremes but at the top and the bottom of the circle.
+        let crosses = |angle: f64| from <= angle && angle <= to;
+        let ends = [from, to].map(|beta| -self.radius * beta.cos());
+        let highest = if crosses(0.0) { -self.radius } else { ends[0].min(ends[1]) };
+        let lowest = if crosses(PI) || crosses(-PI) { self.radius } else { ends[0].max(ends[1]) };
+        highest <= self.piece.zetas[1] && lowest >= self.piece.zetas[0]
+    }
+
     /// The arcs of a window on which the strokes are kept.
     fn within(self, window: [f64; 2], bindings: [Option<Binding>; 2], found: &mut Vec<Arc<'a>>) {
         for cuts in intervals(&Strokes(self), window, looks(window)) {
@@ -81,20 +94,25 @@ impl<'a> Circle<'a> {
     /// alpha at an angle.
     #[inline]
     pub(super) fn alpha(&self, beta: f64) -> f64 {
-        self.setting.column(self.piece, self.radius * beta.sin()).alpha()
+        self.piece.values(self.radius * beta.sin())[3]
     }
 }
 
 const SLIDERS: [u8; 3] = [0, 1, 2];
 
 /// Looks for an interval of the angle.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
 pub(super) fn looks([from, to]: [f64; 2]) -> u32 {
-    let count = (LOOKS * (to - from) / (2.0 * PI)).ceil().max(LEAST).min(4.0 * LOOKS);
-    // Of a positive number of this size nothing is lost.
-    (1..).find(|&n| f64::from(n) >= count).unwrap_or(1)
+    (LOOKS * (to - from) / TAU).ceil().clamp(LEAST, 4.0 * LOOKS) as u32
 }
 
-impl<'a> Arc<'a> {
+/// Whole turns between two angles.
+pub(super) fn turns(from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let first = (from / TAU).ceil() * TAU;
+    std::iter::successors(Some(first), |turn| Some(turn + TAU)).take_while(move |turn| *turn <= to)
+}
+
+impl Arc<'_> {
     /// The arc, cut where the part's map folds.
     fn unfolded(self, found: &mut Vec<Self>) {
         for folded in [false, true] {
@@ -119,10 +137,10 @@ struct Strokes<'a>(Circle<'a>);
 impl Strokes<'_> {
     #[inline]
     fn rho(&self, beta: f64) -> [f64; 3] {
-        let Circle { setting, piece, radius } = self.0;
-        let column = setting.column(piece, radius * beta.sin());
-        let z = setting.z(&column, -radius * beta.cos());
-        column.f.map(|f| z - f)
+        let Circle { piece, radius, .. } = self.0;
+        let (s, c) = sin_cos(beta);
+        let [f1, f2, f3, _] = piece.values(radius * s);
+        [f1, f2, f3].map(|f| -radius * c - f)
     }
 }
 
@@ -151,10 +169,7 @@ impl Limits<1> for Upright<'_> {
     }
 
     fn one(&self, _: usize, beta: f64) -> f64 {
-        let Circle { setting, piece, radius } = self.0;
-        let column = setting.column(piece, radius * beta.sin());
-        let [_, rate] = column.angle_rates(setting.machine);
-        let zeta = -radius * beta.cos();
-        self.1 * (1.0 + rate * zeta / setting.eta_rate(&column))
+        let Circle { piece, radius, .. } = self.0;
+        self.1 * (1.0 - piece.alpha_rate(radius * beta.sin()) * radius * beta.cos())
     }
 }

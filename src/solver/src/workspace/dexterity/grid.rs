@@ -107,10 +107,8 @@ fn extent(
 /// The ranges of V1 and Z of a piece's outline, turned through the range of phi1.
 fn flat_extent(setting: &Setting<'_>, piece: &Piece, [from, to]: [f64; 2]) -> [[f64; 2]; 2] {
     let (mut v1, mut z) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
-    for place in piece.places() {
-        let column = setting.domain.column(place);
-        let (eta, alpha) = (setting.eta(&column), column.alpha());
-        for zeta in setting.zetas(&column) {
+    for (eta, alpha, zetas) in piece.outline() {
+        for zeta in zetas {
             let (radius, beta) = (eta.hypot(zeta), eta.atan2(-zeta));
             // psi = beta - alpha + phi1: the arc's ends, and the axes that it crosses.
             let [first, last] = [from, to].map(|phi1| beta - alpha + phi1);

@@ -1,11 +1,9 @@
 //! The inclinations with which one point is reached.
 
-use std::f64::consts::TAU;
-
 use super::super::domain::Binding;
 use super::super::request::WorkspaceError;
 use super::DexterityRequest;
-use super::arc::{Arc, arcs};
+use super::arc::{Arc, arcs, turns};
 use super::section::{Piece, Setting};
 use crate::limit::{Constraint, DOMAIN, Element};
 use crate::machine::Machine;
@@ -62,7 +60,7 @@ pub(super) fn at(
     if !section.is_empty() {
         for arc in arcs(setting, section, radius) {
             turned(&arc, psi, &mut |ends, bindings| {
-                inclinations(&arc, psi, range, ends, bindings, &mut found)
+                inclinations(&arc, psi, range, ends, bindings, &mut found);
             });
         }
     }
@@ -85,12 +83,6 @@ fn turned(arc: &Arc<'_>, psi: f64, part: &mut dyn FnMut([f64; 2], [Option<Bindin
             part([start, end], [first, last]);
         }
     }
-}
-
-/// Whole turns between two angles.
-fn turns(from: f64, to: f64) -> impl Iterator<Item = f64> {
-    let first = (from / TAU).ceil();
-    (0..).map(move |n| (first + f64::from(n)) * TAU).take_while(move |turn| *turn <= to)
 }
 
 /// phi1 along a part of an arc, within the range.

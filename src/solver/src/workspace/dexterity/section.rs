@@ -11,12 +11,12 @@ use crate::machine::Machine;
 
 /// Segments of a line x = const on which its part in the plane domain is looked for.
 const SEGMENTS: u32 = 53;
-/// Looks along a piece, from which eta is inverted.
-const LOOKS: u32 = 16;
-/// Newton steps of that inversion; two or three are usual.
-const STEPS: usize = 30;
-/// Precision of the inversion, relative to the machine.
-const PRECISE: f64 = 1e-14;
+/// Looks along a piece at first, and at most.
+const LOOKS: [u32; 2] = [64, 1_024];
+/// What the cubics between looks may be off, mm; of alpha, times the machine's size.
+const PRECISE: f64 = 1e-7;
+/// Room around the values looked at, as a part of their range.
+const ROOM: f64 = 0.1;
 /// Jacobian of the part's map below which a piece is looked at for folds.
 const UPRIGHT: f64 = 0.05;
 /// Any tolerance: a domain is not drawn here.
@@ -36,14 +36,31 @@ pub(super) struct Setting<'a> {
 /// A part of the domain's line x = const on which eta goes one way with y.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    x: f64,
-    /// (eta, y), eta ascending.
-    looks: Vec<[f64; 2]>,
+    /// eta ascending.
+    looks: Vec<Look>,
+    /// Least and greatest alpha looked at, with room for what lies between the looks.
+    pub(super) alphas: [f64; 2],
+    /// Least and greatest zeta looked at, with the same room.
+    pub(super) zetas: [f64; 2],
     /// What ends the domain at the least and the greatest eta.
     pub(super) bindings: [Option<Binding>; 2],
     /// Whether the part's map may fold.
     pub(super) folds: bool,
 }
+
+/// A place of a piece.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    eta: f64,
+    values: Values,
+    /// Their derivatives by eta.
+    slopes: Values,
+    /// zeta of the column's ends.
+    zetas: [f64; 2],
+}
+
+/// zeta - rho of the three sliders, mm, and alpha.
+pub(super) type Values = [f64; 4];
 
 impl<'a> Setting<'a> {
     pub(super) fn new(machine: &'a Machine, request: &DexterityRequest) -> Self {
@@ -72,14 +89,14 @@ impl<'a> Setting<'a> {
     /// An interval of y, cut where the tool's map folds.
     fn pieces(&self, x: f64, ends: [Cut; 2], pieces: &mut Vec<Piece>) {
         let whole = self.piece(x, ends);
-        let rising = whole.looks.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+        let rising = whole.looks.windows(2).all(|pair| pair[0].eta < pair[1].eta);
         if rising {
             pieces.extend((whole.looks.len() > 1).then_some(whole));
             return;
         }
         for sign in [1.0, -1.0] {
             let turning = Turning { setting: self, x, sign };
-            for mut cuts in intervals(&turning, ends.map(|end| end.t), LOOKS) {
+            for mut cuts in intervals(&turning, ends.map(|end| end.t), LOOKS[0]) {
                 for (cut, end) in cuts.iter_mut().zip(&ends) {
                     cut.limit = if cut.limit.is_none() { end.limit } else { None };
                 }
@@ -94,21 +111,57 @@ impl<'a> Setting<'a> {
     }
 
     fn piece(&self, x: f64, [low, high]: [Cut; 2]) -> Piece {
-        let step = (high.t - low.t) / f64::from(LOOKS);
-        let mut folds = false;
-        let looks = (0..=LOOKS)
-            .map(|n| {
-                let y = if n == LOOKS { high.t } else { low.t + step * f64::from(n) };
-                let column = self.domain.column([x, y]);
-                let [_, rate] = column.angle_rates(self.machine);
-                let da = self.machine.table().da;
-                folds |= self.domain.ends(&column).iter().any(|z| 1.0 + rate * (z - da) < UPRIGHT);
-                [self.eta(&column), y]
-            })
-            .collect();
+        let looks = self.looks(x, [low.t, high.t]);
+        let nothing = [f64::INFINITY, f64::NEG_INFINITY];
+        let (mut folds, mut zetas, mut alphas) = (false, nothing, nothing);
+        for look in &looks {
+            let (alpha, rate) = (look.values[3], look.slopes[3]);
+            alphas = [alphas[0].min(alpha), alphas[1].max(alpha)];
+            zetas = [zetas[0].min(look.zetas[0]), zetas[1].max(look.zetas[1])];
+            folds |= look.zetas.iter().any(|zeta| 1.0 + rate * zeta < UPRIGHT);
+        }
+        let [alphas, zetas] = [alphas, zetas].map(with_room);
         let limit = |cut: Cut| cut.limit.and_then(|limit| u8::try_from(limit).ok());
         let name = |cut: Cut| limit(cut).map(|limit| self.domain.binding_at(limit, [x, cut.t]));
-        Piece { x, looks, bindings: [name(low), name(high)], folds }
+        Piece { looks, alphas, zetas, bindings: [name(low), name(high)], folds }
+    }
+
+    /// Looks so dense that cubics between them are precise half-way.
+    fn looks(&self, x: f64, [low, high]: [f64; 2]) -> Vec<Look> {
+        let mut count = LOOKS[0];
+        loop {
+            let at = |n: u32| low + (high - low) * (f64::from(n) / f64::from(2 * count));
+            let all: Vec<Look> = (0..=2 * count).map(|n| self.look([x, at(n)])).collect();
+            let looks: Vec<Look> = all.iter().copied().step_by(2).collect();
+            let precise = |[a, middle, b]: [&Look; 3]| {
+                let cubic = a.cubic(b, middle.eta);
+                let off = |n: usize| (cubic[n] - middle.values[n]).abs();
+                let turned = off(3) * self.machine.derived.scale;
+                off(0).max(off(1)).max(off(2)).max(turned) <= PRECISE
+            };
+            let enough = all.windows(3).step_by(2).all(|three| precise([&three[0], &three[1], &three[2]]));
+            if enough || count >= LOOKS[1] {
+                return looks;
+            }
+            count *= 2;
+        }
+    }
+
+    fn look(&self, at: [f64; 2]) -> Look {
+        let column = self.domain.column(at);
+        let rates = column.angle_rates(self.machine);
+        let drops = column.drop_rates(self.machine, rates);
+        let inverse = 1.0 / self.eta_rate(&column);
+        let up = self.length * column.c - self.machine.table().da;
+        let up_rate = -self.length * column.s * rates[1];
+        let [f1, f2, f3] = column.f.map(|f| f + up);
+        let [d1, d2, d3] = drops.map(|rate| (rate[1] + up_rate) * inverse);
+        Look {
+            eta: self.eta(&column),
+            values: [f1, f2, f3, column.alpha()],
+            slopes: [d1, d2, d3, rates[1] * inverse],
+            zetas: self.domain.ends(&column).map(|z| z + up),
+        }
     }
 
     #[inline]
@@ -122,57 +175,65 @@ impl<'a> Setting<'a> {
         let [_, rate] = column.angle_rates(self.machine);
         1.0 - self.length * column.c * rate
     }
-
-    /// z of the platform at a column for a tool at zeta.
-    #[inline]
-    pub(super) fn z(&self, column: &Column, zeta: f64) -> f64 {
-        zeta + self.machine.table().da - self.length * column.c
-    }
-
-    /// zeta of the lower and the upper end of a column (z points down).
-    pub(super) fn zetas(&self, column: &Column) -> [f64; 2] {
-        self.domain.ends(column).map(|z| z - self.machine.table().da + self.length * column.c)
-    }
-
-    /// The column of a piece at which the tool is at eta: Newton's method within a bracket.
-    #[inline]
-    pub(super) fn column(&self, piece: &Piece, eta: f64) -> Column {
-        let last = piece.looks.len() - 1;
-        let next = piece.looks.partition_point(|look| look[0] <= eta).clamp(1, last);
-        let [[from, a], [to, b]] = [piece.looks[next - 1], piece.looks[next]];
-        let part = if to > from { ((eta - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
-        let mut y = a + part * (b - a);
-        let (mut low, mut high) = (a.min(b), a.max(b));
-        let precise = PRECISE * self.machine.derived.scale;
-        for _ in 0..STEPS {
-            let column = self.domain.column([piece.x, y]);
-            let off = self.eta(&column) - eta;
-            if off.abs() <= precise || high - low <= precise {
-                return column;
-            }
-            if (off > 0.0) == (b > a) {
-                high = y
-            } else {
-                low = y
-            }
-            let next = y - off / self.eta_rate(&column);
-            y = if next > low && next < high { next } else { 0.5 * (low + high) };
-        }
-        self.domain.column([piece.x, y])
-    }
 }
 
 impl Piece {
     /// Least and greatest eta.
     pub(super) fn range(&self) -> [f64; 2] {
-        let end = |look: Option<&[f64; 2]>| look.map_or(0.0, |look| look[0]);
+        let end = |look: Option<&Look>| look.map_or(0.0, |look| look.eta);
         [end(self.looks.first()), end(self.looks.last())]
     }
 
-    /// The places that have been looked at, in the plane.
-    pub(super) fn places(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.looks.iter().map(|look| [self.x, look[1]])
+    /// The values at eta.
+    #[inline]
+    pub(super) fn values(&self, eta: f64) -> Values {
+        let [a, b] = self.around(eta);
+        a.cubic(b, eta)
     }
+
+    /// d(alpha)/d(eta).
+    pub(super) fn alpha_rate(&self, eta: f64) -> f64 {
+        let [a, b] = self.around(eta);
+        let (width, rise) = (b.eta - a.eta, b.values[3] - a.values[3]);
+        let t = (eta - a.eta) / width;
+        let (first, second) = (a.slopes[3], b.slopes[3]);
+        (1.0 - t) * (1.0 - 3.0 * t) * first
+            + t * (3.0 * t - 2.0) * second
+            + 6.0 * t * (1.0 - t) * rise / width
+    }
+
+    #[inline]
+    fn around(&self, eta: f64) -> [&Look; 2] {
+        let next = self.looks.partition_point(|look| look.eta <= eta).clamp(1, self.looks.len() - 1);
+        [&self.looks[next - 1], &self.looks[next]]
+    }
+
+    /// eta, alpha and the ends' zetas at each look.
+    pub(super) fn outline(&self) -> impl Iterator<Item = (f64, f64, [f64; 2])> {
+        self.looks.iter().map(|look| (look.eta, look.values[3], look.zetas))
+    }
+}
+
+impl Look {
+    /// The values of the cubics between two looks, at eta.
+    #[inline]
+    fn cubic(&self, next: &Self, eta: f64) -> Values {
+        let width = next.eta - self.eta;
+        let t = ((eta - self.eta) / width).clamp(0.0, 1.0);
+        let rest = 1.0 - t;
+        let mut values = self.values;
+        for (n, value) in values.iter_mut().enumerate() {
+            let rise = next.values[n] - self.values[n];
+            let (first, second) = (self.slopes[n] * width - rise, next.slopes[n] * width - rise);
+            *value += t * (rise + rest * (rest * first - t * second));
+        }
+        values
+    }
+}
+
+fn with_room([low, high]: [f64; 2]) -> [f64; 2] {
+    let room = ROOM * (high - low);
+    [low - room, high + room]
 }
 
 /// The sign of d(eta)/dy along a line.

@@ -18,9 +18,9 @@ use crate::machine::Machine;
 const SECTIONS: u32 = 96;
 /// Panels along x and along the radius, halved where they have to be.
 const PANELS: [u32; 2] = [8, 4];
-const DEPTH: [u32; 2] = [5, 7];
+const DEPTH: [u32; 2] = [2, 6];
 /// Aim of the relative error.
-const ACCURACY: f64 = 1e-5;
+const ACCURACY: f64 = 5e-4;
 /// Errors are given larger than they are estimated.
 const SAFETY: f64 = 2.0;
 /// Halvings of the place where the set begins or ends along x.
@@ -141,7 +141,7 @@ impl Work<'_> {
         let mut folded = false;
         let whole = rule([a, b], |t| {
             let weight = 6.0 * width * t * (1.0 - t);
-            let share = allowed.map(|allowed| 0.1 * allowed / (b - a) / weight);
+            let share = allowed.map(|allowed| 0.3 * allowed / (b - a) / weight);
             let (mut area, fold) = self.area(range[0] + width * t * t * (3.0 - 2.0 * t), &share)?;
             folded |= fold;
             area.value = area.value.map(|value| value * weight);
@@ -162,7 +162,7 @@ impl Work<'_> {
     fn area(&self, x: f64, allowed: &[f64; 2]) -> Result<(Integral<2>, bool), WorkspaceError> {
         let section = self.setting.section(x);
         let mut sum = Integral::ZERO;
-        let Some([least, greatest]) = self.radii(&section) else { return Ok((sum, false)) };
+        let Some([least, greatest]) = radii(&section) else { return Ok((sum, false)) };
         let step = (greatest - least) / f64::from(PANELS[1]);
         let allowed = allowed.map(|allowed| allowed / f64::from(PANELS[1]));
         for panel in 0..PANELS[1] {
@@ -192,28 +192,20 @@ impl Work<'_> {
         sum.add(&self.ring(section, [middle, radii[1]], &allowed, depth - 1)?);
         Ok(sum)
     }
+}
 
-    /// The least and the greatest distance of a section's outline from the axis, and some room.
-    fn radii(&self, section: &[Piece]) -> Option<[f64; 2]> {
-        let mut found: Option<[f64; 2]> = None;
-        for piece in section {
-            let mut zetas = [f64::INFINITY, f64::NEG_INFINITY];
-            for place in piece.places() {
-                let column = self.setting.domain.column(place);
-                let [low, high] = self.setting.zetas(&column);
-                zetas = [zetas[0].min(low), zetas[1].max(high)];
-            }
-            // Of the box around the piece: the outline may bulge between the looks.
-            let room = 0.02 * (zetas[1] - zetas[0]);
-            let [low, high] = [zetas[0] - room, zetas[1] + room];
-            let [from, to] = piece.range();
-            let beside = |[low, high]: [f64; 2]| f64::max(0.0, f64::max(low, -high));
-            let far = |[low, high]: [f64; 2]| f64::max(low.abs(), high.abs());
-            let least = beside([from, to]).hypot(beside([low, high]));
-            let greatest = far([from, to]).hypot(far([low, high]));
-            let [a, b] = found.unwrap_or([least, greatest]);
-            found = Some([a.min(least), b.max(greatest)]);
-        }
-        found
+/// The least and the greatest distance of a section's outline from the axis, and some room.
+fn radii(section: &[Piece]) -> Option<[f64; 2]> {
+    let mut found: Option<[f64; 2]> = None;
+    for piece in section {
+        let [low, high] = piece.zetas;
+        let [from, to] = piece.range();
+        let beside = |[low, high]: [f64; 2]| f64::max(0.0, f64::max(low, -high));
+        let far = |[low, high]: [f64; 2]| f64::max(low.abs(), high.abs());
+        let least = beside([from, to]).hypot(beside([low, high]));
+        let greatest = far([from, to]).hypot(far([low, high]));
+        let [a, b] = found.unwrap_or([least, greatest]);
+        found = Some([a.min(least), b.max(greatest)]);
     }
+    found
 }

@@ -1,0 +1,88 @@
+//! A checked question about dexterity.
+
+use std::sync::Arc;
+
+use verne_solver::workspace::dexterity::DexterityRequest;
+
+use crate::error::Error;
+use crate::faults::{Faults, is_angle};
+use crate::registry::{Published, Registry};
+use crate::result_id::ResultId;
+use crate::wire::degrees::from_degrees;
+use crate::wire::dexterity::{CanonicalDexterity, DexterityBody, Inclinations};
+
+use super::workspace_question::longest;
+
+/// Finest and coarsest grid, mm.
+const CELLS: [f64; 2] = [1.0, 1000.0];
+
+/// Most points of a grid: their intervals are a file of some 50 MB then.
+pub(super) const POINTS: usize = 2_000_000;
+
+/// About the seconds that a point takes.
+const POINT_COST: f64 = 1e-4;
+
+/// Changes when the bytes do that the same question is answered with.
+const LAYOUT: &[u8] = b"verne dexterity 1";
+
+/// A question about dexterity that has an answer.
+#[derive(Clone, Debug)]
+pub(crate) struct DexterityQuestion {
+    /// The machine.
+    pub published: Arc<Published>,
+    /// What is asked.
+    pub request: CanonicalDexterity,
+    /// The answer's id.
+    pub id: ResultId,
+}
+
+impl DexterityQuestion {
+    /// Checks a request.
+    pub(crate) fn new(asked: &DexterityBody, machines: &Registry) -> Result<Self, Error> {
+        let mut faults = Faults::default();
+        faults.tool_length(asked.tool_length);
+        faults.angle("/phi2", Some(asked.phi2));
+        let Inclinations { from, to } = asked.phi1;
+        faults.angle("/phi1/from", Some(from));
+        faults.angle("/phi1/to", Some(to));
+        if is_angle(from) && is_angle(to) && !(0.0..=360.0).contains(&(to - from)) {
+            faults.add("/phi1", "must run from the lesser angle to the greater, by at most 360 degrees");
+        }
+        let [finest, coarsest] = CELLS;
+        if !(finest..=coarsest).contains(&asked.cell) {
+            faults.add("/cell", format!("must be a number from {finest} to {coarsest} mm"));
+        }
+        let resolved = machines.resolve(&asked.machine);
+        faults.into_result()?;
+        let request = CanonicalDexterity {
+            tool_length: asked.tool_length + 0.0,
+            phi1: Inclinations { from: from + 0.0, to: to + 0.0 },
+            phi2: asked.phi2 + 0.0,
+            cell: asked.cell,
+        };
+        Ok(Self::of(resolved?, request))
+    }
+
+    /// A question that was checked before.
+    pub(crate) fn of(published: Arc<Published>, request: CanonicalDexterity) -> Self {
+        let CanonicalDexterity { tool_length, phi1, phi2, cell } = request;
+        let numbers = [tool_length, phi1.from, phi1.to, phi2, cell];
+        Self { id: ResultId::of(LAYOUT, &published, numbers), published, request }
+    }
+
+    /// Estimated work, seconds of one core.
+    pub(crate) fn cost(&self) -> f64 {
+        POINT_COST * (longest(self.published.machine.data()) / self.request.cell).powi(3)
+    }
+}
+
+impl From<&CanonicalDexterity> for DexterityRequest {
+    fn from(asked: &CanonicalDexterity) -> Self {
+        Self {
+            tool_length: asked.tool_length,
+            phi2: from_degrees(asked.phi2),
+            phi1: [asked.phi1.from, asked.phi1.to].map(from_degrees),
+            cell: asked.cell,
+        }
+    }
+}

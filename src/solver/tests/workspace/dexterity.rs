@@ -1,0 +1,196 @@
+//! Grids, regions and volumes of dexterity against membership, measure and each other.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use verne_solver::Machine;
+use verne_solver::workspace::dexterity::{
+    Dexterity, DexterityRequest, Grid, Region, dexterity, merge, orientations, slab, volumes,
+};
+use verne_solver::workspace::{
+    Kind, Observer, Request, Surface, Unobserved, Volume, WorkspaceError, contains, measure,
+};
+
+use crate::machines::{changed, others};
+use crate::topology::Topology;
+
+fn asked(from: f64, to: f64, cell: f64) -> DexterityRequest {
+    DexterityRequest { tool_length: 80.0, phi2: 0.3, phi1: [from, to], cell }
+}
+
+fn computed(machine: &Machine, request: &DexterityRequest) -> Dexterity {
+    dexterity(machine, request, &Unobserved).unwrap()
+}
+
+fn value(volume: Volume) -> [f64; 2] {
+    let Volume::Value { value, error } = volume else { panic!("folded") };
+    [value, error]
+}
+
+/// The mesh as a surface, to be looked at.
+fn surface(region: &Region) -> Surface {
+    let binding = verne_solver::workspace::Binding {
+        constraint: verne_solver::Constraint::Stroke,
+        element: verne_solver::Element::Platform,
+    };
+    Surface {
+        positions: region.positions.clone(),
+        triangles: region.triangles.clone(),
+        bindings: vec![binding; region.triangles.len()],
+    }
+}
+
+/// With one inclination asked, both regions are the part's workspace for it.
+#[test]
+fn of_one_inclination_is_the_workspace() {
+    let mut machines = vec![Machine::verne(), changed(|data| data.limits.tilt = [-0.2, 0.6])];
+    machines.extend(others().into_iter().map(|(_, machine)| machine).take(4));
+    for machine in machines {
+        let request = asked(0.25, 0.25, 60.0);
+        let workspace =
+            Request { kind: Kind::Part, tool_length: 80.0, phi1: 0.25, phi2: 0.3, tolerance: 1.0 };
+        let answer = measure(&machine, &workspace, &Unobserved).unwrap();
+        let [exact, bound] = value(answer.volume);
+        let found = computed(&machine, &request);
+        for region in [&found.reachable, &found.dexterous] {
+            let [volume, error] = value(region.volume);
+            assert!((volume - exact).abs() <= error + bound, "{volume} ± {error}, {exact} ± {bound}");
+            assert!(error < 2e-3 * exact, "{error} of {exact}");
+        }
+        let nodes = nodes(&found.grid);
+        let members = contains(&machine, &workspace, &nodes, &Unobserved).unwrap();
+        for (n, member) in members.iter().enumerate() {
+            let [from, to] = [0, 1].map(|end| found.offsets[n + end] as usize);
+            let near = member.margin.is_some_and(|margin| margin.value.abs() < 1e-6);
+            assert!(near || (from < to) == member.inside, "{:?} {member:?}", nodes[n]);
+        }
+    }
+}
+
+fn nodes(grid: &Grid) -> Vec<[f64; 3]> {
+    let [a, b, c] = grid.counts;
+    let all = (0..a).flat_map(|i| (0..b).flat_map(move |j| (0..c).map(move |k| [i, j, k])));
+    all.map(|number| grid.in_part_frame(grid.node(number))).collect()
+}
+
+#[test]
+fn nodes_have_their_own_orientations() {
+    let machine = Machine::verne();
+    let request = asked(-1.2, 1.0, 70.0);
+    let found = computed(&machine, &request);
+    let nodes = nodes(&found.grid);
+    assert_eq!(found.offsets.len(), nodes.len() + 1);
+    for (n, point) in nodes.iter().enumerate().step_by(7) {
+        let alone = orientations(&machine, *point, request.phi2, request.tool_length, request.phi1).unwrap();
+        let [from, to] = [0, 1].map(|end| found.offsets[n + end] as usize);
+        let intervals = &found.intervals[from..to];
+        assert_eq!(alone.len(), intervals.len(), "{point:?}");
+        for (alone, interval) in alone.iter().zip(intervals) {
+            assert!((0..2).all(|end| (alone.ends[end] - interval[end]).abs() < 1e-8));
+        }
+    }
+}
+
+/// Wider ranges make more reachable and less dexterous; the dexterous is reachable.
+#[test]
+fn regions_nest() {
+    let machine = Machine::verne();
+    let ranges = [[-0.1, 0.1], [-0.3, 0.3], [-0.6, 0.6]];
+    let found = ranges.map(|[from, to]| volumes(&machine, &asked(from, to, 50.0), &Unobserved).unwrap());
+    let sizes = found.map(|pair| pair.map(|volume| value(volume)[0]));
+    assert!(sizes.iter().all(|[reachable, dexterous]| dexterous <= reachable), "{sizes:?}");
+    assert!(sizes.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] > pair[1][1]), "{sizes:?}");
+}
+
+#[test]
+fn surfaces_are_closed_and_of_the_right_volume() {
+    for machine in [Machine::verne(), changed(|data| data.limits.stroke = [[100.0, 400.0]; 3])] {
+        let found = computed(&machine, &asked(-0.2, 0.3, 40.0));
+        for region in [&found.reachable, &found.dexterous] {
+            let mesh = surface(region);
+            let topology = Topology::of(&mesh);
+            assert!(topology.is_manifold() && topology.components > 0, "{topology:?}");
+            let [volume, _] = value(region.volume);
+            assert!((mesh.volume() / volume - 1.0).abs() < 0.05, "{} {volume}", mesh.volume());
+        }
+    }
+}
+
+#[test]
+fn slabs_and_threads_do_not_matter() {
+    let machine = Machine::verne();
+    let request = asked(-0.3, 0.4, 80.0);
+    let whole = computed(&machine, &request);
+    let grid = Grid::new(&machine, &request, &Unobserved).unwrap();
+    let cuts = [0, 3, 4, grid.counts[0]];
+    let mut slabs: Vec<_> = cuts
+        .windows(2)
+        .map(|ends| slab(&machine, &request, &grid, ends[0]..ends[1], &Unobserved).unwrap())
+        .collect();
+    slabs.rotate_left(1);
+    let volumes = [whole.reachable.volume, whole.dexterous.volume];
+    assert!(merge(&request, &grid, slabs.clone(), volumes, &Unobserved).unwrap() == whole);
+    slabs.pop();
+    assert_eq!(merge(&request, &grid, slabs, volumes, &Unobserved).unwrap_err(), WorkspaceError::Open);
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert!(pool.install(|| computed(&machine, &request)) == whole);
+    }
+}
+
+#[test]
+fn nothing_is_an_answer() {
+    let machine = changed(|data| data.limits.rotary = [-0.1, 0.1]);
+    let found = computed(&machine, &asked(-0.2, 0.2, 50.0));
+    assert_eq!(found.grid.nodes(), 0);
+    assert_eq!(found.offsets, [0]);
+    assert_eq!(value(found.reachable.volume), [0.0; 2]);
+    assert!(found.reachable.triangles.is_empty() && found.dexterous.positions.is_empty());
+}
+
+#[test]
+fn too_much_is_refused() {
+    let machine = Machine::verne();
+    let answer = Grid::new(&machine, &asked(-0.2, 0.2, 1.0), &Unobserved);
+    assert!(matches!(answer, Err(WorkspaceError::TooManyNodes { nodes }) if nodes > 2e8), "{answer:?}");
+    for (field, request) in [
+        ("cell", asked(0.0, 0.1, 0.0)),
+        ("phi1", asked(0.1, 0.0, 10.0)),
+        ("phi1", asked(0.0, 7.0, 10.0)),
+        ("phi2", DexterityRequest { phi2: f64::NAN, ..asked(0.0, 0.1, 10.0) }),
+    ] {
+        let answer = dexterity(&machine, &request, &Unobserved);
+        assert_eq!(answer.unwrap_err(), WorkspaceError::OutOfDomain { field });
+    }
+}
+
+/// Looks until the end, or that end after so many.
+struct Looks {
+    left: AtomicUsize,
+    count: AtomicUsize,
+}
+
+impl Observer for Looks {
+    fn progress(&self, part: f64) {
+        assert!((0.0..=1.0).contains(&part));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.count.fetch_add(1, Ordering::Relaxed);
+        self.left.fetch_sub(1, Ordering::Relaxed) <= 1
+    }
+}
+
+/// There is a look at every node, and any of them ends the work.
+#[test]
+fn can_be_cancelled() {
+    let machine = Machine::verne();
+    let request = asked(-0.1, 0.1, 90.0);
+    let looks = |left: usize| Looks { left: AtomicUsize::new(left), count: AtomicUsize::new(0) };
+    let all = looks(usize::MAX);
+    let found = dexterity(&machine, &request, &all).unwrap();
+    let all = all.count.into_inner();
+    assert!(all > found.grid.nodes());
+    for left in [1, 100, all / 3, all / 2, all - 2] {
+        assert_eq!(dexterity(&machine, &request, &looks(left)).unwrap_err(), WorkspaceError::Cancelled);
+    }
+}
