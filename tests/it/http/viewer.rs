@@ -14,9 +14,9 @@ async fn the_root_is_the_viewer_or_says_how_to_get_it() {
     } else {
         assert_eq!(page.headers[header::CONTENT_TYPE], "text/html; charset=utf-8");
         let service = service().await;
-        let again =
-            get_from(&service, "/", &[(header::IF_NONE_MATCH, page.headers[header::ETAG].to_str().unwrap())]);
-        assert_eq!(again.await.status, StatusCode::NOT_MODIFIED);
+        let tag = page.headers[header::ETAG].to_str().unwrap();
+        let again = get_from(&service, "/", &[(header::IF_NONE_MATCH, tag)]).await;
+        assert_eq!(again.status, StatusCode::NOT_MODIFIED);
         let assets = text.split('"').filter_map(|word| word.strip_prefix("./")).collect::<Vec<_>>();
         assert!(assets.len() >= 3, "{text}");
         for asset in assets {
