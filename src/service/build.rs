@@ -1,7 +1,8 @@
 //! Builds the viewer with npm into OUT_DIR, where the crate embeds it from.
 //!
-//! Without Node the service is built all the same, and says at `/` how to get the viewer; `VERNE_VIEWER=require` makes
-//! a viewer that cannot be built an error. `VERNE_VIEWER=skip` does not try.
+//! Without Node the service is built all the same, and says at `/` how to get the viewer. Cargo does not notice when Node
+//! is installed then: a script that ran at every build until it is would link the binary anew every time.
+//! `VERNE_VIEWER=require` makes a viewer that cannot be built an error; `VERNE_VIEWER=skip` does not try.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -16,8 +16,9 @@ use crate::error::Error;
 #[folder = "$OUT_DIR/viewer"]
 struct Files;
 
-const NO_VIEWER: &str = "This verne was built without its viewer: install Node.js 20.19 or later with npm and build \
-                         it again (cargo build --release); the API is complete, see /docs.\n";
+const NO_VIEWER: &str = "This verne was built without its viewer, which needs Node.js 20.19 or later with npm: install them \
+                         and run `touch src/service/build.rs && cargo build --release`; the API is complete, see \
+                         /docs.\n";
 
 /// The page and the files it loads.
 pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
