@@ -7,7 +7,10 @@ export function MachineFaults() {
   const dialog = useRef<HTMLDialogElement>(null);
   const file = rejected.value;
   useEffect(() => {
-    if (file && !dialog.current?.open) dialog.current?.showModal();
+    if (file && !dialog.current?.open) {
+      dialog.current?.showModal();
+      dialog.current?.querySelector("tr.bad")?.scrollIntoView({ block: "center" });
+    }
     if (!file) dialog.current?.close();
   }, [file]);
   return (
@@ -23,7 +26,7 @@ function Faults({ file }: { file: Rejected }) {
   return (
     <>
       <h2 id="faults">{file.file} makes no machine</h2>
-      <p>{file.summary}</p>
+      <p>{file.faults.length > 0 ? "What cannot be used is marked, with what would be." : file.summary}</p>
       {astray.map((fault) => (
         <p class="trouble" key={fault.pointer}>
           <code>{fault.pointer || "the whole file"}</code> {fault.detail}
