@@ -2,6 +2,13 @@
 
 mod bad_input;
 mod batch;
+mod jobs;
+mod jobs_cancelled;
+mod jobs_families;
+mod jobs_kept;
+mod jobs_listed;
+mod jobs_refused;
+mod jobs_stopped;
 mod kinematics;
 mod machines;
 mod part_frame;

@@ -16,7 +16,7 @@ pub trait Backend: Send + Sync {
     /// `None`: never seen, or forgotten.
     async fn get(&self, id: JobId) -> Result<Option<Job>, Unavailable>;
 
-    /// Newest first.
+    /// Newest first. Without jobs that have only ever been asked for as [parts](crate::Work::parts).
     async fn list(&self, filter: Filter) -> Result<Page, Unavailable>;
 
     /// The job as it stands, then at each change. It is no claim: it does not keep a job wanted.
@@ -92,12 +92,12 @@ impl fmt::Display for NotACursor {
 
 impl std::error::Error for NotACursor {}
 
-/// What became of jobs.
+/// What became of jobs, parts among them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// At this moment.
     pub queued: usize,
-    /// At this moment.
+    /// At this moment; without those that wait for their parts.
     pub running: usize,
     /// Calls of [`Work::run`](crate::Work::run).
     pub started: u64,

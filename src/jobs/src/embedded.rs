@@ -7,6 +7,7 @@ mod board;
 mod config;
 mod keeper;
 mod moment;
+mod parts;
 mod pools;
 mod queue;
 mod recorder;
@@ -56,13 +57,13 @@ impl Embedded {
     /// Opens, or begins, the records, and sets to work on the jobs that are left in them. Reads the whole database: not for a
     /// thread of the runtime.
     pub fn open(config: Config, work: Arc<dyn Work>) -> Result<Self, OpenError> {
-        let Opened { records, live, last_life, set_aside } =
+        let Opened { records, live, last_life, given_up, set_aside } =
             records::open(config.directory.as_deref(), config.retention, config.max_attempts)?;
         let seats = pools::seats(config.threads, config.slots)
             .map_err(|fault| OpenError::Threads(fault.to_string()))?;
         let threads = |fault: std::io::Error| OpenError::Threads(fault.to_string());
         let recorder = Recorder::start(records).map_err(threads)?;
-        let board = Board::new(Queue::new(config.rule()), seats, last_life);
+        let board = Board::new(Queue::new(config.rule()), seats, last_life, given_up);
         let keeper = Arc::new(Keeper::new(board, recorder, config, work));
         let deadlines = Arc::clone(&keeper);
         thread::Builder::new()

@@ -54,14 +54,15 @@ impl Feeder {
         self.job.borrow().clone()
     }
 
-    pub(crate) fn progress(&self, part: f64) {
+    /// Whether it is further than before.
+    pub(crate) fn progress(&self, part: f64) -> bool {
         self.progress.send_if_modified(|done| {
             let further = part >= *done + STEP;
             if further {
                 *done = part.min(1.0);
             }
             further
-        });
+        })
     }
 }
 

@@ -29,7 +29,7 @@ pub const MAX_COST: f64 = 1e6;
 pub enum State {
     /// Waits for its turn.
     Queued,
-    /// Is computed.
+    /// Is computed, or its parts are.
     Running,
     /// Its result exists.
     Succeeded,

@@ -9,12 +9,22 @@
 //! cancelled. Submitted again after its end it lives anew. A job whose process dies is run again by the next,
 //! unless it was running at so many deaths that it is likely their cause ([`Failure::TooManyAttempts`]).
 //!
+//! # Jobs of parts
+//!
+//! A job may have [parts](Work::parts): jobs of their own, shared with whoever asks for the same. When its turn comes they
+//! are submitted, no more than some hundreds at a time, and it waits for them without a thread,
+//! [running](State::Running), with the mean of their progress by cost; when all have succeeded it is the next to run,
+//! and merges. A part that fails fails it with the same failure, a part that is cancelled by name cancels it; when it
+//! ends, parts that nobody else wants are cancelled. Parts take places in the queue and wait for them, and are not
+//! [listed](Backend::list) unless somebody submits them by themselves.
+//!
 //! # Which job is next
 //!
 //! Self-clocked fair queueing (Golestani 1994): a job's tag is the greater of the virtual time and its client's last tag in
 //! the queue, plus its cost. The least tag is next; the virtual time is the greatest tag taken, but passes none
-//! that still waits. So a job of cost c waits for what runs and, of each other client, for no more than c and one job beyond
-//! it, however much they have queued. A job that several clients ask for stands where the best placed of them would have
+//! that still waits. A job's parts are tagged as if they had been submitted in its place one after the other. So a job of
+//! cost c waits for what runs and, of each other client, for no more than c and one job beyond it, however much they
+//! have queued. A job that several clients ask for stands where the best placed of them would have
 //! put it, and is charged to that one. A job that has waited longer than a set time
 //! ([`overdue`](embedded::Config::overdue)) goes before all that have not, the oldest first; so none waits for ever.
 //!

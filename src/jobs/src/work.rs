@@ -1,12 +1,22 @@
 use bytes::Bytes;
 
-use crate::JobId;
+use crate::{JobId, Submission};
 
 /// What jobs compute.
 ///
 /// A run makes its result exist somewhere else, named by the job's id, and returns nothing. It must be idempotent: after
 /// a crash, and rarely while an abandoned run still ends, the same job is run again.
 pub trait Work: Send + Sync + 'static {
+    /// The jobs whose results this one's run is merged from; none: it is run whole. Called before [`Work::run`], on such a
+    /// thread; cheap, and the same at each call. What equals a job that is there already is shared with it; the part's
+    /// client is not looked at, it is the job's. No job may come to have itself as a part, directly or through others.
+    fn parts(&self, job: &JobId, payload: &[u8]) -> Result<Vec<Submission>, Stop> {
+        let _ = (job, payload);
+        Ok(Vec::new())
+    }
+
+    /// Makes the result; of a job with parts, when all of them have succeeded.
+    ///
     /// Called on a thread of a rayon pool that is the job's own while it runs; may use rayon inside.
     fn run(&self, job: &JobId, payload: &[u8], watch: &dyn Watch) -> Result<(), Stop>;
 }

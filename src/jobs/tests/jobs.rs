@@ -10,6 +10,8 @@ mod ends;
 mod lists;
 #[path = "contract/order.rs"]
 mod order;
+#[path = "contract/parts.rs"]
+mod parts;
 #[path = "contract/watching.rs"]
 mod watching;
 
@@ -21,6 +23,8 @@ mod damage;
 mod killed;
 #[path = "embedded/lanes.rs"]
 mod lanes;
+#[path = "embedded/parts_restart.rs"]
+mod parts_restart;
 #[path = "embedded/restart.rs"]
 mod restart;
 

@@ -57,7 +57,11 @@ impl State {
         tokio::select! {
             job = claim.finished() => self.finished(question.id(), job).await.map(Obtained::Ready),
             () = tokio::time::sleep(patience.wait) => Ok(Obtained::Pending(kept(&claim))),
-            () = self.stopping.cancelled() => Err(Error::Stopping),
+            () = self.stopping.cancelled() => {
+                // The client is told that it goes on.
+                claim.keep();
+                Err(Error::Stopping)
+            }
         }
     }
 

@@ -29,7 +29,7 @@ pub enum StorageError {
 impl fmt::Display for StorageError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Results(error) => write!(f, "results cannot be kept: {error}"),
+            Self::Results(error) => error.fmt(f),
             Self::Jobs(error) => write!(f, "jobs cannot be kept: {error}"),
             Self::Lost => write!(f, "jobs cannot be kept: opening them failed"),
         }

@@ -1,16 +1,15 @@
-//! Results under their ids: entity tags, 304, ranges, single flight, ids that are not kept.
+//! Results under their ids: entity tags, 304, ranges, ids that are not kept.
 
 use axum::http::header::{
     ACCEPT, ACCEPT_ENCODING, ACCEPT_RANGES, CACHE_CONTROL, CONTENT_ENCODING, CONTENT_LENGTH, CONTENT_RANGE,
     CONTENT_TYPE, ETAG, IF_NONE_MATCH, IF_RANGE, RANGE, VARY,
 };
-use axum::http::{Method, Request, StatusCode};
+use axum::http::{Request, StatusCode};
 use axum::{Router, body::Body};
 use serde_json::json;
-use std::time::Instant;
 
 use super::workspace::ask;
-use super::{get, get_from, json_request, send_to, service};
+use super::{get, get_from, send_to, service};
 
 async fn computed() -> (Router, String) {
     let service = service().await;
@@ -128,23 +127,4 @@ async fn an_unknown_id_says_how_to_get_it() {
     get("/workspace/contains").await.assert_problem(405, "method_not_allowed");
     let accept = get_from(&service().await, &format!("/workspace/{id}"), &[(ACCEPT, "image/png")]).await;
     accept.assert_problem(406, "not_acceptable");
-}
-
-/// Sixteen times the work would take sixteen times as long on the two cores of a small machine.
-#[tokio::test(flavor = "multi_thread")]
-async fn equal_questions_at_once_are_computed_once() {
-    let question = || json_request(Method::POST, "/workspace", json!({"kind": "part", "tolerance": 0.1}));
-    let started = Instant::now();
-    send_to(service().await, question()).await;
-    let alone = started.elapsed();
-    let service = service().await;
-    let started = Instant::now();
-    let asking: Vec<_> = (0..16).map(|_| tokio::spawn(send_to(service.clone(), question()))).collect();
-    let mut bytes = Vec::new();
-    for asked in asking {
-        bytes.push(asked.await.unwrap().bytes);
-    }
-    let together = started.elapsed();
-    assert!(bytes.iter().all(|other| *other == bytes[0]));
-    assert!(together < alone * 5, "{together:?} together, {alone:?} alone");
 }

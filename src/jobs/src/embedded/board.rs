@@ -1,13 +1,14 @@
 //! What is known of the jobs that are not finished.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 use std::time::Instant;
 
 use tokio::sync::watch;
 
+use super::parts::Parts;
 use super::pools::Seat;
-use super::queue::{Lane, Queue};
+use super::queue::{Lane, Queue, Taken};
 use super::run::{Run, Told};
 use crate::feed::Feeder;
 use crate::{JobId, State, Unavailable};
@@ -23,6 +24,11 @@ pub(super) struct Entry {
     pub(super) deadline: Option<Instant>,
     pub(super) claims: usize,
     pub(super) kept: bool,
+    /// Those that wait for it as a part of them: id and life.
+    pub(super) parents: Vec<(JobId, u64)>,
+    /// It has only been asked for as a part.
+    pub(super) hidden: bool,
+    pub(super) parts: Parts,
     /// The attempt under way.
     pub(super) run: Option<Arc<Run>>,
 }
@@ -38,7 +44,7 @@ impl Entry {
     }
 
     pub(super) fn is_wanted(&self) -> bool {
-        self.claims > 0 || self.kept
+        self.claims > 0 || self.kept || !self.parents.is_empty()
     }
 }
 
@@ -49,6 +55,12 @@ pub(super) struct Board {
     pub(super) running: HashMap<u64, Arc<Run>>,
     /// Seats without a run.
     pub(super) free: Vec<Seat>,
+    /// Jobs that wait for their parts: number, and bytes of payload.
+    pub(super) split: (usize, usize),
+    /// Those of them that have parts to submit: id by life.
+    pub(super) submitting: BTreeMap<u64, JobId>,
+    /// Parts that were given up when the records were opened.
+    pub(super) given_up: HashSet<JobId>,
     /// Of jobs that go on.
     pub(super) deadlines: BTreeSet<(Instant, u64, JobId)>,
     pub(super) last_life: u64,
@@ -79,12 +91,15 @@ impl Tally {
 }
 
 impl Board {
-    pub(super) fn new(queue: Queue, free: Vec<Seat>, last_life: u64) -> Self {
+    pub(super) fn new(queue: Queue, free: Vec<Seat>, last_life: u64, given_up: HashSet<JobId>) -> Self {
         Self {
             live: HashMap::new(),
             queue,
             running: HashMap::new(),
             free,
+            split: (0, 0),
+            submitting: BTreeMap::new(),
+            given_up,
             deadlines: BTreeSet::new(),
             last_life,
             draining: false,
@@ -98,15 +113,15 @@ impl Board {
         self.live.get_mut(&id).filter(|entry| entry.life == life)
     }
 
-    /// A free seat and the life of the job to take it. The express lane is for when the main lane is taken.
-    pub(super) fn next(&mut self, now: Instant) -> Option<(Seat, u64, JobId)> {
+    /// A free seat and the job to take it. The express lane is for when the main lane is taken.
+    pub(super) fn next(&mut self, now: Instant) -> Option<(Seat, Taken)> {
         let seat = self
             .free
             .iter()
             .position(|seat| seat.lane == Lane::Main)
             .or_else(|| self.free.len().checked_sub(1))?;
-        let (life, waiting) = self.queue.take(self.free[seat].lane, now)?;
-        Some((self.free.swap_remove(seat), life, waiting.id))
+        let taken = self.queue.take(self.free[seat].lane, now)?;
+        Some((self.free.swap_remove(seat), taken))
     }
 
     pub(super) fn set_deadline(&mut self, id: JobId, life: u64, deadline: Option<Instant>) {

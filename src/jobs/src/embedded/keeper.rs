@@ -3,6 +3,7 @@
 
 mod claims;
 mod deadlines;
+mod parts;
 mod runs;
 
 use std::sync::Arc;
@@ -15,7 +16,8 @@ use tokio::sync::{Notify, watch};
 use super::Config;
 use super::board::{Board, Entry, Recorded};
 use super::moment::now;
-use super::queue::Waiting;
+use super::parts::Parts;
+use super::queue::{Tag, Waiting};
 use super::recorder::Recorder;
 use super::records::{Record, Write};
 use super::run::{End, Outcome, Told};
@@ -51,15 +53,16 @@ impl Keeper {
         }
     }
 
-    /// Takes over jobs that an earlier process left. They were promised, so they are kept.
+    /// Takes over jobs that an earlier process left. They were promised, so they are kept; of parts, the wholes will ask
+    /// for them.
     pub(super) fn resume(self: &Arc<Self>, records: Vec<Record>) {
         let mut board = self.board.lock();
         for record in records {
             let (_, recorded) = watch::channel(Some(Ok(())));
             let (id, life) = (record.job.id, record.life);
-            self.enter(&mut board, record, recorded);
+            self.enter(&mut board, record, recorded, None);
             if let Some(entry) = board.entry(id, life) {
-                entry.kept = true;
+                entry.kept = !entry.hidden;
             }
         }
         self.dispatch(&mut board);
@@ -72,12 +75,16 @@ impl Keeper {
             return Err(SubmitError::Draining);
         }
         let id = submission.id;
+        board.given_up.remove(&id);
         match board.live.get(&id) {
             Some(entry) if entry.goes_on() => {
                 let life = entry.life;
-                self.join(&mut board, life, &submission);
+                self.join(&mut board, life, &submission, None);
             }
-            _ => self.begin(&mut board, submission)?,
+            _ => {
+                self.check_room(&board, submission.payload.len())?;
+                self.begin(&mut board, submission, None);
+            }
         }
         // It is there, joined or begun.
         let entry = board.live.get_mut(&id).ok_or(SubmitError::Draining)?;
@@ -89,12 +96,20 @@ impl Keeper {
         Ok((claim, recorded))
     }
 
-    fn join(&self, board: &mut Board, life: u64, submission: &Submission) {
-        board.queue.join(life, &submission.client);
+    /// `after`: as a part, whose share begins there.
+    fn join(&self, board: &mut Board, life: u64, submission: &Submission, after: Option<Tag>) {
+        board.queue.join(life, &submission.client, after);
+        if let Some(entry) = board.entry(submission.id, life)
+            && entry.hidden
+            && after.is_none()
+        {
+            entry.hidden = false;
+            self.recorder.write(Write::Show { life }, Box::new(drop));
+        }
         let Some(deadline) = board.entry(submission.id, life).and_then(|entry| entry.deadline) else {
             return;
         };
-        match submission.deadline.and_then(after) {
+        match submission.deadline.and_then(from_now) {
             Some(later) if later <= deadline => {}
             later => {
                 self.set_deadline(board, submission.id, life, later);
@@ -104,9 +119,8 @@ impl Keeper {
         }
     }
 
-    fn begin(self: &Arc<Self>, board: &mut Board, submission: Submission) -> Result<(), SubmitError> {
+    fn begin(self: &Arc<Self>, board: &mut Board, submission: Submission, after: Option<Tag>) {
         let id = submission.id;
-        self.check_room(board, submission.payload.len())?;
         // An earlier life that has been told to stop ends here, whenever its run does.
         if let Some((life, told)) =
             board.live.get(&id).and_then(|entry| entry.told().map(|told| (entry.life, told)))
@@ -115,7 +129,8 @@ impl Keeper {
         }
         board.last_life += 1;
         let life = board.last_life;
-        let record = Record { life, deadline: submission.deadline, job: queued(submission) };
+        let hidden = after.is_some();
+        let record = Record { life, deadline: submission.deadline, hidden, job: queued(submission) };
         let (sender, recorded) = watch::channel(None);
         let keeper = Arc::clone(self);
         let reply = move |result: Result<(), _>| {
@@ -125,12 +140,11 @@ impl Keeper {
             sender.send_replace(Some(result));
         };
         self.recorder.write(Write::Submit(record.clone()), Box::new(reply));
-        self.enter(board, record, recorded);
-        Ok(())
+        self.enter(board, record, recorded, after);
     }
 
     fn check_room(&self, board: &Board, bytes: usize) -> Result<(), SubmitError> {
-        let (jobs, queued) = (board.queue.len(), board.queue.bytes());
+        let (jobs, queued) = (board.queue.len() + board.split.0, board.queue.bytes() + board.split.1);
         if jobs < self.config.queue.max(1) && queued.saturating_add(bytes) <= self.config.queue_bytes {
             return Ok(());
         }
@@ -140,22 +154,40 @@ impl Keeper {
         Err(SubmitError::Full { retry_after: Duration::from_secs_f64(seconds.clamp(1.0, 60.0)) })
     }
 
-    fn enter(&self, board: &mut Board, record: Record, recorded: Recorded) {
-        let Record { life, job, deadline } = record;
+    /// Those that wait for their parts do not keep the parts from the queue.
+    fn has_room_for_part(&self, board: &Board) -> bool {
+        board.queue.len() < self.config.queue.max(1) && board.queue.bytes() <= self.config.queue_bytes
+    }
+
+    fn enter(&self, board: &mut Board, record: Record, recorded: Recorded, after: Option<Tag>) {
+        let Record { life, job, deadline, hidden } = record;
         let (id, bytes) = (job.id, job.payload.len());
         let waiting =
             Waiting { id, client: job.client.clone(), cost: job.cost, bytes, since: Instant::now() };
-        board.queue.push(life, waiting);
-        let feeder = Feeder::new(job);
-        board
-            .live
-            .insert(id, Entry { life, feeder, recorded, deadline: None, claims: 0, kept: false, run: None });
-        self.set_deadline(board, id, life, deadline.and_then(after));
+        board.queue.push(life, waiting, after);
+        let entry = Entry {
+            life,
+            feeder: Feeder::new(job),
+            recorded,
+            deadline: None,
+            claims: 0,
+            kept: false,
+            parents: Vec::new(),
+            hidden,
+            parts: Parts::Unknown,
+            run: None,
+        };
+        board.live.insert(id, entry);
+        self.set_deadline(board, id, life, deadline.and_then(from_now));
     }
 
-    /// The submission could not be recorded: it has never been.
+    /// The submission could not be recorded: it has never been. A part goes on: whoever reads the records begins with the
+    /// whole.
     fn refuse(&self, id: JobId, life: u64) {
         let mut board = self.board.lock();
+        if board.entry(id, life).is_some_and(|entry| !entry.parents.is_empty()) {
+            return;
+        }
         board.queue.remove(life);
         self.set_deadline(&mut board, id, life, None);
         if board.entry(id, life).is_some()
@@ -168,6 +200,7 @@ impl Keeper {
     fn conclude(self: &Arc<Self>, board: &mut Board, id: JobId, life: u64, end: End) {
         match end {
             End::Final(outcome) => self.end(board, id, life, outcome),
+            End::Split(_) => {}
             End::Drained if board.entry(id, life).is_some_and(|entry| entry.is_wanted()) => {
                 self.requeue(board, id, life);
             }
@@ -184,6 +217,7 @@ impl Keeper {
         };
         entry.run = None;
         let job = entry.feeder.change(|job| finish(job, outcome));
+        let parents = std::mem::take(&mut entry.parents);
         board.tally.count(job.state);
         let keeper = Arc::clone(self);
         let reply = move |_: Result<(), _>| {
@@ -192,11 +226,13 @@ impl Keeper {
                 board.live.remove(&id);
             }
         };
-        self.recorder.write(Write::Finish { life, job }, Box::new(reply));
+        self.recorder.write(Write::Finish { life, job: job.clone() }, Box::new(reply));
+        self.release_parts(board, id, life);
+        self.part_ended(board, parents, &job);
     }
 }
 
-fn after(limit: Duration) -> Option<Instant> {
+fn from_now(limit: Duration) -> Option<Instant> {
     Instant::now().checked_add(limit)
 }
 

@@ -29,7 +29,17 @@ pub(super) struct Waiting {
 
 /// The virtual time at which a job's share is used up, seconds of one core.
 #[derive(Clone, Copy, Debug)]
-struct Tag(f64);
+pub(super) struct Tag(f64);
+
+impl Tag {
+    /// Before all others.
+    const FIRST: Self = Self(f64::NEG_INFINITY);
+
+    /// Where a share of `cost` that begins here ends.
+    pub(super) fn plus(self, cost: f64) -> Self {
+        Self(self.0 + cost)
+    }
+}
 
 impl PartialEq for Tag {
     fn eq(&self, other: &Self) -> bool {
@@ -48,6 +58,21 @@ impl PartialOrd for Tag {
 impl Ord for Tag {
     fn cmp(&self, other: &Self) -> Ordering {
         self.0.total_cmp(&other.0)
+    }
+}
+
+/// A job that has left the queue for its turn.
+#[derive(Clone, Debug)]
+pub(super) struct Taken {
+    pub(super) life: u64,
+    pub(super) job: Waiting,
+    pub(super) tag: Tag,
+}
+
+impl Taken {
+    /// Where its share begins.
+    pub(super) fn start(&self) -> Tag {
+        self.tag.plus(-self.job.cost)
     }
 }
 
@@ -102,20 +127,26 @@ impl Queue {
         self.cost
     }
 
-    pub(super) fn push(&mut self, life: u64, job: Waiting) {
-        let tag = self.next_tag(&job.client, job.cost);
+    /// `after`: where its share begins, if that is settled; otherwise it is behind what its client has queued.
+    pub(super) fn push(&mut self, life: u64, job: Waiting, after: Option<Tag>) {
+        let tag = self.tag(&job.client, job.cost, after);
         self.bytes += job.bytes;
         self.cost += job.cost;
         self.insert(life, job, tag);
     }
 
+    /// It had its turn before, and is the next.
+    pub(super) fn push_first(&mut self, life: u64, job: Waiting) {
+        self.push(life, job, Some(Tag::FIRST));
+    }
+
     /// `client` asks for a queued job as well: it moves to where its own submission would stand, if that is earlier, and
     /// is then charged to it.
-    pub(super) fn join(&mut self, life: u64, client: &str) {
+    pub(super) fn join(&mut self, life: u64, client: &str, after: Option<Tag>) {
         let Some((job, tag)) = self.small.by_age.get(&life).or_else(|| self.large.by_age.get(&life)) else {
             return;
         };
-        let own = self.next_tag(client, job.cost);
+        let own = self.tag(client, job.cost, after);
         if own < *tag
             && let Some((job, _)) = self.extract(life)
         {
@@ -130,14 +161,18 @@ impl Queue {
     }
 
     /// The next job for `lane`, at `now`.
-    pub(super) fn take(&mut self, lane: Lane, now: Instant) -> Option<(u64, Waiting)> {
+    pub(super) fn take(&mut self, lane: Lane, now: Instant) -> Option<Taken> {
         let life = self.overdue(lane, now).or_else(|| self.least(lane).map(|(_, life)| life))?;
         let (job, tag) = self.extract(life)?;
         self.forget(&job);
+        Some(Taken { life, job, tag })
+    }
+
+    /// A job that was taken uses its share whole, not by its parts.
+    pub(super) fn reached(&mut self, tag: Tag) {
         // What has passed others, small or overdue, must not set back those who come after them.
         let reached = self.least(Lane::Main).map_or(tag, |(waiting, _)| waiting.min(tag));
         self.now = self.now.max(reached);
-        Some((life, job))
     }
 
     fn bands(&self, lane: Lane) -> impl Iterator<Item = &Band> {
@@ -155,9 +190,9 @@ impl Queue {
         self.bands(lane).filter_map(|band| band.by_tag.first()).min().copied()
     }
 
-    fn next_tag(&self, client: &str, cost: f64) -> Tag {
-        let last = self.clients.get(client).and_then(BTreeSet::last).map_or(self.now, |(tag, _)| *tag);
-        Tag(self.now.max(last).0 + cost)
+    fn tag(&self, client: &str, cost: f64, after: Option<Tag>) -> Tag {
+        let last = || self.clients.get(client).and_then(BTreeSet::last).map_or(self.now, |(tag, _)| *tag);
+        after.unwrap_or_else(|| self.now.max(last())).plus(cost)
     }
 
     fn insert(&mut self, life: u64, job: Waiting, tag: Tag) {

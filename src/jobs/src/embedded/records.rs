@@ -21,6 +21,8 @@ pub(super) struct Record {
     pub(super) life: u64,
     pub(super) job: Job,
     pub(super) deadline: Option<Duration>,
+    /// It has only been asked for as a part.
+    pub(super) hidden: bool,
 }
 
 /// A change to be made.
@@ -32,6 +34,14 @@ pub(super) enum Write {
     Postpone {
         life: u64,
         deadline: Option<Duration>,
+    },
+    /// A part is asked for by itself.
+    Show {
+        life: u64,
+    },
+    /// It waits for its parts.
+    Split {
+        life: u64,
     },
     Start {
         life: u64,
@@ -51,7 +61,7 @@ pub(super) enum Write {
 /// What is kept of finished jobs.
 #[derive(Clone, Copy, Debug)]
 pub struct Retention {
-    /// At most so many.
+    /// At most so many, and as many that were only parts.
     pub count: usize,
     /// None that finished longer ago.
     pub age: Duration,
@@ -127,6 +137,9 @@ fn forget(connection: &Connection, retention: Retention) -> rusqlite::Result<()>
     let oldest = now().checked_sub(retention.age).map_or(0, to_micros);
     connection.prepare_cached(schema::FORGET_OLD)?.execute([oldest])?;
     let count = i64::try_from(retention.count).unwrap_or(i64::MAX);
-    connection.prepare_cached(schema::FORGET_MANY)?.execute([count])?;
+    // Of each kind: a job of many parts must not make others' jobs forgotten.
+    for hidden in [false, true] {
+        connection.prepare_cached(schema::FORGET_MANY)?.execute((count, hidden))?;
+    }
     Ok(())
 }

@@ -6,11 +6,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
+use super::parts::MERGE;
 use super::pools::Seat;
 use super::queue::Lane;
 use super::turn::Turn;
 use crate::feed::Feeder;
-use crate::{Failure, JobId, Stop, Watch, Work};
+use crate::{Failure, JobId, Stop, Submission, Watch, Work};
 
 /// Why a run was told to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,10 +31,12 @@ pub(super) enum Outcome {
 }
 
 /// How a run ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub(super) enum End {
     /// With its job.
     Final(Outcome),
+    /// Its job is to be merged from these.
+    Split(Vec<Submission>),
     Drained,
 }
 
@@ -50,6 +53,8 @@ impl From<Told> for End {
 pub(super) struct Run {
     pub(super) id: JobId,
     pub(super) life: u64,
+    /// The job's parts are there.
+    pub(super) merges: bool,
     pub(super) seat: Seat,
     feeder: Feeder,
     turn: Arc<Turn>,
@@ -60,9 +65,10 @@ pub(super) struct Run {
 }
 
 impl Run {
-    pub(super) fn new(id: JobId, life: u64, seat: Seat, feeder: Feeder, turn: Arc<Turn>) -> Self {
+    pub(super) fn new(job: (JobId, u64), merges: bool, seat: Seat, feeder: Feeder, turn: Arc<Turn>) -> Self {
+        let (id, life) = job;
         let rested = (0..seat.pool.current_num_threads()).map(|_| AtomicU64::new(0)).collect();
-        Self { id, life, seat, feeder, turn, told: OnceLock::new(), began: Instant::now(), rested }
+        Self { id, life, merges, seat, feeder, turn, told: OnceLock::new(), began: Instant::now(), rested }
     }
 
     /// The first to tell is heard.
@@ -77,16 +83,37 @@ impl Run {
     }
 
     /// Called on the seat's pool.
-    pub(super) fn run(&self, work: &dyn Work, payload: &[u8]) -> End {
+    pub(super) fn parts(&self, work: &dyn Work, payload: &[u8]) -> Result<Vec<Submission>, End> {
+        self.guarded(|| work.parts(&self.id, payload))
+    }
+
+    /// Called on the seat's pool. Calls `further` on any of its threads after progress that shows.
+    pub(super) fn run(&self, work: &dyn Work, payload: &[u8], further: &(dyn Fn() + Sync)) -> End {
         let _passing = (self.seat.lane == Lane::Express).then(|| self.turn.express());
-        let end = catch_unwind(AssertUnwindSafe(|| work.run(&self.id, payload, self)));
-        End::Final(match (end, self.told()) {
-            (Ok(Ok(())), _) => Outcome::Succeeded,
+        let watched = Watched { run: self, further };
+        match self.guarded(|| work.run(&self.id, payload, &watched)) {
+            Ok(()) => End::Final(Outcome::Succeeded),
+            Err(end) => end,
+        }
+    }
+
+    fn guarded<T>(&self, call: impl FnOnce() -> Result<T, Stop>) -> Result<T, End> {
+        let outcome = match (catch_unwind(AssertUnwindSafe(call)), self.told()) {
+            (Ok(Ok(value)), _) => return Ok(value),
             (Err(panic), _) => Outcome::Failed(Failure::Panicked(message(panic.as_ref()))),
-            (Ok(Err(_)), Some(told)) => return told.into(),
+            (Ok(Err(_)), Some(told)) => return Err(told.into()),
             (Ok(Err(Stop::Cancelled)), None) => Outcome::Cancelled,
             (Ok(Err(Stop::Failed(reason))), None) => Outcome::Failed(Failure::Work(reason)),
-        })
+        };
+        Err(End::Final(outcome))
+    }
+
+    /// Whether to stop; a thread of the main lane may rest before it is told.
+    fn look(&self) -> bool {
+        if self.seat.lane == Lane::Main && self.turn.is_express() {
+            self.let_pass();
+        }
+        self.told().is_some()
     }
 
     /// A thread rests at most as long as it has worked since it last rested, so a job has at least half of its time.
@@ -103,16 +130,22 @@ impl Run {
     }
 }
 
-impl Watch for Run {
+/// What the work sees of its run.
+struct Watched<'a> {
+    run: &'a Run,
+    further: &'a (dyn Fn() + Sync),
+}
+
+impl Watch for Watched<'_> {
     fn progress(&self, part: f64) {
-        self.feeder.progress(part);
+        let whole = if self.run.merges { 1.0 - MERGE * (1.0 - part) } else { part };
+        if self.run.feeder.progress(whole) {
+            (self.further)();
+        }
     }
 
     fn cancelled(&self) -> bool {
-        if self.seat.lane == Lane::Main && self.turn.is_express() {
-            self.let_pass();
-        }
-        self.told().is_some()
+        self.run.look()
     }
 }
 
@@ -145,7 +178,8 @@ mod tests {
         };
         let seat = seats(1, 1).into_iter().flatten().find(|seat| seat.lane == lane);
         #[expect(clippy::unwrap_used, reason = "test")]
-        Run::new(id, 1, seat.unwrap(), Feeder::new(job), Arc::clone(turn))
+        let seat = seat.unwrap();
+        Run::new((id, 1), false, seat, Feeder::new(job), Arc::clone(turn))
     }
 
     fn rests(run: &Run) -> bool {
@@ -156,12 +190,12 @@ mod tests {
     fn a_long_job_rests_while_a_small_one_runs() {
         let turn = Arc::new(Turn::default());
         let (long, small) = (run(Lane::Main, &turn), run(Lane::Express, &turn));
-        long.seat.pool.install(|| assert!(!long.cancelled()));
+        long.seat.pool.install(|| assert!(!long.look()));
         assert!(!rests(&long));
         let passing = turn.express();
-        long.seat.pool.install(|| assert!(!long.cancelled()));
+        long.seat.pool.install(|| assert!(!long.look()));
         assert!(rests(&long));
-        small.seat.pool.install(|| assert!(!small.cancelled()));
+        small.seat.pool.install(|| assert!(!small.look()));
         assert!(!rests(&small));
         drop(passing);
     }

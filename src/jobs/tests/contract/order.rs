@@ -13,6 +13,8 @@ for_each_backend!(
     a_joined_job_does_not_move_back,
     a_small_job_passes_a_long_one,
     a_large_job_does_not_take_the_express_lane,
+    others_pass_between_parts,
+    a_job_of_parts_is_charged_once,
     what_passes_by_the_express_lane_does_not_set_others_back,
 );
 
@@ -110,4 +112,24 @@ async fn what_passes_by_the_express_lane_does_not_set_others_back(open: Open) {
     stand.stage.open("first");
     let begun = stand.stage.begun(72).await;
     assert_eq!(begun[61..64], ["a0", "a1", "b"]);
+}
+
+async fn others_pass_between_parts(open: Open) {
+    let stand = open(1000);
+    stand.leave(costing(100.0, job("ada", "a", "split a1=hold a2=pass a3=pass a4=pass"))).await;
+    stand.stage.begun(1).await;
+    stand.leave(costing(15.0, job("bob", "b", "pass"))).await;
+    stand.stage.open("a1");
+    assert_eq!(stand.stage.begun(6).await, ["a1", "a2", "b", "a3", "a4", "a"]);
+}
+
+async fn a_job_of_parts_is_charged_once(open: Open) {
+    let stand = held(open).await;
+    stand.leave(costing(30.0, job("ada", "a", "split a1=pass=15 a2=pass=15"))).await;
+    stand.leave(costing(30.0, job("ada", "next", "pass"))).await;
+    for number in 1..=4 {
+        stand.leave(costing(14.0, job("bob", &format!("b{number}"), "pass"))).await;
+    }
+    // Its turn comes when it would have as one; what it asked for then is due.
+    assert_eq!(order(&stand, 8).await, ["b1", "b2", "a1", "a2", "a", "b3", "b4", "next"]);
 }

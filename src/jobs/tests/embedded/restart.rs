@@ -12,12 +12,12 @@ use verne_jobs::{Embedded, Failure, State, Submission};
 use crate::stage::{Stage, id, job};
 use crate::stand::{Stand, within_a_minute};
 
-fn stand(directory: &Path) -> Stand {
+pub(crate) fn stand(directory: &Path) -> Stand {
     Stand::at(Config { max_attempts: 3, ..Config::in_directory(directory) })
 }
 
 /// The directory as it would be after `kill -9` at this moment.
-fn killed(directory: &Path) -> TempDir {
+pub(crate) fn killed(directory: &Path) -> TempDir {
     let copy = TempDir::new().unwrap();
     for file in fs::read_dir(directory).unwrap() {
         let file = file.unwrap();

@@ -47,8 +47,9 @@ impl Stage {
     }
 
     fn play(&self, name: &str, verb: &str, watch: &dyn Watch) -> Result<(), Stop> {
-        match verb {
-            "pass" => Ok(()),
+        match verb.split(' ').next().unwrap_or_default() {
+            "pass" | "split" => Ok(()),
+            "split-wavering" => self.play(name, "waver", watch),
             "hold" => self.hold(name, watch),
             "fail" => Err(Stop::Failed(Bytes::from("as told"))),
             "panic" => panic!("as told"),
@@ -79,6 +80,18 @@ impl Stage {
 }
 
 impl Work for Stage {
+    /// Of a job that splits: `name=verb` or `name=verb=cost` each. In a part's verb `+` and `:` stand for space and `=`.
+    fn parts(&self, _job: &JobId, payload: &[u8]) -> Result<Vec<Submission>, Stop> {
+        let text = String::from_utf8(payload.to_vec()).unwrap();
+        let mut words = text.split(' ').skip(1);
+        match words.next().unwrap() {
+            "split" | "split-wavering" => Ok(words.map(part).collect()),
+            "split-fail" => Err(Stop::Failed(Bytes::from("as told"))),
+            "split-panic" => panic!("as told"),
+            _ => Ok(Vec::new()),
+        }
+    }
+
     fn run(&self, _job: &JobId, payload: &[u8], watch: &dyn Watch) -> Result<(), Stop> {
         let text = String::from_utf8(payload.to_vec()).unwrap();
         let (name, verb) = text.split_once(' ').unwrap();
@@ -94,6 +107,12 @@ impl Drop for Leaving<'_> {
     fn drop(&mut self) {
         self.0.left.send_modify(|names| names.push(self.1.to_owned()));
     }
+}
+
+fn part(text: &str) -> Submission {
+    let words: Vec<_> = text.split('=').collect();
+    let cost = words.get(2).map_or(10.0, |cost| cost.parse().unwrap());
+    Submission { cost, ..job("", words[0], &words[1].replace('+', " ").replace(':', "=")) }
 }
 
 /// A job of `client` that is too large for the express lane.

@@ -82,6 +82,13 @@ impl FamilyQuestion {
             .collect();
         let mut hasher = blake3::Hasher::new();
         hasher.update(LAYOUT);
+        // The table shows the lists: [5, 5] by [0] is not [5] by [0, 0], though the workspaces are the same.
+        for numbers in [&request.tool_length, &request.phi1, &request.phi2] {
+            hasher.update(&(numbers.len() as u64).to_le_bytes());
+            for number in numbers {
+                hasher.update(&number.to_le_bytes());
+            }
+        }
         for member in &members {
             hasher.update(member.id.job().as_bytes());
         }

@@ -67,7 +67,7 @@ pub(crate) struct FamilyRequest {
 /// A family of workspaces in figures.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct FamilySummary {
-    /// BLAKE3 of its members' ids.
+    /// BLAKE3 of the lists and of its members' ids.
     pub id: String,
     /// The request with its lists written out.
     pub request: FamilyRequest,

@@ -7,9 +7,12 @@ use std::time::Instant;
 use bytes::Bytes;
 
 use super::Keeper;
+use super::parts::progressed;
 use crate::embedded::board::Board;
 use crate::embedded::moment::now;
+use crate::embedded::parts::Parts;
 use crate::embedded::pools::Seat;
+use crate::embedded::queue::{Tag, Taken};
 use crate::embedded::records::Write;
 use crate::embedded::run::{End, Run};
 use crate::{JobId, State};
@@ -17,25 +20,32 @@ use crate::{JobId, State};
 impl Keeper {
     /// Gives the free seats to the jobs that are next.
     pub(super) fn dispatch(self: &Arc<Self>, board: &mut Board) {
-        while !board.draining
-            && let Some((seat, life, id)) = board.next(Instant::now())
-        {
-            self.start(board, seat, life, id);
+        while !board.draining {
+            // Before each: a place in the queue has become free, and a part may be the next.
+            self.submit_parts(board);
+            let Some((seat, taken)) = board.next(Instant::now()) else {
+                return;
+            };
+            self.start(board, seat, taken);
         }
     }
 
-    fn start(self: &Arc<Self>, board: &mut Board, seat: Seat, life: u64, id: JobId) {
+    fn start(self: &Arc<Self>, board: &mut Board, seat: Seat, taken: Taken) {
+        let (id, life) = (taken.job.id, taken.life);
         let Some(entry) = board.live.get_mut(&id).filter(|entry| entry.life == life) else {
             // What is queued is live; if not, nobody is there to be told.
             board.free.push(seat);
             return;
         };
+        let merges = matches!(entry.parts, Parts::Done);
         let job = entry.feeder.change(|job| {
             job.state = State::Running;
-            job.attempts = job.attempts.saturating_add(1);
-            job.started = Some(now());
+            if !merges {
+                job.attempts = job.attempts.saturating_add(1);
+                job.started = Some(now());
+            }
         });
-        let run = Arc::new(Run::new(id, life, seat, entry.feeder.clone(), Arc::clone(&self.turn)));
+        let run = Arc::new(Run::new((id, life), merges, seat, entry.feeder.clone(), Arc::clone(&self.turn)));
         entry.run = Some(Arc::clone(&run));
         board.running.insert(life, Arc::clone(&run));
         let write = Write::Start { life, attempts: job.attempts, started: job.started.unwrap_or_else(now) };
@@ -45,30 +55,46 @@ impl Keeper {
                 // It was promised; only a crash in it would not be counted.
                 tracing::warn!(%fault, "the start of a job is not recorded");
             }
-            keeper.launch(run, job.payload);
+            keeper.launch(run, taken, job.payload);
         };
         self.recorder.write(write, Box::new(reply));
     }
 
     /// Not before the start is recorded: a job that brings the process down at once must be known for it.
-    fn launch(self: Arc<Self>, run: Arc<Run>, payload: Bytes) {
+    fn launch(self: Arc<Self>, run: Arc<Run>, taken: Taken, payload: Bytes) {
         let pool = Arc::clone(&run.seat.pool);
         pool.spawn(move || {
-            let end = if let Some(told) = run.told() {
-                told.into()
-            } else {
-                self.started.fetch_add(1, Ordering::Relaxed);
-                run.run(self.work.as_ref(), &payload)
-            };
-            self.ended(&run, end);
+            let end = self.attempt(&run, taken.tag, &payload);
+            self.ended(&run, &taken, end);
         });
     }
 
-    fn ended(self: &Arc<Self>, run: &Run, end: End) {
+    fn attempt(&self, run: &Run, tag: Tag, payload: &[u8]) -> End {
+        if let Some(told) = run.told() {
+            return told.into();
+        }
+        let work = self.work.as_ref();
+        if !run.merges {
+            match run.parts(work, payload) {
+                Ok(parts) if parts.is_empty() => {}
+                Ok(parts) => return End::Split(parts),
+                Err(end) => return end,
+            }
+        }
+        self.board.lock().queue.reached(tag);
+        self.started.fetch_add(1, Ordering::Relaxed);
+        run.run(work, payload, &|| progressed(&mut self.board.lock(), run.id, run.life))
+    }
+
+    fn ended(self: &Arc<Self>, run: &Run, taken: &Taken, end: End) {
         let mut board = self.board.lock();
         board.running.remove(&run.life);
         board.free.push(run.seat.clone());
-        self.conclude(&mut board, run.id, run.life, end);
+        match (end, run.told()) {
+            (End::Split(_), Some(told)) => self.conclude(&mut board, run.id, run.life, told.into()),
+            (End::Split(parts), None) => self.split(&mut board, taken, parts),
+            (end, _) => self.conclude(&mut board, run.id, run.life, end),
+        }
         self.dispatch(&mut board);
         if board.running.is_empty() {
             self.idle.notify_waiters();

@@ -1,14 +1,15 @@
 //! Opens a database, and takes over what a process left in it.
 
+use std::collections::HashSet;
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
 use rusqlite::{Connection, ErrorCode, named_params};
 
 use super::{Record, Records, Retention, row, schema};
-use crate::Failure;
 use crate::embedded::OpenError;
 use crate::embedded::moment::{now, to_micros};
+use crate::{Failure, JobId};
 
 const NAME: &str = "jobs.sqlite3";
 
@@ -17,6 +18,8 @@ pub(in crate::embedded) struct Opened {
     /// Jobs to be run, oldest first.
     pub(in crate::embedded) live: Vec<Record>,
     pub(in crate::embedded) last_life: u64,
+    /// Failed at too many attempts.
+    pub(in crate::embedded) given_up: HashSet<JobId>,
     /// Where a database that could not be read has been put.
     pub(in crate::embedded) set_aside: Option<PathBuf>,
 }
@@ -124,10 +127,15 @@ fn take_over(mut connection: Connection, retention: Retention, max_attempts: u32
     };
     transaction.execute(schema::FAIL_CRASHED, failed)?;
     let live = transaction.prepare(schema::LIVE)?.query_map([], row::read)?.collect::<Result<_, _>>()?;
+    let given_up = row::failure_name(&Failure::TooManyAttempts);
+    let given_up = transaction
+        .prepare(schema::GIVEN_UP)?
+        .query_map([given_up], |row| row.get("id").map(JobId::from_bytes))?
+        .collect::<Result<_, _>>()?;
     let last_life = transaction.query_row(schema::LAST_LIFE, [], |row| row.get::<_, i64>(0))?.cast_unsigned();
     transaction.commit()?;
     let records = Records { connection, retention, lock: None };
-    Ok(Opened { records, live, last_life, set_aside: None })
+    Ok(Opened { records, live, last_life, given_up, set_aside: None })
 }
 
 /// Whether the tables are yet to be made. Only reads: what is not ours is left as it is.

@@ -18,6 +18,12 @@ pub(super) fn write(connection: &Connection, write: &Write) -> rusqlite::Result<
                 named_params! { ":life": life.cast_signed(), ":deadline": deadline.map(to_millis) };
             connection.prepare_cached(schema::POSTPONE)?.execute(parameters).map(drop)
         }
+        Write::Show { life } => {
+            connection.prepare_cached(schema::SHOW)?.execute([life.cast_signed()]).map(drop)
+        }
+        Write::Split { life } => {
+            connection.prepare_cached(schema::SPLIT)?.execute([life.cast_signed()]).map(drop)
+        }
         Write::Start { life, attempts, started } => {
             let parameters = named_params! {
                 ":life": life.cast_signed(), ":attempts": attempts, ":started": to_micros(*started),
@@ -31,10 +37,11 @@ pub(super) fn write(connection: &Connection, write: &Write) -> rusqlite::Result<
     }
 }
 
-fn submit(connection: &Connection, Record { life, job, deadline }: &Record) -> rusqlite::Result<()> {
+fn submit(connection: &Connection, Record { life, job, deadline, hidden }: &Record) -> rusqlite::Result<()> {
     let parameters = named_params! {
         ":life": life.cast_signed(), ":id": job.id.as_bytes(), ":client": job.client, ":cost": job.cost,
         ":payload": job.payload.as_ref(), ":deadline": deadline.map(to_millis), ":created": to_micros(job.created),
+        ":hidden": hidden,
     };
     connection.prepare_cached(schema::SUBMIT)?.execute(parameters).map(drop)
 }
@@ -85,7 +92,7 @@ pub(super) fn read(row: &Row<'_>) -> rusqlite::Result<Record> {
         failure: failure(row)?,
     };
     let deadline = deadline.map(|limit| Duration::from_millis(limit.max(0).cast_unsigned()));
-    Ok(Record { life: row.get::<_, i64>("life")?.cast_unsigned(), job, deadline })
+    Ok(Record { life: row.get::<_, i64>("life")?.cast_unsigned(), job, deadline, hidden: row.get("hidden")? })
 }
 
 fn failure(row: &Row<'_>) -> rusqlite::Result<Option<Failure>> {

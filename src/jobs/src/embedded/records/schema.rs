@@ -18,6 +18,8 @@ CREATE TABLE jobs (
     finished INTEGER,
     attempts INTEGER NOT NULL,
     crashes INTEGER NOT NULL DEFAULT 0,
+    hidden INTEGER NOT NULL, -- only asked for as a part
+    split INTEGER NOT NULL DEFAULT 0, -- waits for its parts
     failure TEXT,
     detail BLOB
 ) STRICT;
@@ -26,13 +28,18 @@ CREATE INDEX live ON jobs (life) WHERE finished IS NULL;
 ";
 
 pub(super) const SUBMIT: &str = "
-INSERT OR REPLACE INTO jobs (life, id, client, cost, payload, deadline, state, progress, created, attempts)
-VALUES (:life, :id, :client, :cost, :payload, :deadline, 'queued', 0.0, :created, 0)";
+INSERT OR REPLACE INTO jobs (life, id, client, cost, payload, deadline, state, progress, created, attempts, hidden)
+VALUES (:life, :id, :client, :cost, :payload, :deadline, 'queued', 0.0, :created, 0,
+    :hidden AND coalesce((SELECT hidden FROM jobs WHERE id = :id), 1))";
+
+pub(super) const SHOW: &str = "UPDATE jobs SET hidden = 0 WHERE life = ?1";
+
+pub(super) const SPLIT: &str = "UPDATE jobs SET split = 1 WHERE life = ?1";
 
 pub(super) const POSTPONE: &str = "UPDATE jobs SET deadline = :deadline WHERE life = :life";
 
 pub(super) const START: &str = "
-UPDATE jobs SET state = 'running', attempts = :attempts, started = :started WHERE life = :life";
+UPDATE jobs SET state = 'running', split = 0, attempts = :attempts, started = :started WHERE life = :life";
 
 pub(super) const FINISH: &str = "
 UPDATE jobs SET state = :state, progress = :progress, finished = :finished, failure = :failure, detail = :detail
@@ -44,23 +51,25 @@ pub(super) const GET: &str = "SELECT * FROM jobs WHERE id = ?1";
 
 pub(super) const LIST: &str = "
 SELECT * FROM jobs
-WHERE life < :before AND (:state IS NULL OR state = :state) AND (:client IS NULL OR client = :client)
+WHERE life < :before AND NOT hidden AND (:state IS NULL OR state = :state) AND (:client IS NULL OR client = :client)
 ORDER BY life DESC LIMIT :limit";
 
 pub(super) const LIVE: &str = "SELECT * FROM jobs WHERE finished IS NULL ORDER BY life";
 
 pub(super) const LAST_LIFE: &str = "SELECT coalesce(max(life), 0) FROM jobs";
 
-/// What runs when the database is opened ran when a process died.
+/// What runs when the database is opened ran when a process died; what waited for its parts did not.
 pub(super) const COUNT_CRASHES: &str =
-    "UPDATE jobs SET crashes = crashes + 1, state = 'queued' WHERE state = 'running'";
+    "UPDATE jobs SET crashes = crashes + 1 - split, split = 0, state = 'queued' WHERE state = 'running'";
 
 pub(super) const FAIL_CRASHED: &str = "
 UPDATE jobs SET state = 'failed', finished = :finished, failure = :failure
 WHERE finished IS NULL AND crashes >= :limit";
 
+pub(super) const GIVEN_UP: &str = "SELECT id FROM jobs WHERE failure = ?1";
+
 pub(super) const FORGET_OLD: &str = "DELETE FROM jobs WHERE finished < ?1";
 
 pub(super) const FORGET_MANY: &str = "
 DELETE FROM jobs WHERE life IN
-(SELECT life FROM jobs WHERE finished IS NOT NULL ORDER BY finished DESC LIMIT -1 OFFSET ?1)";
+(SELECT life FROM jobs WHERE finished IS NOT NULL AND hidden = ?2 ORDER BY finished DESC LIMIT -1 OFFSET ?1)";

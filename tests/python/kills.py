@@ -1,0 +1,168 @@
+"""Asks many clients' questions of a service that is killed (SIGKILL) and started again on the same data directory:
+no job may be lost, and every answer must be that of a service that is left alone. Then stops it (SIGTERM) while it
+computes. python kills.py VERNE [--jobs N] [--clients N] [--kills N]"""
+
+import argparse
+import hashlib
+import http.client
+import os
+import queue
+import random
+import sqlite3
+import tempfile
+import threading
+import time
+
+from served import Client, Served
+
+DRAIN = 10  # Seconds, the service's default.
+LONG = {"kind": "part", "tool_length": {"from": 1, "to": 500, "step": 1}, "tolerance": 0.05}
+
+
+def question(i):
+    """The i-th of many small ones: some 10 ms of one core."""
+    return {"kind": ["tool", "part"][i % 2], "tool_length": 10 + i / 20, "tolerance": 50}
+
+
+class Asking:
+    """Clients that ask every question until it is answered, whatever happens to the service."""
+
+    def __init__(self, port, jobs, clients):
+        self.port, self.answers, self.faults = port, {}, []
+        self.promised = set()
+        self.left = queue.SimpleQueue()
+        for i in random.sample(range(jobs), jobs):
+            self.left.put(i)
+        self.threads = [threading.Thread(target=self.client, args=(seed,)) for seed in range(clients)]
+
+    def client(self, seed):
+        chance, client = random.Random(seed), Client(self.port)
+        while True:
+            try:
+                i = self.left.get_nowait()
+            except queue.Empty:
+                return
+            preference = chance.choice(["respond-async", "wait=20"])
+            while i not in self.answers:
+                try:
+                    self.ask(client, i, preference)
+                except (OSError, http.client.HTTPException):
+                    time.sleep(0.05)  # It is down, or just was.
+
+    def ask(self, client, i, preference):
+        reply = client.ask("POST", "/workspace", question(i), Prefer=preference)
+        if reply.status == 503:
+            return time.sleep(0.1)
+        if reply.status == 202:
+            path = reply.headers["Location"]
+            self.promised.add(path)
+            if not self.ended(client, path):
+                return None
+            reply = client.ask("GET", path.replace("/jobs/", "/workspace/"))
+        if reply.status != 200:
+            self.faults.append((i, reply.status, reply.body))
+            return time.sleep(0.1)
+        mesh = client.ask("GET", reply.json()["links"]["mesh"])
+        if mesh.status == 200:
+            self.answers[i] = reply.json()["id"], hashlib.sha256(reply.body + mesh.body).hexdigest()
+        return None
+
+    def ended(self, client, path):
+        """Whether the job has its result, when it has ended."""
+        while True:
+            reply = client.ask("GET", path)
+            if reply.status != 200:
+                self.faults.append((path, reply.status, reply.body))
+                return False
+            job = reply.json()
+            if job["state"] in ("succeeded", "failed", "cancelled"):
+                if job["state"] != "succeeded":
+                    self.faults.append(job)
+                return job["state"] == "succeeded"
+            time.sleep(0.05)
+
+
+def run(served, jobs, clients, kills):
+    """All answers; the service is killed so many times on the way."""
+    asking = Asking(served.port, jobs, clients)
+    for thread in asking.threads:
+        thread.start()
+    for k in range(kills):
+        while len(asking.answers) < jobs * (k + 1) // (kills + 1):
+            time.sleep(0.01)
+        served.kill()
+        served.start()
+    for thread in asking.threads:
+        thread.join()
+    return asking
+
+
+def listed(client):
+    """Every job of GET /jobs."""
+    jobs, after = [], ""
+    while True:
+        page = client.ask("GET", f"/jobs?limit=100{after}").json()
+        jobs += page["jobs"]
+        if page["next"] is None:
+            return jobs
+        after = f"&after={page['next']}"
+
+
+def stopped_under_load(served):
+    """Seconds until it exits, told so while it computes and others wait in the queue."""
+    client = Client(served.port)
+    ids = []
+    for first in range(3):
+        question = {**LONG, "phi1": first}
+        ids.append(client.ask("POST", "/workspace", question, Prefer="respond-async").json()["id"])
+    client.close()
+    code, seconds = served.terminate()
+    check(code == 0, f"SIGTERM: exit code {code}")
+    check(seconds < DRAIN + 3, f"SIGTERM: {seconds:.1f} s")
+    served.start()
+    for id in ids:
+        state = client.ask("GET", f"/jobs/{id}").json()["state"]
+        check(state in ("queued", "running"), f"after SIGTERM job {id} is {state}")
+    return seconds
+
+
+def check(right, fault):
+    if not right:
+        raise SystemExit(fault)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("verne")
+    parser.add_argument("--jobs", type=int, default=300)
+    parser.add_argument("--clients", type=int, default=8)
+    parser.add_argument("--kills", type=int, default=2)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as place:
+        alone = Served(options.verne, os.path.join(place, "alone")).start()
+        began = time.monotonic()
+        undisturbed = run(alone, options.jobs, options.clients, 0)
+        print(f"undisturbed: {options.jobs} jobs in {time.monotonic() - began:.1f} s", flush=True)
+        check(alone.terminate()[0] == 0, "SIGTERM: it does not exit well")
+
+        data = os.path.join(place, "killed")
+        served = Served(options.verne, data).start()
+        began = time.monotonic()
+        asked = run(served, options.jobs, options.clients, options.kills)
+        print(f"{options.kills} kills: {time.monotonic() - began:.1f} s, {len(asked.promised)} jobs promised")
+        check(not undisturbed.faults + asked.faults, f"faults: {undisturbed.faults[:3]} {asked.faults[:3]}")
+        check(asked.answers == undisturbed.answers, "answers differ from those of a service left alone")
+        jobs = listed(Client(served.port))
+        check(all(job["state"] == "succeeded" for job in jobs), "a job has not ended")
+        missing = {id for id, _ in asked.answers.values()} - {job["id"] for job in jobs}
+        check(not missing, f"{len(missing)} jobs are lost")
+        print(f"SIGTERM while it computes: exits in {stopped_under_load(served):.1f} s")
+        served.kill()
+        for database in ("jobs/jobs.sqlite3", "results/index.sqlite3"):
+            with sqlite3.connect(os.path.join(data, database)) as connection:
+                found = connection.execute("PRAGMA integrity_check").fetchall()
+            check(found == [("ok",)], f"{database}: {found}")
+    print(f"{len(asked.answers)} answers, all the same; both databases are sound")
+
+
+main()

@@ -1,0 +1,100 @@
+"""Measures the service under load and prints figures; nothing is asserted. python load.py VERNE
+
+- GET /ik on one connection, idle and beside a long job: p50 and p99.
+- Memory with slow readers of one large mesh.
+- How long after DELETE a running job has ended, and its cores are idle."""
+
+import os
+import socket
+import sys
+import tempfile
+import time
+
+from served import Client, Served
+
+REQUESTS = 3000
+LONG = {"kind": "part", "tool_length": {"from": 1, "to": 500, "step": 1}, "tolerance": 0.02}
+LARGE = {"kind": "part", "tool_length": 50, "tolerance": 0.01}
+MEBI = 1 << 20
+
+
+def latencies(client):
+    """p50 and p99 of GET /ik, ms."""
+    times = []
+    for i in range(REQUESTS):
+        began = time.perf_counter()
+        reply = client.ask("GET", f"/ik?x={i % 100}&y=0&z=100&phi1=5&phi2=20&tool_length=50")
+        times.append(1000 * (time.perf_counter() - began))
+        assert reply.status == 200, reply.body
+    times.sort()
+    return times[len(times) // 2], times[len(times) * 99 // 100]
+
+
+def start(client, question):
+    """The path of a job that computes."""
+    reply = client.ask("POST", "/workspace", question, Prefer="respond-async")
+    path = reply.headers["Location"]
+    while client.ask("GET", path).json()["progress"] == 0:
+        time.sleep(0.01)
+    return path
+
+
+def busy(served):
+    """Seconds of a core that the process has used."""
+    with open(f"/proc/{served.process.pid}/stat") as stat:
+        fields = stat.read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def cancel(served, client, path):
+    """Seconds until the job has ended, and until the process has used less than a tenth of a core for 0.2 s."""
+    began = time.perf_counter()
+    client.ask("DELETE", path)
+    while client.ask("GET", path).json()["state"] != "cancelled":
+        time.sleep(0.001)
+    ended = time.perf_counter() - began
+    while True:
+        since, used = time.perf_counter() - began, busy(served)
+        time.sleep(0.2)
+        if busy(served) - used < 0.02:
+            return ended, since
+
+
+def slow_readers(served, path, count):
+    """Connections that have read the first bytes of a mesh and then no more."""
+    readers = []
+    for _ in range(count):
+        reader = socket.create_connection(("127.0.0.1", served.port))
+        reader.sendall(f"GET {path} HTTP/1.1\r\nHost: x\r\n\r\n".encode())
+        readers.append(reader)
+    for reader in readers:
+        assert reader.recv(12) == b"HTTP/1.1 200"
+    time.sleep(1)
+    return readers
+
+
+with tempfile.TemporaryDirectory() as data:
+    served = Served(sys.argv[1], data).start()
+    client = Client(served.port)
+    latencies(client)
+    idle = latencies(client)
+    path = start(client, LONG)
+    loaded = latencies(client)
+    print("GET /ik p50, p99 ms: idle {:.2f} {:.2f}, beside a long job {:.2f} {:.2f}".format(*idle, *loaded))
+    print(f"p99 ratio {loaded[1] / idle[1]:.1f}")
+    print("DELETE: ended after {:.3f} s, idle after {:.3f} s".format(*cancel(served, client, path)))
+
+    reply = client.ask("POST", "/workspace", LARGE, Prefer="wait=29")
+    while reply.status == 202:
+        reply = client.ask("POST", "/workspace", LARGE, Prefer="wait=29")
+    mesh = f"{reply.json()['links']['mesh']}?format=json"
+    size = len(client.ask("GET", mesh).body)
+    time.sleep(1)
+    print(f"mesh of {size / MEBI:.1f} MiB; no reader: {served.rss() / MEBI:.0f} MiB resident")
+    for count in (1, 50, 200):
+        readers = slow_readers(served, mesh, count)
+        print(f"{count} slow readers: {served.rss() / MEBI:.0f} MiB resident")
+        for reader in readers:
+            reader.close()
+    client.close()
+    print("SIGTERM: exit code {}, {:.1f} s".format(*served.terminate()))
