@@ -53,6 +53,8 @@ test("the tool is dragged by its arrows", async ({ page }) => {
   const { x, y, width, height } = await canvas.boundingBox();
   const z = page.getByLabel("Z above the table, mm");
   const before = Number(await z.inputValue());
+  // The picture that stays tells where the tip is.
+  await page.locator("canvas[data-picture=good]").waitFor();
   // The arrow upwards stands on the tip, which home puts near the middle.
   const tip = await page.evaluate(() => document.querySelector("canvas").dataset.tip);
   const [u, v] = tip.split(",").map(Number);
