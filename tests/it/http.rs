@@ -13,6 +13,7 @@ mod kinematics;
 mod machines;
 mod part_frame;
 mod transport;
+mod viewer;
 mod workspace;
 mod workspace_contains;
 mod workspace_delivery;

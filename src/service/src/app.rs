@@ -16,7 +16,7 @@ use crate::metrics::Metrics;
 use crate::registry::{BadFile, Registry};
 use crate::state::{Shared, State};
 use crate::storage::{Storage, StorageError};
-use crate::{layers, openapi, router};
+use crate::{layers, openapi, router, viewer};
 
 /// Why the service cannot run.
 #[derive(Debug)]
@@ -71,7 +71,7 @@ impl Service {
         let limits = config.limits();
         let state = Arc::new(State { machines, limits, results, jobs, metrics, stopping });
         let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
-        let routes = routes.with_state(Arc::clone(&state)).merge(docs);
+        let routes = routes.with_state(Arc::clone(&state)).merge(docs).merge(viewer::routes());
         let router = layers::wrap(routes, Duration::from_secs(config.timeout));
         Ok(Self { router, state })
     }

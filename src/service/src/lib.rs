@@ -27,5 +27,6 @@ mod router;
 mod state;
 mod storage;
 mod tasks;
+mod viewer;
 mod wire;
 mod workers;

@@ -1,0 +1,127 @@
+/** Numbers to type and to slide. */
+
+import { useEffect, useRef, useState } from "preact/hooks";
+
+interface NumberProps {
+  label: string;
+  /** Shown instead of the label, which remains for those who listen. */
+  symbol?: string;
+  unit: string;
+  value: number;
+  decimals?: number;
+  step?: number;
+  min?: number;
+  max?: number;
+  commit: (value: number) => void;
+}
+
+/** A number with its unit; while it is typed, nothing overwrites it. */
+export function NumberField({
+  label,
+  symbol,
+  unit,
+  value,
+  decimals = 1,
+  step = 1,
+  min,
+  max,
+  commit,
+}: NumberProps) {
+  const input = useRef<HTMLInputElement>(null);
+  const [typing, setTyping] = useState(false);
+  const shown = clean(value, decimals);
+  useEffect(() => {
+    if (!typing && input.current) input.current.value = shown;
+  }, [shown, typing]);
+  const take = () => {
+    const typed = input.current?.valueAsNumber ?? Number.NaN;
+    if (Number.isFinite(typed) && input.current?.value !== shown) commit(clamp(typed, min, max));
+  };
+  return (
+    <label class="number">
+      <span class="name" aria-hidden={symbol ? "true" : undefined}>
+        {symbol ?? label}
+      </span>
+      <span class="box">
+        <input
+          ref={input}
+          type="number"
+          inputMode="decimal"
+          aria-label={symbol ? `${label}, ${spoken(unit)}` : undefined}
+          step={step}
+          min={min}
+          max={max}
+          defaultValue={shown}
+          onFocus={() => setTyping(true)}
+          onBlur={() => setTyping(false)}
+          onChange={take}
+        />
+        <span class="unit" aria-hidden="true">
+          {unit}
+        </span>
+      </span>
+    </label>
+  );
+}
+
+interface SlideProps extends NumberProps {
+  min: number;
+  max: number;
+}
+
+/** A number that is mostly slid: it is told at every step. */
+export function SlideField(props: SlideProps) {
+  const { label, unit, value, min, max, decimals = 1, step = 1, commit } = props;
+  return (
+    <div class="slide">
+      <input
+        type="range"
+        aria-label={`${label}, ${spoken(unit)}`}
+        min={min}
+        max={max}
+        step={step}
+        value={clamp(value, min, max)}
+        aria-valuetext={`${clean(value, decimals)} ${spoken(unit)}`}
+        onInput={(event) => commit(event.currentTarget.valueAsNumber)}
+      />
+      <NumberField {...props} label={`${label}, typed`} symbol={props.symbol ?? label} step={step} />
+    </div>
+  );
+}
+
+interface ChoiceProps<T extends string> {
+  legend: string;
+  name: string;
+  value: T;
+  options: readonly (readonly [T, string])[];
+  choose: (value: T) => void;
+}
+
+/** One of a few: radio buttons that look like one switch. */
+export function Choice<T extends string>({ legend, name, value, options, choose }: ChoiceProps<T>) {
+  return (
+    <fieldset class="choice">
+      <legend class="quiet">{legend}</legend>
+      <div class="switch">
+        {options.map(([option, text]) => (
+          <label key={option}>
+            <input type="radio" name={name} checked={option === value} onChange={() => choose(option)} />
+            <span>{text}</span>
+          </label>
+        ))}
+      </div>
+    </fieldset>
+  );
+}
+
+export function clamp(value: number, min = -Infinity, max = Infinity): number {
+  return Math.min(Math.max(value, min), max);
+}
+
+function clean(value: number, decimals: number): string {
+  return (Number(value.toFixed(decimals)) + 0).toFixed(decimals);
+}
+
+function spoken(unit: string): string {
+  return unit === "°" ? "degrees" : unit;
+}

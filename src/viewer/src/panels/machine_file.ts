@@ -1,0 +1,67 @@
+/** Reads a machine's file and has the service examine it. */
+
+import { signal } from "@preact/signals";
+import { inWords, Refused, type Machine, type Schemas } from "../api/client";
+import { takeOwn } from "../state/machines";
+
+/** A file that makes no machine. */
+export interface Rejected {
+  file: string;
+  /** Null where it is not even JSON. */
+  content: unknown;
+  summary: string;
+  /** By pointer into the file. */
+  faults: Schemas["FieldProblem"][];
+}
+
+export const rejected = signal<Rejected | null>(null);
+
+/** The machine's object is small; a larger file is something else. */
+const LARGEST = 64 * 1024;
+
+export async function offer(file: File): Promise<void> {
+  rejected.value = null;
+  const reject = (summary: string, content: unknown = null, faults: Rejected["faults"] = []) => {
+    rejected.value = { file: file.name, content, summary, faults };
+  };
+  if (file.size > LARGEST) return reject(`It has ${file.size} bytes: too large for a machine.`);
+  let content: unknown;
+  try {
+    content = JSON.parse(await file.text());
+  } catch (thrown) {
+    return reject(`It is not JSON: ${inWords(thrown)}`);
+  }
+  if (typeof content !== "object" || content === null || Array.isArray(content)) {
+    return reject("It is not a machine: a JSON object is expected, as GET /machines/verne shows it.", null);
+  }
+  try {
+    // What GET /machines/{name} answers holds the machine as `definition`.
+    const machine = "definition" in content ? content.definition : content;
+    content = machine;
+    await takeOwn(machine as Machine);
+  } catch (thrown) {
+    const faults = thrown instanceof Refused ? (thrown.problem.errors ?? []) : [];
+    reject(
+      inWords(thrown),
+      content,
+      faults.map(({ pointer, detail }) => ({ pointer: pointer.replace(/^\/machine/, ""), detail })),
+    );
+  }
+}
+
+/** Takes files that are dropped anywhere on the page. */
+export function acceptDrops(over: (hovering: boolean) => void): void {
+  addEventListener("dragover", (event) => {
+    event.preventDefault();
+    over(true);
+  });
+  addEventListener("dragleave", (event) => {
+    if (event.relatedTarget === null) over(false);
+  });
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    over(false);
+    const file = event.dataTransfer?.files[0];
+    if (file) void offer(file);
+  });
+}

@@ -1,0 +1,115 @@
+/** The page: the scene in the middle, what moves it to the left, what is known to the right. */
+
+import { useEffect, useRef, useState } from "preact/hooks";
+import { failure, position } from "../state/store";
+import { link } from "../state/address_bar";
+import { drawing } from "../scene/software";
+import { World, type Side } from "../scene/world";
+import { JointsPanel } from "./joints";
+import { MachinePicker } from "./machine";
+import { MachineFaults } from "./machine_faults";
+import { acceptDrops } from "./machine_file";
+import { MarginsPanel } from "./margins";
+import { PositionsPanel } from "./positions";
+import { ToolTipPanel } from "./tool_tip";
+import { WorkspacePanel } from "./workspace";
+
+const SIDES: [Side, string][] = [
+  ["whole", "Whole"],
+  ["front", "Front"],
+  ["side", "Side"],
+  ["top", "Top"],
+];
+
+export function Page() {
+  const [dropping, setDropping] = useState(false);
+  useEffect(() => acceptDrops(setDropping), []);
+  return (
+    <>
+      <header class="top">
+        <h1>verne</h1>
+        <MachinePicker />
+        <nav aria-label="Elsewhere">
+          <CopyLink />
+          <a class="button" href="docs/">
+            API
+          </a>
+        </nav>
+      </header>
+      <main>
+        <div class="panel left">
+          <JointsPanel />
+          <ToolTipPanel />
+          <PositionsPanel />
+        </div>
+        <Scene />
+        <div class="panel right">
+          <MarginsPanel />
+          <WorkspacePanel />
+        </div>
+      </main>
+      {failure.value && (
+        <p class="failure" role="alert">
+          {failure.value}
+        </p>
+      )}
+      {dropping && (
+        <div class="dropping" aria-hidden="true">
+          Drop a machine’s JSON file
+        </div>
+      )}
+      <MachineFaults />
+    </>
+  );
+}
+
+function Scene() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const labels = useRef<HTMLDivElement>(null);
+  const [world, setWorld] = useState<World | null>(null);
+  const [trouble, setTrouble] = useState<string | null>(null);
+  useEffect(() => {
+    if (!canvas.current || !labels.current) return;
+    const kind = drawing();
+    if (kind !== "none") setWorld(new World(canvas.current, labels.current, kind));
+    else setTrouble("This browser draws no 3D (WebGL 2): the figures beside remain.");
+  }, []);
+  return (
+    <section class="scene" aria-label="The machine in its workspace">
+      <canvas
+        ref={canvas}
+        tabIndex={0}
+        role="img"
+        data-ready={position.value ? "yes" : "no"}
+        aria-label="The machine in 3D. Drag to turn, wheel to come nearer; arrow keys move, with shift they turn."
+      />
+      <div ref={labels} class="labels" aria-hidden="true" />
+      <div class="views" role="group" aria-label="Look from">
+        {SIDES.map(([side, name]) => (
+          <button type="button" key={side} onClick={() => world?.lookFrom(side)}>
+            {name}
+          </button>
+        ))}
+      </div>
+      {trouble && <p class="trouble">{trouble}</p>}
+    </section>
+  );
+}
+
+function CopyLink() {
+  const [copied, setCopied] = useState(false);
+  const copy = async () => {
+    await navigator.clipboard.writeText(await link());
+    setCopied(true);
+  };
+  return (
+    <button
+      type="button"
+      title="An address that shows this view"
+      onClick={() => void copy()}
+      onBlur={() => setCopied(false)}
+    >
+      {copied ? "Link copied" : "Copy link"}
+    </button>
+  );
+}

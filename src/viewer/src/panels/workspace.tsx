@@ -1,0 +1,180 @@
+/** Which workspace, its figures, and what it takes to have it. */
+
+import type { WorkspaceKind, WorkspaceSummary } from "../api/client";
+import { again, cancelComputation } from "../state/computation";
+import { change, changeWorkspace, computing, tool, wanted, workspace, workspaceNote } from "../state/store";
+import { cubicMetres, number, squareMetres } from "../words/numbers";
+import { Downloads } from "./downloads";
+import { Choice, NumberField, SlideField } from "./fields";
+import { Legend } from "./legend";
+import { SectionControls } from "./section";
+
+const KINDS = [
+  ["platform", "platform"],
+  ["tool", "tool tip"],
+  ["part", "on the part"],
+] as const satisfies readonly (readonly [WorkspaceKind, string])[];
+
+/** The tool lengths that the slider offers, mm; longer ones are typed. */
+const LONGEST = 400;
+
+export function WorkspacePanel() {
+  const asked = wanted.value;
+  const found = workspace.value;
+  return (
+    <section aria-labelledby="workspace">
+      <header>
+        <h2 id="workspace">Workspace</h2>
+        <label class="check">
+          <input
+            type="checkbox"
+            checked={asked.shown}
+            onChange={(event) => changeWorkspace({ shown: event.currentTarget.checked })}
+          />
+          show
+        </label>
+        <label class="check">
+          <input
+            type="checkbox"
+            checked={asked.solid}
+            onChange={(event) => changeWorkspace({ solid: event.currentTarget.checked })}
+          />
+          solid
+        </label>
+      </header>
+      <Choice
+        legend="Positions of"
+        name="kind"
+        value={asked.kind}
+        options={KINDS}
+        choose={(kind) => change({ workspace: { ...asked, kind }, section: null })}
+      />
+      <SlideField
+        label="Tool length"
+        symbol="Tool"
+        unit="mm"
+        value={tool.value}
+        min={0}
+        max={LONGEST}
+        step={5}
+        commit={(tool) => change({ tool })}
+      />
+      <div class="row three">
+        {asked.kind === "part" && (
+          <>
+            <NumberField
+              label="Tool inclination on the part, phi 1"
+              symbol="φ₁"
+              unit="°"
+              value={asked.phi1}
+              step={5}
+              commit={(phi1) => changeWorkspace({ phi1 })}
+            />
+            <NumberField
+              label="Tool azimuth on the part, phi 2"
+              symbol="φ₂"
+              unit="°"
+              value={asked.phi2}
+              step={5}
+              commit={(phi2) => changeWorkspace({ phi2 })}
+            />
+          </>
+        )}
+        <NumberField
+          label="Tolerance of the mesh"
+          symbol="Within"
+          unit="mm"
+          value={asked.tolerance}
+          decimals={2}
+          step={0.05}
+          min={0.01}
+          max={1000}
+          commit={(tolerance) => changeWorkspace({ tolerance })}
+        />
+      </div>
+      <Progress />
+      {found && <Figures found={found} />}
+      {found && found.bounds && <SectionControls found={found} bounds={found.bounds} />}
+      {found && found.triangles > 0 && <Legend />}
+      {found && found.triangles > 0 && <Downloads found={found} />}
+    </section>
+  );
+}
+
+function Progress() {
+  const now = computing.value;
+  const note = workspaceNote.value;
+  if (now) {
+    const words = { waiting: "Computing …", queued: "Waiting for its turn …", running: "Computing …" }[
+      now.state
+    ];
+    return (
+      <div class="progress" data-testid="progress">
+        <label>
+          <span>
+            {words}
+            {now.progress !== null && now.job ? ` ${number(now.progress * 100, 0)} %` : ""}
+          </span>
+          <progress
+            max={1}
+            {...(now.progress === null ? {} : { value: now.progress })}
+            aria-label="Progress of the workspace"
+          />
+        </label>
+        <button type="button" class="small" onClick={() => void cancelComputation()}>
+          Cancel
+        </button>
+      </div>
+    );
+  }
+  if (!note) return null;
+  return (
+    <div class="progress">
+      <p role="status" class="trouble" data-testid="workspace-note">
+        {note}
+      </p>
+      {!workspace.value && (
+        <button type="button" class="small" onClick={again}>
+          Compute again
+        </button>
+      )}
+    </div>
+  );
+}
+
+function Figures({ found }: { found: WorkspaceSummary }) {
+  const stale = computing.value !== null ? " stale" : "";
+  const up = found.frame === "base" ? "z down" : "z up";
+  return (
+    <>
+      <dl class={`figures${stale}`}>
+        <dt>Volume</dt>
+        <dd class="main">
+          {found.volume == null ? (
+            "none"
+          ) : (
+            <data data-testid="volume" value={found.volume}>
+              {cubicMetres(found.volume)}
+            </data>
+          )}
+        </dd>
+        <dt>Plan area</dt>
+        <dd>{squareMetres(found.area)}</dd>
+        <dt>Mesh</dt>
+        <dd>{number(found.triangles, 0)} triangles</dd>
+      </dl>
+      <dl class={`bounds${stale}`} aria-label="Bounds">
+        {["x", "y", up].map((axis, i) => (
+          <div key={axis}>
+            <dt>{axis}, mm</dt>
+            <dd>
+              {found.bounds
+                ? `${number(found.bounds.min[i] ?? 0, 0)} … ${number(found.bounds.max[i] ?? 0, 0)}`
+                : "none"}
+            </dd>
+          </div>
+        ))}
+      </dl>
+    </>
+  );
+}

@@ -1,0 +1,50 @@
+/** Surfaces of the machine, one of each, coloured by the palette. */
+
+import { DoubleSide, LineBasicMaterial, MeshBasicMaterial, MeshLambertMaterial } from "three";
+import type { Palette } from "./palette";
+
+/** Edges lie on the faces: faces step back a little. */
+const FACE = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+
+export class Materials {
+  readonly frame = new MeshLambertMaterial(FACE);
+  readonly metal = new MeshLambertMaterial(FACE);
+  readonly rod = new MeshLambertMaterial(FACE);
+  readonly platform = new MeshLambertMaterial(FACE);
+  readonly table = new MeshLambertMaterial(FACE);
+  readonly tool = new MeshLambertMaterial(FACE);
+  readonly warn = new MeshLambertMaterial(FACE);
+  readonly bad = new MeshLambertMaterial(FACE);
+  readonly marker = new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.9 });
+  readonly edge = new LineBasicMaterial({ transparent: true, opacity: 0.45 });
+  readonly slot = new LineBasicMaterial();
+  readonly grid = new LineBasicMaterial({ transparent: true, opacity: 0.55 });
+  readonly cutLine = new LineBasicMaterial({ depthTest: false, transparent: true });
+  readonly cutFill = new MeshBasicMaterial({
+    transparent: true,
+    opacity: 0.6,
+    depthWrite: false,
+    side: DoubleSide,
+  });
+  readonly ghost = new MeshLambertMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
+  readonly pointedGhost = new MeshLambertMaterial({ transparent: true, opacity: 0.75 });
+
+  paint(palette: Palette): void {
+    this.frame.color = palette.frame;
+    this.metal.color = palette.metal;
+    this.rod.color = palette.rod;
+    this.platform.color = palette.platform;
+    this.table.color = palette.table;
+    this.tool.color = palette.tool;
+    this.warn.color = palette.warn;
+    this.bad.color = palette.bad;
+    this.marker.color = palette.bad;
+    this.edge.color = palette.ink;
+    this.slot.color = palette.ink;
+    this.grid.color = palette.grid;
+    this.cutLine.color = palette["cut-line"];
+    this.cutFill.color = palette.cut;
+    this.ghost.color = palette.ghost;
+    this.pointedGhost.color = palette.accent;
+  }
+}

@@ -1,0 +1,135 @@
+/** Keeps the workspace that is shown the one that the view asks for. */
+
+import { batch, computed, effect, untracked } from "@preact/signals";
+import { inWords, type WorkspaceRequest, type WorkspaceSummary } from "../api/client";
+import { Cancelled, cancel } from "../api/jobs";
+import { latest } from "../api/latest";
+import { slice as fetchSlice, workspace as compute } from "../api/workspace";
+import {
+  computing,
+  machine,
+  section,
+  slice,
+  slowDrawing,
+  standIn,
+  tool,
+  wanted,
+  workspace,
+  workspaceNote,
+} from "./store";
+
+/** A control that is being dragged is not asked at every step, ms. */
+const REST = 120;
+
+/** Triangles that a slow machine cannot move, and about as many as it can: they go with the tolerance's inverse. */
+const MANY = 12_000;
+const FEW = 5_000;
+
+/** The question as text, so that equal ones are equal. */
+const question = computed(() => {
+  const known = machine.value;
+  if (!known || !wanted.value.shown) return null;
+  const { kind, phi1, phi2, tolerance } = wanted.value;
+  const request: WorkspaceRequest = { machine: known.ref, kind, tolerance };
+  if (kind !== "platform") request.tool_length = tool.value;
+  if (kind === "part") Object.assign(request, { phi1, phi2 });
+  return JSON.stringify(request);
+});
+
+const cut = computed(() => {
+  const found = workspace.value;
+  return found && section.value !== null ? JSON.stringify({ id: found.id, z: section.value }) : null;
+});
+
+let stop = new AbortController();
+
+export function keepWorkspace(): void {
+  effect(() => {
+    const asked = question.value;
+    untracked(abandon);
+    if (asked === null) {
+      workspace.value = null;
+      return;
+    }
+    const timer = setTimeout(() => void ask(JSON.parse(asked) as WorkspaceRequest), REST);
+    return () => clearTimeout(timer);
+  });
+  keepStandIn();
+  const askSlice = latest<string>(async (asked) => {
+    const { id, z } = JSON.parse(asked) as { id: string; z: number };
+    const found = await fetchSlice(id, z).catch(() => null);
+    if (cut.peek() !== null) slice.value = found;
+  });
+  effect(() => {
+    if (cut.value === null) slice.value = null;
+    else askSlice(cut.value);
+  });
+}
+
+/** Where drawing is slow, a mesh of many triangles moves as a coarser one. */
+function keepStandIn(): void {
+  const ask = latest<WorkspaceRequest>(async (request) => {
+    const signal = new AbortController().signal;
+    standIn.value = await compute(request, { signal, progress: () => undefined }).catch(() => null);
+  });
+  effect(() => {
+    const found = workspace.value;
+    const known = machine.value;
+    standIn.value = null;
+    if (!found || !known || !slowDrawing.value || found.triangles <= MANY) return;
+    ask({
+      ...found.request,
+      machine: known.ref,
+      tolerance: (found.request.tolerance * found.triangles) / FEW,
+    });
+  });
+}
+
+/** Asks again what was cancelled or failed. */
+export function again(): void {
+  const asked = question.peek();
+  if (asked !== null) void ask(JSON.parse(asked) as WorkspaceRequest);
+}
+
+/** Cancels on the operator's word. */
+export async function cancelComputation(): Promise<void> {
+  const job = computing.peek()?.job;
+  if (job) await cancel(job);
+  else stop.abort();
+}
+
+/** What is no longer wanted need not be computed. */
+function abandon(): void {
+  const job = computing.peek()?.job;
+  stop.abort();
+  if (job) void cancel(job).catch(() => undefined);
+  computing.value = null;
+}
+
+async function ask(request: WorkspaceRequest): Promise<void> {
+  const own = (stop = new AbortController());
+  computing.value = { progress: null, state: "waiting", job: null };
+  workspaceNote.value = null;
+  try {
+    const found = await compute(request, {
+      signal: own.signal,
+      progress: ({ id, state, progress }) => {
+        if (own === stop)
+          computing.value = { progress, state: state === "queued" ? "queued" : "running", job: id };
+      },
+    });
+    if (own === stop) finish(found, found.explanation ?? null);
+  } catch (thrown) {
+    if (own !== stop) return;
+    const cancelled = thrown instanceof Cancelled || own.signal.aborted;
+    finish(null, cancelled ? "Cancelled." : inWords(thrown));
+  }
+}
+
+function finish(found: WorkspaceSummary | null, note: string | null): void {
+  batch(() => {
+    workspace.value = found;
+    workspaceNote.value = note;
+    computing.value = null;
+  });
+}

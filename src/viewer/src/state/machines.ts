@@ -1,0 +1,70 @@
+/** Which machine is in use: a published one, or one that was dropped on the page. */
+
+import { batch } from "@preact/signals";
+import { client, unwrap, type Machine, type MachineRef } from "../api/client";
+import { change, complaint, ghosts, machine, published, workspace, type InUse } from "./store";
+import { stay } from "./motion";
+import type { View } from "./view";
+
+export async function listMachines(): Promise<void> {
+  published.value = unwrap(await client.GET("/machines")).machines;
+}
+
+/** Loads the view's machine and puts it where the view says. */
+export async function loadMachine({ machine: name, own }: View): Promise<void> {
+  if (own) return use(await examined(own, own));
+  const found = unwrap(await client.GET("/machines/{name}", { params: { path: { name } } }));
+  use(await examined(name, found.definition));
+}
+
+/** Takes a published machine, from its home. */
+export async function takePublished(name: string): Promise<void> {
+  const found = unwrap(await client.GET("/machines/{name}", { params: { path: { name } } }));
+  const next = await examined(name, found.definition);
+  change({ machine: name, own: null, joints: null, mode: null });
+  use(next);
+}
+
+/** Takes a machine of one's own, from its home; the service's faults are thrown. */
+export async function takeOwn(own: Machine): Promise<void> {
+  const next = await examined(own, own);
+  change({ own, joints: null, mode: null });
+  use(next);
+}
+
+function use(next: InUse): void {
+  batch(() => {
+    machine.value = next;
+    ghosts.value = [];
+    complaint.value = null;
+    workspace.value = null;
+  });
+  stay();
+}
+
+/** Home is where everything is symmetric, with the sliders about the middle of their strokes. */
+async function examined(ref: MachineRef, definition: Machine): Promise<InUse> {
+  const body = { machine: ref, frame: "platform" as const, pose: { x: 0, y: 0, z: 0 } };
+  const answer = unwrap(await client.POST("/ik", { body }));
+  const home = answer.solutions[0];
+  const rho = home?.joints?.rho ?? [0, 0, 0];
+  const { stroke } = definition.limits;
+  const middle = mean(stroke.map(([low = 0, high = 0]) => (low + high) / 2));
+  const shift = middle - mean(rho);
+  const [a = 0, b = 0, c = 0] = rho.map((at) => Math.round((at + shift) * 1000) / 1000);
+  const gap = home?.margins.rod_interference ?? 0;
+  return {
+    ref,
+    definition,
+    hash: answer.machine.hash,
+    home: {
+      det: home?.conditioning.det ?? 1,
+      rodDistance: gap + 2 * definition.geometry.rod_radius,
+      joints: { rho: [a, b, c], theta1: 0, theta2: 0 },
+    },
+  };
+}
+
+function mean(values: number[]): number {
+  return values.reduce((sum, value) => sum + value, 0) / values.length;
+}

@@ -1,0 +1,82 @@
+/** What the page knows, as signals: panels and scene follow them. */
+
+import { computed, signal } from "@preact/signals";
+import type { Machine, MachineRef, Schemas, Slice, Solution, WorkspaceSummary } from "../api/client";
+import type { Home } from "../words/margins";
+import { INITIAL, type Joints, type View } from "./view";
+
+/** The machine in use. */
+export interface InUse {
+  /** How requests name it. */
+  ref: MachineRef;
+  definition: Machine;
+  hash: string;
+  home: Home & { joints: Joints };
+}
+
+/** A position of the machine. */
+export interface Position {
+  joints: Joints;
+  solution: Solution;
+}
+
+/** Where the machine was wanted and cannot be. */
+export interface Complaint {
+  sentence: string;
+  /** The tip's wanted place and its frame; null where only joints were wanted. */
+  wanted: { frame: "part" | "base"; x: number; y: number; z: number } | null;
+}
+
+export interface Computing {
+  /** 0 to 1; null before the first report. */
+  progress: number | null;
+  state: "waiting" | "queued" | "running";
+  /** The id of its job, once there is one. */
+  job: string | null;
+}
+
+export interface Surface {
+  name: string;
+  rgb: [number, number, number];
+  /** Part of the whole surface. */
+  share: number;
+}
+
+export const view = signal<View>(INITIAL);
+/** Parts of the view: who needs one is not woken by the others. */
+export const wanted = computed(() => view.value.workspace);
+export const tool = computed(() => view.value.tool);
+export const section = computed(() => view.value.section);
+export const drag = computed(() => view.value.drag);
+export const ghostKind = computed(() => view.value.ghosts);
+export const camera = computed(() => view.value.camera);
+
+export const published = signal<Schemas["MachineEntry"][]>([]);
+export const machine = signal<InUse | null>(null);
+export const position = signal<Position | null>(null);
+export const ghosts = signal<Position[]>([]);
+export const complaint = signal<Complaint | null>(null);
+
+export const workspace = signal<WorkspaceSummary | null>(null);
+/** A coarser mesh of the same workspace, for slow machines while the hand moves. */
+export const standIn = signal<WorkspaceSummary | null>(null);
+/** Whether pictures of a moving scene cannot be drawn in time. */
+export const slowDrawing = signal(false);
+export const computing = signal<Computing | null>(null);
+/** Why there is no workspace to see. */
+export const workspaceNote = signal<string | null>(null);
+export const surfaces = signal<Surface[]>([]);
+export const slice = signal<Slice | null>(null);
+
+/** A ghost that is pointed at or focused: its place in the list. */
+export const pointed = signal<number | null>(null);
+/** A failure that concerns the whole page. */
+export const failure = signal<string | null>(null);
+
+export function change(part: Partial<View>): void {
+  view.value = { ...view.peek(), ...part };
+}
+
+export function changeWorkspace(part: Partial<View["workspace"]>): void {
+  change({ workspace: { ...view.peek().workspace, ...part } });
+}

@@ -1,0 +1,60 @@
+/** What is looked at: everything that a colleague needs to see the same. */
+
+import type { Machine, PlatformPose, WorkspaceKind } from "../api/client";
+
+/** Solutions with the same sliders (assembly), the same platform position, or the same tool pose. */
+export type Ghosts = "none" | "assembly" | "platform" | "inverse";
+
+export interface View {
+  /** A published machine's name, unless `own` is there. */
+  machine: string;
+  /** A machine that was dropped on the page. */
+  own: Machine | null;
+  /** Null: at home. */
+  joints: Joints | null;
+  /** The pose of another assembly mode than the working one. */
+  mode: PlatformPose | null;
+  /** mm from P to the tip. */
+  tool: number;
+  /** What the tool keeps when it is dragged: its angles on the part, or the table's. */
+  drag: "part" | "tool";
+  ghosts: Ghosts;
+  workspace: WorkspaceView;
+  /** Height of the cut in the workspace's frame, mm. */
+  section: number | null;
+  camera: Camera | null;
+}
+
+export interface Joints {
+  rho: [number, number, number];
+  theta1: number;
+  theta2: number;
+}
+
+export interface WorkspaceView {
+  shown: boolean;
+  solid: boolean;
+  kind: WorkspaceKind;
+  phi1: number;
+  phi2: number;
+  tolerance: number;
+}
+
+/** Eye and target in the scene, metres. */
+export interface Camera {
+  eye: [number, number, number];
+  target: [number, number, number];
+}
+
+export const INITIAL: View = {
+  machine: "verne",
+  own: null,
+  joints: null,
+  mode: null,
+  tool: 50,
+  drag: "part",
+  ghosts: "none",
+  workspace: { shown: true, solid: false, kind: "part", phi1: 0, phi2: 0, tolerance: 1 },
+  section: null,
+  camera: null,
+};

@@ -1,0 +1,43 @@
+// Pictures of the viewer, to be looked at: `npm run screenshots -- http://127.0.0.1:8080 out/ [name ...]`.
+import { chromium } from "@playwright/test";
+import { mkdir } from "node:fs/promises";
+import { LAUNCH } from "./launch.mjs";
+
+const [address = "http://127.0.0.1:8080", out = "../../target/screenshots", ...only] = process.argv.slice(2);
+
+const DESK = { width: 1280, height: 720 };
+const TABLET = { width: 1024, height: 768 };
+const PICTURES = [
+  ["home", DESK, "light", ""],
+  ["home-dark", DESK, "dark", ""],
+  ["tablet", TABLET, "light", "#workspace=tool&tool=100"],
+  ["narrow", { width: 768, height: 1024 }, "dark", ""],
+  ["assembly-modes", DESK, "light", "#joints=674,685,250,0,0&ghosts=assembly&workspace=hidden"],
+  ["inverse-solutions", DESK, "dark", "#joints=287.718,4.604,94.242,0,0&ghosts=platform&workspace=hidden"],
+  [
+    "tilted-section",
+    DESK,
+    "light",
+    "#joints=398.764,561.144,589.474,-18.904,-30&phi=20,30&section=300&solid=1",
+  ],
+  ["broken-limit", DESK, "dark", "#joints=20,730,400,0,0&workspace=platform&section=1100"],
+];
+
+await mkdir(out, { recursive: true });
+const browser = await chromium.launch(LAUNCH);
+for (const [name, viewport, colorScheme, view] of PICTURES) {
+  if (only.length > 0 && !only.includes(name)) continue;
+  const page = await browser.newPage({ viewport, colorScheme });
+  page.on("console", (message) => {
+    if (message.type() === "error") console.error(`${name}: ${message.text()}`);
+  });
+  page.on("pageerror", (error) => console.error(`${name}: ${error}`));
+  await page.goto(`${address}/${view}`);
+  await page.locator("canvas[data-ready=yes]").waitFor();
+  if (!view.includes("hidden")) await page.getByTestId("volume").waitFor();
+  await page.waitForLoadState("networkidle");
+  await page.locator("canvas[data-picture=good]").waitFor();
+  await page.screenshot({ path: `${out}/${name}.png` });
+  await page.close();
+}
+await browser.close();

@@ -1,0 +1,73 @@
+// The workspace on the page is the one that the service computes.
+import { ask, drop, expect, open, test, value, verne } from "./viewer.mjs";
+
+test("another tool length gives another volume: the API's", async ({ page, request }) => {
+  await open(page, "#phi=30,0");
+  const volume = page.getByTestId("volume");
+  await expect(volume).toBeVisible();
+  const length = page.getByLabel("Tool length, typed, mm");
+  await length.fill("200");
+  await length.press("Enter");
+  const asked = await ask(request, "/workspace", { kind: "part", tool_length: 200, phi1: 30 });
+  await expect(page.getByRole("link", { name: "GLB" })).toHaveAttribute("href", new RegExp(asked.id));
+  expect(await value(volume)).toBe(asked.volume);
+});
+
+test("the section plane shows the slice and its area; all files are there", async ({ page, request }) => {
+  await open(page, "#workspace=platform");
+  await page.getByLabel("Section plane").check();
+  const height = page.getByLabel("Height of the section, z down, typed, mm");
+  await height.fill("1200");
+  await height.press("Enter");
+  const { id } = await ask(request, "/workspace", { kind: "platform" });
+  const { area } = await (await request.get(`/workspace/${id}/slice?z=1200&format=json`)).json();
+  await expect(page.getByTestId("slice-area")).toHaveText(`${(area / 1e6).toFixed(4)}\u00a0m²`);
+  for (const format of ["GLB", "STL", "PLY", "DXF", "SVG"]) {
+    const file = await request.get(await page.getByRole("link", { name: format }).getAttribute("href"));
+    expect(file.ok(), format).toBe(true);
+    expect((await file.body()).length, format).toBeGreaterThan(500);
+  }
+});
+
+test("the legend names what limits the boundary, and its shares are the whole", async ({ page }) => {
+  await open(page);
+  const entries = page.locator(".legend li");
+  await expect(entries.first()).toBeVisible();
+  await expect(entries.filter({ hasText: "slider 1 at its lower end" })).toHaveCount(1);
+  const shares = await entries.locator(".share").allTextContents();
+  const sum = shares.reduce((sum, text) => sum + Number(text.replace(/[^\d.]/g, "")), 0);
+  expect(sum).toBeGreaterThan(99);
+  expect(sum).toBeLessThan(101);
+});
+
+test("a long computation shows its progress and is cancelled", async ({ page, request }) => {
+  await open(page);
+  const machine = await verne(request);
+  // Nine times the machine, meshed to a hundredth of a millimetre: minutes of work.
+  for (const name of Object.keys(machine.geometry)) machine.geometry[name] *= 9;
+  machine.name = "ninefold";
+  machine.table = { da: 13500, dt: 1800 };
+  machine.limits.stroke = [
+    [0, 6750],
+    [0, 6750],
+    [0, 6750],
+  ];
+  await drop(page, "ninefold.json", JSON.stringify(machine));
+  await expect(page.getByLabel("Machine", { exact: true })).toContainText("ninefold");
+  const tolerance = page.getByLabel("Tolerance of the mesh");
+  await tolerance.fill("0.01");
+  await tolerance.press("Enter");
+  const progress = page.getByTestId("progress");
+  await expect(progress).toContainText("%");
+  await progress.getByRole("button", { name: "Cancel" }).click();
+  await expect(page.getByTestId("workspace-note")).toHaveText("Cancelled.");
+  await expect(page.getByTestId("progress")).toHaveCount(0);
+  const { jobs } = await (await request.get("/jobs")).json();
+  expect(jobs[0].state).toBe("cancelled");
+  expect(jobs[0].machine.name).toBe("ninefold");
+
+  // What is asked next is computed.
+  await tolerance.fill("50");
+  await tolerance.press("Enter");
+  await expect(page.getByTestId("volume")).toBeVisible();
+});
