@@ -5,6 +5,7 @@ computes. python kills.py VERNE [--jobs N] [--clients N] [--kills N]"""
 import argparse
 import hashlib
 import http.client
+import json
 import os
 import queue
 import random
@@ -68,18 +69,16 @@ class Asking:
         return None
 
     def ended(self, client, path):
-        """Whether the job has its result, when it has ended."""
-        while True:
-            reply = client.ask("GET", path)
-            if reply.status != 200:
-                self.faults.append((path, reply.status, reply.body))
-                return False
-            job = reply.json()
-            if job["state"] in ("succeeded", "failed", "cancelled"):
-                if job["state"] != "succeeded":
-                    self.faults.append(job)
-                return job["state"] == "succeeded"
-            time.sleep(0.05)
+        """Whether the job has its result, when its events have ended."""
+        reply = client.ask("GET", f"{path}/events")
+        if reply.status != 200:
+            self.faults.append((path, reply.status, reply.body))
+            return False
+        events = [line for line in reply.body.splitlines() if line.startswith(b"data: ")]
+        job = json.loads(events[-1].removeprefix(b"data: "))
+        if job["state"] in ("failed", "cancelled"):
+            self.faults.append(job)
+        return job["state"] == "succeeded"
 
 
 def run(served, jobs, clients, kills):
