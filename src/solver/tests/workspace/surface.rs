@@ -107,11 +107,6 @@ fn true_boundary_is_near() {
     ];
     for (name, machine) in others() {
         for question in kinds {
-            // Open: a crease between sliders 1 and 3 is not cut near (-46, -10), and the surface is
-            // 2.2 mm off there.
-            if name == "short strokes" && question.kind == Kind::Part {
-                continue;
-            }
             let mesh = made(&machine, &question);
             let [low, high] = mesh.bounds().unwrap();
             let mut numbers = Random(31_337);

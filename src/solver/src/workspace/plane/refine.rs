@@ -7,9 +7,10 @@ use super::super::domain::{Domain, LIMITS};
 use super::super::observer::{Observer, go_on};
 use super::super::path::{Shape, control, shape};
 use super::super::request::WorkspaceError;
+use super::super::root;
 use super::leaf::Leaf;
 use super::patch::Patch;
-use super::site::Site;
+use super::site::{CREASES, Site, value};
 use crate::pose::Point;
 
 /// Part of the tolerance that an edge's midpoint may be off; inside a triangle whose edges are all
@@ -19,11 +20,14 @@ const FLAT: f64 = 0.7;
 /// units of the tolerance.
 const SHORTEST: [f64; 2] = [1.0, 0.02];
 
-/// Part of the tolerance by which a curve may cross an edge and come back.
+/// Part of the tolerance by which a curve may cross an edge and come back, and by which slider 1
+/// may bind between the others.
 const SHALLOW: f64 = 0.25;
 /// Step beside an edge that shows a limit's gradient, in units of the edge.
 const STEP: f64 = 1e-4;
 
+/// Precision of the place where sliders 2 and 3 change, as a part of the edge.
+const CHANGE: f64 = 1e-6;
 /// Width of a triangle that is not refined any more, in units of the tolerance.
 const THIN: f64 = 0.01;
 
@@ -146,7 +150,9 @@ impl Refinement<'_> {
         let length = length(a, b) / self.tolerance;
         let crossed = |limit: usize| doubtful & (1 << limit) != 0 && self.crossed(limit, [a, middle, b]);
         let halved = length > SHORTEST[0] && (0..LIMITS).any(crossed)
-            || length > SHORTEST[1] && !self.domain.flat() && self.curved([a, middle, b]);
+            || length > SHORTEST[1]
+                && !self.domain.flat()
+                && (self.curved([a, middle, b]) || self.hidden([a, b]));
         if halved { Edge::Halved } else { Edge::Kept }
     }
 
@@ -160,6 +166,23 @@ impl Refinement<'_> {
         let across = (self.domain.value(limit, &self.domain.column(beside)) - values[1]) / STEP;
         let gradient = across.hypot(values[2] - values[0]) / length;
         depth > SHALLOW * self.tolerance * gradient
+    }
+
+    /// Whether slider 1 binds a sheet between an end where slider 2 does and one where slider 3
+    /// does. However straight the sheets, its crease crosses such an edge twice, which the signs at
+    /// the ends do not show; slider 1 binds by most where the other two change.
+    fn hidden(&self, [a, b]: [&Site; 2]) -> bool {
+        [CREASES, CREASES + 2].into_iter().any(|first| {
+            let [start, end] = [a, b].map(|site| site.values[first + 1]);
+            let others = a.values[first] < 0.0 && b.values[first] < 0.0;
+            others && (start < 0.0 && end > 0.0 || start > 0.0 && end < 0.0) && {
+                let ([ax, ay], [bx, by]) = (a.at(), b.at());
+                let column = |part: f64| self.domain.column([ax + part * (bx - ax), ay + part * (by - ay)]);
+                let change = |part: f64| value(self.domain, first + 1, &column(part));
+                let part = root::zero(start, end, CHANGE, change);
+                value(self.domain, first, &column(part)) > SHALLOW * self.tolerance
+            }
+        })
     }
 
     /// Whether a sheet leaves the edge by more than is allowed. A sheet is judged by every slider
