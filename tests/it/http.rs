@@ -9,6 +9,7 @@ mod jobs_kept;
 mod jobs_listed;
 mod jobs_refused;
 mod jobs_stopped;
+mod dexterity;
 mod kinematics;
 mod machines;
 mod part_frame;
