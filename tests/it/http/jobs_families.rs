@@ -126,13 +126,13 @@ async fn at_most_a_thousand_members() {
 }
 
 #[tokio::test]
-async fn a_table_has_no_mesh() {
+async fn a_table_has_neither_mesh_nor_slice() {
     let service = service().await;
     let question = json!({"kind": "tool", "tool_length": [50, 60], "tolerance": 100});
     let request = json_request(axum::http::Method::POST, "/workspace?format=glb", question.clone());
     send_to(service.clone(), request).await.assert_problem(404, "no_mesh");
     let path = table(&service, question).await["links"]["self"].as_str().unwrap().to_owned();
-    for below in ["mesh", "mesh?format=stl", "slice?z=1200"] {
-        get_from(&service, &format!("{path}/{below}"), &[]).await.assert_problem(404, "no_mesh");
+    for (below, code) in [("mesh", "no_mesh"), ("mesh?format=stl", "no_mesh"), ("slice?z=1200", "no_slice")] {
+        get_from(&service, &format!("{path}/{below}"), &[]).await.assert_problem(404, code);
     }
 }
