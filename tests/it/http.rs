@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod batch;
+mod dexterity;
 mod jobs;
 mod jobs_cancelled;
 mod jobs_families;
@@ -9,7 +10,6 @@ mod jobs_kept;
 mod jobs_listed;
 mod jobs_refused;
 mod jobs_stopped;
-mod dexterity;
 mod kinematics;
 mod machines;
 mod part_frame;
@@ -53,7 +53,7 @@ pub(crate) fn config(machines: Option<PathBuf>) -> ServeConfig {
         cache_bytes: 64 * 1024 * 1024,
         disk_bytes: 64 * 1024 * 1024,
         job_threads: None,
-        queue: 100,
+        queue: 10_000,
         job_limit: 600,
         wait: 20,
         timeout: 30,

@@ -63,6 +63,10 @@ impl Keeper {
             self.enter(&mut board, record, recorded, None);
             if let Some(entry) = board.entry(id, life) {
                 entry.kept = !entry.hidden;
+                if entry.hidden {
+                    // Only a part: it waits for its whole, which may be cancelled before it asks for it again.
+                    board.queue.remove(life);
+                }
             }
         }
         self.dispatch(&mut board);
@@ -98,7 +102,14 @@ impl Keeper {
 
     /// `after`: as a part, whose share begins there.
     fn join(&self, board: &mut Board, life: u64, submission: &Submission, after: Option<Tag>) {
-        board.queue.join(life, &submission.client, after);
+        match board.entry(submission.id, life).filter(|entry| !entry.is_wanted()) {
+            // An earlier process left it, and nobody has asked for it since.
+            Some(entry) => {
+                let waiting = Waiting { client: submission.client.clone(), ..waiting(&entry.feeder.job()) };
+                board.queue.push(life, waiting, after);
+            }
+            None => board.queue.join(life, &submission.client, after),
+        }
         if let Some(entry) = board.entry(submission.id, life)
             && entry.hidden
             && after.is_none()
@@ -161,10 +172,8 @@ impl Keeper {
 
     fn enter(&self, board: &mut Board, record: Record, recorded: Recorded, after: Option<Tag>) {
         let Record { life, job, deadline, hidden } = record;
-        let (id, bytes) = (job.id, job.payload.len());
-        let waiting =
-            Waiting { id, client: job.client.clone(), cost: job.cost, bytes, since: Instant::now() };
-        board.queue.push(life, waiting, after);
+        let id = job.id;
+        board.queue.push(life, waiting(&job), after);
         let entry = Entry {
             life,
             feeder: Feeder::new(job),
@@ -234,6 +243,11 @@ impl Keeper {
 
 fn from_now(limit: Duration) -> Option<Instant> {
     Instant::now().checked_add(limit)
+}
+
+fn waiting(job: &Job) -> Waiting {
+    let (id, client, cost, bytes) = (job.id, job.client.clone(), job.cost, job.payload.len());
+    Waiting { id, client, cost, bytes, since: Instant::now() }
 }
 
 fn queued(submission: Submission) -> Job {
