@@ -6,14 +6,10 @@
 mod board;
 mod config;
 mod keeper;
-mod moment;
 mod parts;
-mod pools;
 mod queue;
 mod recorder;
 mod records;
-mod run;
-mod turn;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -25,6 +21,8 @@ use async_trait::async_trait;
 use tokio::sync::Semaphore;
 use tokio::time::timeout;
 
+use crate::threads::pools;
+use crate::threads::run::Told;
 use crate::{
     Backend, Claim, Counts, Cursor, Filter, Job, JobId, Page, Submission, SubmitError, Unavailable, Watcher,
     Work,
@@ -34,7 +32,6 @@ use keeper::Keeper;
 use queue::Queue;
 use recorder::Recorder;
 use records::{Opened, Record, Records};
-use run::Told;
 
 pub use config::{Config, OpenError};
 pub use records::Retention;

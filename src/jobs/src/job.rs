@@ -1,8 +1,11 @@
 use std::time::{Duration, SystemTime};
 
 use bytes::Bytes;
+use serde::{Deserialize, Serialize};
 
 use crate::JobId;
+use crate::moment::now;
+use crate::threads::run::Outcome;
 
 /// What is asked for: data, so that any process that knows the [`Work`](crate::Work) can do it.
 #[derive(Clone, Debug)]
@@ -25,7 +28,7 @@ pub struct Submission {
 pub const MAX_COST: f64 = 1e6;
 
 /// Where a job stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum State {
     /// Waits for its turn.
     Queued,
@@ -61,7 +64,7 @@ impl State {
 }
 
 /// Why a job failed.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Failure {
     /// The work's own reason, in its own terms.
     Work(Bytes),
@@ -74,7 +77,7 @@ pub enum Failure {
 }
 
 /// A job as it stood at one moment.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Job {
     /// Hash of what it makes.
     pub id: JobId,
@@ -98,4 +101,36 @@ pub struct Job {
     pub attempts: u32,
     /// There when the state is [`State::Failed`].
     pub failure: Option<Failure>,
+}
+
+/// As it enters the queue.
+pub(crate) fn queued(submission: Submission) -> Job {
+    Job {
+        id: submission.id,
+        client: submission.client,
+        cost: told_apart(submission.cost),
+        payload: submission.payload,
+        state: State::Queued,
+        progress: 0.0,
+        created: now(),
+        started: None,
+        finished: None,
+        attempts: 0,
+        failure: None,
+    }
+}
+
+/// As it ends.
+pub(crate) fn finish(job: &mut Job, outcome: Outcome) {
+    job.finished = Some(now());
+    match outcome {
+        Outcome::Succeeded => (job.state, job.progress) = (State::Succeeded, 1.0),
+        Outcome::Failed(failure) => (job.state, job.failure) = (State::Failed, Some(failure)),
+        Outcome::Cancelled => job.state = State::Cancelled,
+    }
+}
+
+/// A cost that sums well: what is not a number counts as the greatest.
+pub(crate) fn told_apart(cost: f64) -> f64 {
+    if cost.is_nan() { MAX_COST } else { cost.clamp(1e-3, MAX_COST) }
 }

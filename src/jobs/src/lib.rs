@@ -18,6 +18,11 @@
 //! ends, parts that nobody else wants are cancelled. Parts take places in the queue and wait for them, and are not
 //! [listed](Backend::list) unless somebody submits them by themselves.
 //!
+//! # Back ends
+//!
+//! [`Embedded`] keeps and runs jobs in one process; [`JetStream`] shares them among many. What follows is the embedded one's;
+//! [where the other differs](jetstream) is said there.
+//!
 //! # Which job is next
 //!
 //! Self-clocked fair queueing (Golestani 1994): a job's tag is the greater of the virtual time and its client's last tag in
@@ -40,7 +45,10 @@ mod claim;
 pub mod embedded;
 mod feed;
 mod id;
+pub mod jetstream;
 mod job;
+mod moment;
+mod threads;
 mod work;
 
 pub use backend::{Backend, Counts, Cursor, Filter, NotACursor, Page, SubmitError, Unavailable};
@@ -48,5 +56,6 @@ pub use claim::Claim;
 pub use embedded::Embedded;
 pub use feed::Watcher;
 pub use id::{JobId, NotAJobId};
+pub use jetstream::JetStream;
 pub use job::{Failure, Job, MAX_COST, State, Submission};
 pub use work::{Stop, Watch, Work};

@@ -1,4 +1,4 @@
-//! Jobs as their callers see them: the contract that every back end keeps, and what only the embedded one promises.
+//! Jobs as their callers see them: the contract that every back end keeps, and what only one of them promises.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
@@ -28,6 +28,15 @@ mod parts_restart;
 #[path = "embedded/restart.rs"]
 mod restart;
 
+#[path = "jetstream/access.rs"]
+mod access;
+#[path = "jetstream/losses.rs"]
+mod losses;
+#[path = "jetstream/nodes.rs"]
+mod nodes;
+
+#[path = "support/broker.rs"]
+mod broker;
 #[path = "support/child.rs"]
 mod child;
 #[path = "support/stage.rs"]

@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn a_subscriber_is_one_client() {
-        let of = |address: &str| network(address.parse().unwrap());
+        let of = |address: &str| address.parse().map(network);
         assert_eq!(of("2001:db8:1:2:3::4"), of("2001:db8:1:2:ffff::1"));
         assert_ne!(of("2001:db8:1:2::1"), of("2001:db8:1:3::1"));
         assert_eq!(of("::ffff:10.0.0.1"), of("10.0.0.1"));

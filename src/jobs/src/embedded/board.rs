@@ -7,10 +7,10 @@ use std::time::Instant;
 use tokio::sync::watch;
 
 use super::parts::Parts;
-use super::pools::Seat;
-use super::queue::{Lane, Queue, Taken};
-use super::run::{Run, Told};
+use super::queue::{Queue, Taken};
 use crate::feed::Feeder;
+use crate::threads::pools::{Lane, Seat};
+use crate::threads::run::{Run, Told};
 use crate::{JobId, State, Unavailable};
 
 /// Whether the submission is durable; `None` until that is known.

@@ -15,15 +15,15 @@ use tokio::sync::{Notify, watch};
 
 use super::Config;
 use super::board::{Board, Entry, Recorded};
-use super::moment::now;
 use super::parts::Parts;
 use super::queue::{Tag, Waiting};
 use super::recorder::Recorder;
 use super::records::{Record, Write};
-use super::run::{End, Outcome, Told};
-use super::turn::Turn;
 use crate::feed::Feeder;
-use crate::{Claim, Job, JobId, MAX_COST, State, Submission, SubmitError, Work};
+use crate::job::{finish, queued};
+use crate::threads::run::{End, Outcome, Told};
+use crate::threads::turn::Turn;
+use crate::{Claim, JobId, Submission, SubmitError, Work};
 use claims::Stake;
 
 pub(super) struct Keeper {
@@ -248,34 +248,4 @@ fn from_now(limit: Duration) -> Option<Instant> {
 fn waiting(job: &Job) -> Waiting {
     let (id, client, cost, bytes) = (job.id, job.client.clone(), job.cost, job.payload.len());
     Waiting { id, client, cost, bytes, since: Instant::now() }
-}
-
-fn queued(submission: Submission) -> Job {
-    Job {
-        id: submission.id,
-        client: submission.client,
-        cost: told_apart(submission.cost),
-        payload: submission.payload,
-        state: State::Queued,
-        progress: 0.0,
-        created: now(),
-        started: None,
-        finished: None,
-        attempts: 0,
-        failure: None,
-    }
-}
-
-fn finish(job: &mut Job, outcome: Outcome) {
-    job.finished = Some(now());
-    match outcome {
-        Outcome::Succeeded => (job.state, job.progress) = (State::Succeeded, 1.0),
-        Outcome::Failed(failure) => (job.state, job.failure) = (State::Failed, Some(failure)),
-        Outcome::Cancelled => job.state = State::Cancelled,
-    }
-}
-
-/// A cost that sums well: what is not a number counts as the greatest.
-fn told_apart(cost: f64) -> f64 {
-    if cost.is_nan() { MAX_COST } else { cost.clamp(1e-3, MAX_COST) }
 }

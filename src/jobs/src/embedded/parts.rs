@@ -3,10 +3,8 @@
 use std::collections::{HashMap, HashSet, VecDeque};
 
 use super::queue::{Tag, Taken};
+use crate::threads::run::MERGE;
 use crate::{JobId, Submission};
-
-/// Part of a job's progress, and of its cost, that the merge of its parts has.
-pub(super) const MERGE: f64 = 0.05;
 
 /// Most parts of one job that are queued or run.
 const AT_ONCE: usize = 256;

@@ -5,15 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::time::{Duration, Instant};
 
 use crate::JobId;
-
-/// Which jobs a lane takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lane {
-    /// Any.
-    Main,
-    /// Small ones.
-    Express,
-}
+use crate::threads::pools::Lane;
 
 /// A queued job.
 #[derive(Clone, Debug)]

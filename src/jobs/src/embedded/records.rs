@@ -9,7 +9,7 @@ use std::time::{Duration, SystemTime};
 
 use rusqlite::{Connection, OptionalExtension, named_params};
 
-use super::moment::{now, to_micros};
+use crate::moment::{now, to_micros};
 use crate::{Filter, Job, JobId, State, Unavailable};
 
 pub(super) use open::{Opened, open};

@@ -101,6 +101,8 @@ async fn an_abandoned_run_is_not_joined(open: Open) {
     let mut watcher = abandoned.watch();
     stand.stage.begun(1).await;
     drop(abandoned);
+    // Answered when the run has been told.
+    stand.get("a").await;
     let claim = stand.submit(job("bob", "a", "deaf")).await;
     while let Some(job) = watcher.next().await {
         assert!(!job.state.is_final() || job.state == State::Cancelled);

@@ -93,6 +93,7 @@ async fn a_deadline_stops_a_running_job(open: Open) {
 async fn a_deadline_ends_a_queued_job(open: Open) {
     let stand = open(10);
     stand.leave(job("ada", "running", "hold")).await;
+    stand.stage.begun(1).await;
     let hurried = Submission { deadline: Some(Duration::from_millis(50)), ..job("ada", "a", "pass") };
     let end = stand.submit(hurried).await.finished().await;
     assert_eq!((end.state, end.failure, end.attempts), (State::Failed, Some(Failure::DeadlinePassed), 0));
@@ -123,6 +124,7 @@ async fn a_finished_job_lives_anew(open: Open) {
 async fn a_full_queue_takes_no_more(open: Open) {
     let stand = open(2);
     stand.leave(job("ada", "running", "hold")).await;
+    stand.stage.begun(1).await;
     let _queued = [stand.submit(job("ada", "a", "pass")).await, stand.submit(job("bob", "b", "pass")).await];
     let refused = stand.backend.submit(job("eve", "c", "pass")).await.unwrap_err();
     let SubmitError::Full { retry_after } = refused else {

@@ -40,6 +40,7 @@ async fn a_list_is_filtered(open: Open) {
     let stand = open(10);
     stand.submit(job("ada", "done", "pass")).await.finished().await;
     stand.leave(job("bob", "running", "hold")).await;
+    stand.stage.begun(2).await;
     stand.leave(job("ada", "queued", "pass")).await;
     for (state, expected) in [
         (Some(State::Queued), vec!["queued"]),

@@ -3,20 +3,24 @@
 use verne_jobs::{State, Submission};
 
 use crate::stage::job;
-use crate::stand::{Open, Stand, for_each_backend};
+use crate::stand::{Open, Stand, for_each_backend, for_each_embedded};
 
-for_each_backend!(
-    many_jobs_of_one_do_not_starve_anothers_one,
-    clients_take_turns_by_cost,
-    small_jobs_go_before_large_ones,
-    a_joined_job_moves_up,
-    a_joined_job_does_not_move_back,
-    a_small_job_passes_a_long_one,
-    a_large_job_does_not_take_the_express_lane,
-    others_pass_between_parts,
-    a_job_of_parts_is_charged_once,
-    what_passes_by_the_express_lane_does_not_set_others_back,
-);
+for_each_backend!(a_small_job_passes_a_long_one, a_large_job_does_not_take_the_express_lane);
+
+// Clients' shares.
+mod shares {
+    use super::*;
+    for_each_embedded!(
+        many_jobs_of_one_do_not_starve_anothers_one,
+        clients_take_turns_by_cost,
+        small_jobs_go_before_large_ones,
+        a_joined_job_moves_up,
+        a_joined_job_does_not_move_back,
+        others_pass_between_parts,
+        a_job_of_parts_is_charged_once,
+        what_passes_by_the_express_lane_does_not_set_others_back,
+    );
+}
 
 async fn held(open: Open) -> Stand {
     let stand = open(1000);

@@ -57,17 +57,15 @@ async fn equal_parts_are_computed_once(open: Open) {
 
 async fn a_part_that_fails_fails_the_whole(open: Open) {
     let stand = open(10);
-    let end = stand.submit(job("ada", "whole", "split a=fail b=pass")).await.finished().await;
+    let end = stand.submit(job("ada", "whole", "split a=fail b=hold")).await.finished().await;
     assert_eq!((end.state, end.failure), (State::Failed, Some(Failure::Work("as told".into()))));
     assert_eq!(stand.get("a").await.state, State::Failed);
-    let end = stand.end("b").await;
-    assert_eq!((end.state, end.attempts), (State::Cancelled, 0));
-    assert_eq!(stand.stage.left(1).await, ["a"]);
+    assert_eq!(stand.end("b").await.state, State::Cancelled);
 }
 
 async fn a_part_that_is_cancelled_cancels_the_whole(open: Open) {
     let stand = open(10);
-    let whole = stand.submit(job("ada", "whole", "split a=hold b=pass")).await;
+    let whole = stand.submit(job("ada", "whole", "split a=hold b=hold")).await;
     stand.stage.begun(1).await;
     stand.backend.cancel(id("a")).await.unwrap().unwrap();
     assert_eq!(whole.finished().await.state, State::Cancelled);
@@ -76,19 +74,18 @@ async fn a_part_that_is_cancelled_cancels_the_whole(open: Open) {
 
 async fn a_cancelled_whole_cancels_its_parts(open: Open) {
     let stand = open(10);
-    stand.leave(job("ada", "whole", "split a=hold b=pass")).await;
+    stand.leave(job("ada", "whole", "split a=hold b=hold")).await;
     stand.stage.begun(1).await;
     stand.backend.cancel(id("whole")).await.unwrap().unwrap();
     for name in ["whole", "a", "b"] {
         assert_eq!(stand.end(name).await.state, State::Cancelled);
     }
-    assert_eq!(stand.stage.left(1).await, ["a"]);
     assert_eq!(stand.submit(job("ada", "c", "pass")).await.finished().await.state, State::Succeeded);
 }
 
 async fn an_abandoned_whole_abandons_its_parts(open: Open) {
     let stand = open(10);
-    let claim = stand.submit(job("ada", "whole", "split a=hold b=pass")).await;
+    let claim = stand.submit(job("ada", "whole", "split a=hold b=hold")).await;
     stand.stage.begun(1).await;
     drop(claim);
     for name in ["whole", "a", "b"] {
@@ -248,7 +245,7 @@ async fn a_whole_has_its_deadline(open: Open) {
     let stand = open(10);
     let hurried = Submission {
         deadline: Some(std::time::Duration::from_millis(500)),
-        ..job("ada", "whole", "split a=hold b=pass")
+        ..job("ada", "whole", "split a=hold b=hold")
     };
     let end = stand.submit(hurried).await.finished().await;
     assert_eq!(end.failure, Some(Failure::DeadlinePassed));

@@ -15,7 +15,7 @@ use verne_jobs::{Filter, Job, JobId};
 
 use crate::error::{Error, Fault};
 use crate::extract::Params;
-use crate::openapi::binary::Text;
+use crate::openapi::binary::JobEvent;
 use crate::openapi::problems::{JobProblems, QueryProblems};
 use crate::state::Shared;
 use crate::wire::job::{JobList, JobObject, JobsQuery};
@@ -74,7 +74,7 @@ pub(crate) async fn get_job(State(state): State<Shared>, id: Id) -> Result<impl 
     get, path = "/jobs/{id}/events", operation_id = "job_events", tag = "jobs",
     params(("id" = String, Path, description = "The id that /workspace answered.")),
     responses(
-        (status = 200, description = "Events whose data is a job.", content((Text = "text/event-stream"))),
+        (status = 200, description = "Events whose data is a job.", content((JobEvent = "text/event-stream"))),
         JobProblems
     )
 )]

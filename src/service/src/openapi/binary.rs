@@ -19,6 +19,18 @@ impl PartialSchema for Binary {
 
 impl ToSchema for Binary {}
 
+/// A server-sent event whose data is a job as JSON.
+pub(crate) struct JobEvent;
+
+impl PartialSchema for JobEvent {
+    fn schema() -> RefOr<Schema> {
+        let data = ObjectBuilder::new().schema_type(Type::String).content_media_type("application/json");
+        ObjectBuilder::new().schema_type(Type::Object).property("data", data).required("data").into()
+    }
+}
+
+impl ToSchema for JobEvent {}
+
 impl PartialSchema for Text {
     fn schema() -> RefOr<Schema> {
         ObjectBuilder::new().schema_type(Type::String).into()

@@ -5,7 +5,7 @@ use std::sync::{Arc, Weak};
 use super::Keeper;
 use crate::claim::Interest;
 use crate::embedded::board::Board;
-use crate::embedded::run::Told;
+use crate::threads::run::Told;
 use crate::{Job, JobId};
 
 /// One claim on one life of a job. Does not keep the back end open.

@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::Keeper;
 use crate::JobId;
 use crate::embedded::board::Board;
-use crate::embedded::run::Told;
+use crate::threads::run::Told;
 
 impl Keeper {
     pub(super) fn set_deadline(&self, board: &mut Board, id: JobId, life: u64, deadline: Option<Instant>) {

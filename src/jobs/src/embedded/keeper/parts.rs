@@ -3,12 +3,13 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::{Keeper, told_apart};
+use super::Keeper;
 use crate::embedded::board::Board;
-use crate::embedded::parts::{MERGE, Next, Parts, Split};
+use crate::embedded::parts::{Next, Parts, Split};
 use crate::embedded::queue::{Taken, Waiting};
 use crate::embedded::records::Write;
-use crate::embedded::run::{Outcome, Told};
+use crate::job::told_apart;
+use crate::threads::run::{MERGE, Outcome, Told};
 use crate::{Failure, Job, JobId, State, Submission};
 
 impl Keeper {

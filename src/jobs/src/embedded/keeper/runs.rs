@@ -9,12 +9,12 @@ use bytes::Bytes;
 use super::Keeper;
 use super::parts::progressed;
 use crate::embedded::board::Board;
-use crate::embedded::moment::now;
 use crate::embedded::parts::Parts;
-use crate::embedded::pools::Seat;
 use crate::embedded::queue::{Tag, Taken};
 use crate::embedded::records::Write;
-use crate::embedded::run::{End, Run};
+use crate::moment::now;
+use crate::threads::pools::Seat;
+use crate::threads::run::{End, Run};
 use crate::{JobId, State};
 
 impl Keeper {

@@ -8,7 +8,7 @@ use rusqlite::{Connection, ErrorCode, named_params};
 
 use super::{Record, Records, Retention, row, schema};
 use crate::embedded::OpenError;
-use crate::embedded::moment::{now, to_micros};
+use crate::moment::{now, to_micros};
 use crate::{Failure, JobId};
 
 const NAME: &str = "jobs.sqlite3";

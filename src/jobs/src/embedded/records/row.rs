@@ -7,7 +7,7 @@ use rusqlite::types::{FromSqlError, Type};
 use rusqlite::{Connection, Row, named_params};
 
 use super::{Record, Write, schema};
-use crate::embedded::moment::{from_micros, to_micros};
+use crate::moment::{from_micros, to_micros};
 use crate::{Failure, Job, JobId, State};
 
 pub(super) fn write(connection: &Connection, write: &Write) -> rusqlite::Result<()> {

@@ -4,18 +4,25 @@ use std::sync::Arc;
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
-use super::queue::Lane;
+/// Which jobs a lane takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Lane {
+    /// Any.
+    Main,
+    /// Small ones.
+    Express,
+}
 
 /// Where one job at a time runs, with a pool of its own: in a pool for two jobs a thread that waits for a piece of the
 /// one could begin the other on top of it, and the first would end with the second.
 #[derive(Clone, Debug)]
-pub(super) struct Seat {
-    pub(super) lane: Lane,
-    pub(super) pool: Arc<ThreadPool>,
+pub(crate) struct Seat {
+    pub(crate) lane: Lane,
+    pub(crate) pool: Arc<ThreadPool>,
 }
 
 /// Deals `threads` out among `slots` of the main lane, at least one to each, and adds the express lane.
-pub(super) fn seats(threads: usize, slots: usize) -> Result<Vec<Seat>, ThreadPoolBuildError> {
+pub(crate) fn seats(threads: usize, slots: usize) -> Result<Vec<Seat>, ThreadPoolBuildError> {
     let threads = threads.max(1);
     let slots = slots.clamp(1, threads);
     let share = |slot| threads / slots + usize::from(slot < threads % slots);

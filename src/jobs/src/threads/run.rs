@@ -6,16 +6,19 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-use super::parts::MERGE;
-use super::pools::Seat;
-use super::queue::Lane;
+use serde::{Deserialize, Serialize};
+
+use super::pools::{Lane, Seat};
 use super::turn::Turn;
 use crate::feed::Feeder;
 use crate::{Failure, JobId, Stop, Submission, Watch, Work};
 
+/// Part of a job's progress, and of its cost, that the merge of its parts has.
+pub(crate) const MERGE: f64 = 0.05;
+
 /// Why a run was told to stop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Told {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) enum Told {
     Cancelled,
     DeadlinePassed,
     /// To be run again by whoever opens the back end next.
@@ -24,7 +27,7 @@ pub(super) enum Told {
 
 /// How a job ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Outcome {
+pub(crate) enum Outcome {
     Succeeded,
     Failed(Failure),
     Cancelled,
@@ -32,7 +35,7 @@ pub(super) enum Outcome {
 
 /// How a run ended.
 #[derive(Clone, Debug)]
-pub(super) enum End {
+pub(crate) enum End {
     /// With its job.
     Final(Outcome),
     /// Its job is to be merged from these.
@@ -50,12 +53,12 @@ impl From<Told> for End {
     }
 }
 
-pub(super) struct Run {
-    pub(super) id: JobId,
-    pub(super) life: u64,
+pub(crate) struct Run {
+    pub(crate) id: JobId,
+    pub(crate) life: u64,
     /// The job's parts are there.
-    pub(super) merges: bool,
-    pub(super) seat: Seat,
+    pub(crate) merges: bool,
+    pub(crate) seat: Seat,
     feeder: Feeder,
     turn: Arc<Turn>,
     told: OnceLock<Told>,
@@ -65,30 +68,30 @@ pub(super) struct Run {
 }
 
 impl Run {
-    pub(super) fn new(job: (JobId, u64), merges: bool, seat: Seat, feeder: Feeder, turn: Arc<Turn>) -> Self {
+    pub(crate) fn new(job: (JobId, u64), merges: bool, seat: Seat, feeder: Feeder, turn: Arc<Turn>) -> Self {
         let (id, life) = job;
         let rested = (0..seat.pool.current_num_threads()).map(|_| AtomicU64::new(0)).collect();
         Self { id, life, merges, seat, feeder, turn, told: OnceLock::new(), began: Instant::now(), rested }
     }
 
     /// The first to tell is heard.
-    pub(super) fn tell(&self, told: Told) {
+    pub(crate) fn tell(&self, told: Told) {
         if self.told.set(told).is_ok() {
             self.turn.wake();
         }
     }
 
-    pub(super) fn told(&self) -> Option<Told> {
+    pub(crate) fn told(&self) -> Option<Told> {
         self.told.get().copied()
     }
 
     /// Called on the seat's pool.
-    pub(super) fn parts(&self, work: &dyn Work, payload: &[u8]) -> Result<Vec<Submission>, End> {
+    pub(crate) fn parts(&self, work: &dyn Work, payload: &[u8]) -> Result<Vec<Submission>, End> {
         self.guarded(|| work.parts(&self.id, payload))
     }
 
     /// Called on the seat's pool. Calls `further` on any of its threads after progress that shows.
-    pub(super) fn run(&self, work: &dyn Work, payload: &[u8], further: &(dyn Fn() + Sync)) -> End {
+    pub(crate) fn run(&self, work: &dyn Work, payload: &[u8], further: &(dyn Fn() + Sync)) -> End {
         let _passing = (self.seat.lane == Lane::Express).then(|| self.turn.express());
         let watched = Watched { run: self, further };
         match self.guarded(|| work.run(&self.id, payload, &watched)) {
@@ -157,7 +160,7 @@ fn message(panic: &(dyn Any + Send)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::embedded::pools::seats;
+    use crate::threads::pools::seats;
     use crate::{Job, State};
 
     fn run(lane: Lane, turn: &Arc<Turn>) -> Run {

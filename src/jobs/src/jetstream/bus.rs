@@ -1,0 +1,221 @@
+//! What the broker is asked for.
+
+use std::fmt::Display;
+use std::time::Duration;
+
+use async_nats::jetstream::consumer::{AckPolicy, Consumer, pull};
+use async_nats::jetstream::stream::{self, DiscardPolicy, RetentionPolicy, Stream};
+use async_nats::jetstream::{self, Context, kv};
+use async_nats::{HeaderMap, ServerAddr, header};
+use bytes::Bytes;
+
+use super::config::{Config, ConnectError};
+use super::record::Record;
+use crate::{JobId, Unavailable};
+
+/// One of the two lines in which jobs wait.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Line {
+    Small,
+    Large,
+}
+
+impl Line {
+    pub(super) const ALL: [Self; 2] = [Self::Small, Self::Large];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Small => "small",
+            Self::Large => "large",
+        }
+    }
+}
+
+pub(super) struct Bus {
+    pub(super) client: async_nats::Client,
+    pub(super) config: Config,
+    pub(super) records: kv::Store,
+    pub(super) queue: Stream,
+    context: Context,
+}
+
+/// Why a record was not written.
+pub(super) enum WriteError {
+    /// Another has written it since it was read.
+    Conflict,
+    Unavailable(Unavailable),
+}
+
+/// Longest a request to the broker takes.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+impl Bus {
+    pub(super) async fn connect(config: Config) -> Result<Self, ConnectError> {
+        let fits = |character: char| character.is_ascii_alphanumeric() || "-_".contains(character);
+        if config.name.is_empty() || !config.name.chars().all(fits) {
+            return Err(ConnectError::Name(config.name));
+        }
+        let servers = config.url.split(',').map(|server| server.trim().parse());
+        let servers = servers.collect::<Result<Vec<ServerAddr>, _>>().map_err(broker)?;
+        let options = config.options(&servers).await?;
+        let client = options.connect(servers).await.map_err(broker)?;
+        let mut context = jetstream::new(client.clone());
+        context.set_timeout(PATIENCE);
+        let records = context.create_or_update_key_value(records(&config)).await.map_err(broker)?;
+        let queue = context.get_or_create_stream(queue(&config)).await.map_err(broker)?;
+        for line in Line::ALL {
+            queue.create_consumer(consumer(&config, line)).await.map_err(broker)?;
+        }
+        Ok(Self { client, config, records, queue, context })
+    }
+
+    pub(super) fn line(&self, record: &Record) -> Line {
+        if record.job.cost <= self.config.small { Line::Small } else { Line::Large }
+    }
+
+    /// Its name, and the id of the job in each of its messages.
+    pub(super) async fn consumer(&self, line: Line) -> Result<Consumer<pull::Config>, Unavailable> {
+        self.queue.get_consumer(line.name()).await.map_err(unavailable)
+    }
+
+    /// Of the broker's own, about jobs that were delivered too often.
+    pub(super) async fn poison(&self) -> Result<Consumer<pull::Config>, Unavailable> {
+        let name = format!("{}-poison", self.config.name);
+        let queue = self.queue_name();
+        let config = stream::Config {
+            subjects: vec![format!("$JS.EVENT.ADVISORY.CONSUMER.MAX_DELIVERIES.{queue}.*")],
+            retention: RetentionPolicy::WorkQueue,
+            max_age: Duration::from_hours(7 * 24),
+            num_replicas: self.config.replicas,
+            name,
+            ..stream::Config::default()
+        };
+        let stream = self.context.get_or_create_stream(config).await.map_err(unavailable)?;
+        let config = pull::Config {
+            durable_name: Some("poison".to_owned()),
+            ack_policy: AckPolicy::Explicit,
+            ..pull::Config::default()
+        };
+        stream.create_consumer(config).await.map_err(unavailable)
+    }
+
+    fn queue_name(&self) -> String {
+        format!("{}-queue", self.config.name)
+    }
+
+    fn place(&self, record: &Record) -> String {
+        format!("{}.queue.{}.{}", self.config.name, self.line(record).name(), record.job.id)
+    }
+
+    /// Puts a recorded job into its line. Again, it is there once: the message's id is that of its turn.
+    pub(super) async fn publish(&self, record: &Record) -> Result<(), Unavailable> {
+        let Record { life, turn, job, .. } = record;
+        let mut headers = HeaderMap::new();
+        headers.insert(header::NATS_MESSAGE_ID, format!("{}.{life}.{turn}", job.id));
+        let payload = Bytes::from(ticket(record));
+        let published = self.context.publish_with_headers(self.place(record), headers, payload);
+        published.await.map_err(unavailable)?.await.map_err(unavailable)?;
+        Ok(())
+    }
+
+    /// Whether a job is in its line, waiting or taken.
+    pub(super) async fn is_published(&self, record: &Record) -> Result<bool, Unavailable> {
+        match self.queue.get_last_raw_message_by_subject(&self.place(record)).await {
+            Ok(message) => Ok(message.payload.as_ref() == ticket(record).as_slice()),
+            Err(fault) if fault.kind() == stream::LastRawMessageErrorKind::NoMessageFound => Ok(false),
+            Err(fault) => Err(unavailable(fault)),
+        }
+    }
+
+    pub(super) async fn read(&self, id: JobId) -> Result<Option<(Record, u64)>, Unavailable> {
+        let entry = self.records.entry(id.to_string()).await.map_err(unavailable)?;
+        let entry = entry.filter(|entry| entry.operation == kv::Operation::Put);
+        Ok(entry.and_then(|entry| Some((Record::decode(&entry.value)?, entry.revision))))
+    }
+
+    /// Writes a record in the place of that of `revision`, or the first of its job; its revision.
+    pub(super) async fn write(&self, record: &Record, revision: Option<u64>) -> Result<u64, WriteError> {
+        let key = record.job.id.to_string();
+        let other = || WriteError::Unavailable(Unavailable("a record cannot be encoded".to_owned()));
+        let value = record.encode().ok_or_else(other)?;
+        match revision {
+            Some(revision) => {
+                self.records.update(key, value, revision).await.map_err(|fault| match fault.kind() {
+                    kv::UpdateErrorKind::WrongLastRevision => WriteError::Conflict,
+                    _ => WriteError::Unavailable(unavailable(fault)),
+                })
+            }
+            None => self.records.create(key, value).await.map_err(|fault| match fault.kind() {
+                kv::CreateErrorKind::AlreadyExists => WriteError::Conflict,
+                _ => WriteError::Unavailable(unavailable(fault)),
+            }),
+        }
+    }
+
+    /// Forgets a job's record up to this revision; a later one stays.
+    pub(super) async fn forget(&self, id: JobId, revision: u64) {
+        let subject = format!("{}{id}", self.records.prefix);
+        // Another process may have, or will.
+        drop(self.records.stream.purge().filter(subject).sequence(revision + 1).await);
+    }
+
+    /// Tells all processes something that need not last.
+    pub(super) async fn tell(&self, subject: &str, payload: Vec<u8>) {
+        let subject = format!("{}.{subject}", self.config.name);
+        drop(self.client.publish(subject, payload.into()).await);
+    }
+}
+
+/// What a message says: for which life of its job it is, and for which turn in the queue.
+fn ticket(record: &Record) -> Vec<u8> {
+    [record.life.to_be_bytes().as_slice(), &record.turn.to_be_bytes()].concat()
+}
+
+/// Job, life and turn of a message.
+pub(super) fn read_ticket(subject: &str, payload: &[u8]) -> Option<(JobId, u64, u32)> {
+    let id = subject.rsplit('.').next()?.parse().ok()?;
+    let (life, turn) = payload.split_first_chunk::<8>()?;
+    Some((id, u64::from_be_bytes(*life), u32::from_be_bytes(*turn.first_chunk()?)))
+}
+
+fn records(config: &Config) -> kv::Config {
+    kv::Config {
+        bucket: format!("{}-jobs", config.name),
+        history: 1,
+        num_replicas: config.replicas,
+        ..kv::Config::default()
+    }
+}
+
+fn queue(config: &Config) -> stream::Config {
+    stream::Config {
+        name: format!("{}-queue", config.name),
+        subjects: vec![format!("{}.queue.>", config.name)],
+        retention: RetentionPolicy::WorkQueue,
+        discard: DiscardPolicy::New,
+        num_replicas: config.replicas,
+        duplicate_window: Duration::from_mins(2),
+        ..stream::Config::default()
+    }
+}
+
+fn consumer(config: &Config, line: Line) -> pull::Config {
+    pull::Config {
+        durable_name: Some(line.name().to_owned()),
+        ack_policy: AckPolicy::Explicit,
+        ack_wait: config.ack_wait,
+        max_deliver: i64::from(config.max_attempts.max(1)),
+        // Jobs that wait for their parts are not acknowledged, and may be many.
+        max_ack_pending: -1,
+        filter_subject: format!("{}.queue.{}.*", config.name, line.name()),
+        ..pull::Config::default()
+    }
+}
+
+fn broker(fault: impl Display) -> ConnectError {
+    ConnectError::Broker(fault.to_string())
+}
+
+pub(super) fn unavailable(fault: impl Display) -> Unavailable {
+    Unavailable(fault.to_string())
+}

@@ -1,0 +1,141 @@
+use std::fmt;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use async_nats::{ConnectOptions, ServerAddr};
+
+use crate::embedded::Retention;
+
+/// Where the broker is and how jobs are kept there. What is marked as shared must be the same in all processes.
+#[derive(Clone, Debug)]
+pub struct Config {
+    /// `nats://host:4222`, or `tls://`; several of a cluster separated by commas. May hold user and password, or a token.
+    pub url: String,
+    /// A file of credentials: a JWT and its seed.
+    pub credentials: Option<PathBuf>,
+    /// A file with the seed of an nkey.
+    pub nkey: Option<PathBuf>,
+    /// Certificates, in PEM, of who may have signed the broker's, beside the system's.
+    pub authorities: Option<PathBuf>,
+    /// The client's certificate and its key, in PEM.
+    pub certificate: Option<(PathBuf, PathBuf)>,
+    /// Begins the names of all that is kept: letters, digits, `-` and `_`. Shared.
+    pub name: String,
+    /// How many brokers keep each record. Shared.
+    pub replicas: usize,
+    /// Most jobs in the queue; at least one. Each process counts what it knows of, so those submitted elsewhere at the same
+    /// moment may come on top.
+    pub queue: usize,
+    /// Most bytes of payload in the queue, counted so.
+    pub queue_bytes: usize,
+    /// Greatest cost that the small lane takes, seconds of one core. Shared.
+    pub small: f64,
+    /// How long the broker waits for a sign of life from who runs a job before it gives the job to another. Shared.
+    pub ack_wait: Duration,
+    /// A job whose worker was lost so many times is not run again. Shared.
+    pub max_attempts: u32,
+    /// A process that has not been heard of for so long waits for nothing any more. Shared.
+    pub lease: Duration,
+    /// How long a job may be recorded before its absence from the queue is mended.
+    pub mend_after: Duration,
+    /// What is kept of finished jobs. Shared.
+    pub retention: Retention,
+}
+
+impl Config {
+    /// The defaults, with a broker.
+    pub fn at(url: impl Into<String>) -> Self {
+        Self {
+            url: url.into(),
+            credentials: None,
+            nkey: None,
+            authorities: None,
+            certificate: None,
+            name: "verne".to_owned(),
+            replicas: 1,
+            queue: 10_000,
+            queue_bytes: 256 << 20,
+            small: 2.0,
+            ack_wait: Duration::from_secs(30),
+            max_attempts: 5,
+            lease: Duration::from_secs(20),
+            mend_after: Duration::from_secs(10),
+            retention: Retention { count: 10_000, age: Duration::from_hours(7 * 24) },
+        }
+    }
+
+    pub(super) async fn options(&self, servers: &[ServerAddr]) -> Result<ConnectOptions, ConnectError> {
+        let unusable = |path: &PathBuf, fault: std::io::Error| ConnectError::Unusable {
+            path: path.clone(),
+            reason: fault.to_string(),
+        };
+        let mut options = ConnectOptions::new().name(&self.name);
+        if let Some(server) = servers.iter().find(|server| server.has_user_pass()) {
+            let text = |part: Option<&str>| part.unwrap_or_default().to_owned();
+            options = match server.password() {
+                Some(_) => options.user_and_password(text(server.username()), text(server.password())),
+                None => options.token(text(server.username())),
+            };
+        }
+        if let Some(path) = &self.credentials {
+            let text = read(path.clone()).await.map_err(|fault| unusable(path, fault))?;
+            options = options.credentials(&text).map_err(|fault| unusable(path, fault))?;
+        }
+        if let Some(path) = &self.nkey {
+            let seed = read(path.clone()).await.map_err(|fault| unusable(path, fault))?;
+            options = options.nkey(seed.trim().to_owned());
+        }
+        if let Some(path) = &self.authorities {
+            options = options.add_root_certificates(path.clone()).require_tls(true);
+        }
+        if let Some((certificate, key)) = &self.certificate {
+            options = options.add_client_certificate(certificate.clone(), key.clone()).require_tls(true);
+        }
+        Ok(options)
+    }
+}
+
+async fn read(path: PathBuf) -> std::io::Result<String> {
+    let read = tokio::task::spawn_blocking(move || std::fs::read_to_string(path));
+    read.await.unwrap_or_else(|fault| Err(std::io::Error::other(fault)))
+}
+
+/// How a worker runs jobs.
+#[derive(Clone, Copy, Debug)]
+pub struct WorkerConfig {
+    /// How many cores jobs keep busy; at least one.
+    pub threads: usize,
+    /// How many jobs run at once, beside a small one; between one and `threads`, which are dealt out among them.
+    pub slots: usize,
+}
+
+/// Why there is no back end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ConnectError {
+    /// A file with a secret or certificate cannot be used.
+    Unusable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// [`Config::name`] has other characters.
+    Name(String),
+    /// The broker is not there, refuses, or cannot keep jobs.
+    Broker(String),
+    /// Threads cannot be started.
+    Threads(String),
+}
+
+impl fmt::Display for ConnectError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unusable { path, reason } => write!(f, "{}: {reason}", path.display()),
+            Self::Name(name) => write!(f, "{name:?}: a name of letters, digits, - and _ is needed"),
+            Self::Broker(reason) => write!(f, "the broker of jobs cannot be used: {reason}"),
+            Self::Threads(reason) => write!(f, "threads for jobs cannot be started: {reason}"),
+        }
+    }
+}
+
+impl std::error::Error for ConnectError {}

@@ -1,0 +1,126 @@
+//! A job as the broker keeps it.
+
+use std::collections::BTreeSet;
+use std::time::SystemTime;
+
+use bytes::Bytes;
+use serde::{Deserialize, Serialize};
+
+use crate::job::{finish, queued};
+use crate::moment::now;
+use crate::threads::run::{Outcome, Told};
+use crate::{Job, JobId, State, Submission};
+
+/// First byte of a record that this code reads.
+const VERSION: u8 = 1;
+
+/// Whose interest keeps a job alive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub(super) enum Claimant {
+    /// A process in which somebody waits.
+    Process(u64),
+    /// A life of a job of which it is a part.
+    Whole(JobId, u64),
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Record {
+    /// Grows with each submission that begins a life, and with time.
+    pub(super) life: u64,
+    /// How often this life was queued again.
+    pub(super) turn: u32,
+    pub(super) job: Job,
+    pub(super) deadline: Option<SystemTime>,
+    /// It has only been asked for as a part.
+    pub(super) hidden: bool,
+    pub(super) kept: bool,
+    pub(super) claimants: BTreeSet<Claimant>,
+    /// A running job is to stop.
+    pub(super) told: Option<Told>,
+    /// It waits for its parts, or merges them.
+    pub(super) split: bool,
+}
+
+impl Record {
+    pub(super) fn new(life: u64, submission: Submission, claimant: Claimant, hidden: bool) -> Self {
+        let deadline = submission.deadline.and_then(|limit| now().checked_add(limit));
+        let mut job = queued(submission);
+        job.progress = 0.0;
+        let claimants = BTreeSet::from([claimant]);
+        Self { life, turn: 0, job, deadline, hidden, kept: false, claimants, told: None, split: false }
+    }
+
+    pub(super) fn encode(&self) -> Option<Bytes> {
+        postcard::to_extend(self, vec![VERSION]).ok().map(Bytes::from)
+    }
+
+    /// `None`: another version's.
+    pub(super) fn decode(bytes: &[u8]) -> Option<Self> {
+        let (version, rest) = bytes.split_first()?;
+        if *version == VERSION { postcard::from_bytes(rest).ok() } else { None }
+    }
+
+    /// Whether a submission joins it; not what has ended, or has been told to.
+    pub(super) fn goes_on(&self) -> bool {
+        !self.job.state.is_final() && self.told.is_none()
+    }
+
+    pub(super) fn is_wanted(&self) -> bool {
+        self.kept || !self.claimants.is_empty()
+    }
+
+    /// Takes a submission in; whether that changes it.
+    pub(super) fn join(&mut self, submission: &Submission, claimant: Claimant, as_part: bool) -> bool {
+        let mut changes = self.claimants.insert(claimant);
+        if self.hidden && !as_part {
+            self.hidden = false;
+            changes = true;
+        }
+        let deadline = submission.deadline.and_then(|limit| now().checked_add(limit));
+        if self.deadline.is_some() && deadline.is_none_or(|later| Some(later) > self.deadline) {
+            self.deadline = deadline;
+            changes = true;
+        }
+        changes
+    }
+
+    /// A queued job ends, a running one is told to.
+    pub(super) fn stop(&mut self, told: Told) {
+        match (self.job.state, told) {
+            (State::Queued, Told::DeadlinePassed) => {
+                self.end(Outcome::Failed(crate::Failure::DeadlinePassed));
+            }
+            (State::Queued, _) => self.end(Outcome::Cancelled),
+            (State::Running, _) if self.told.is_none() => self.told = Some(told),
+            _ => {}
+        }
+    }
+
+    pub(super) fn end(&mut self, outcome: Outcome) {
+        finish(&mut self.job, outcome);
+        (self.told, self.split) = (None, false);
+        self.claimants.clear();
+    }
+
+    /// As it was told to.
+    pub(super) fn end_as(&mut self, told: Told) {
+        self.end(match told {
+            Told::DeadlinePassed => Outcome::Failed(crate::Failure::DeadlinePassed),
+            Told::Cancelled | Told::Drained => Outcome::Cancelled,
+        });
+    }
+
+    pub(super) fn begin(&mut self) {
+        self.job.state = State::Running;
+        self.job.attempts = self.job.attempts.saturating_add(1);
+        self.job.started = Some(now());
+        self.split = false;
+    }
+
+    /// As if it had not been begun; only the attempts stay.
+    pub(super) fn requeue(&mut self) {
+        (self.job.state, self.job.progress, self.job.started) = (State::Queued, 0.0, None);
+        self.turn = self.turn.saturating_add(1);
+        self.split = false;
+    }
+}

@@ -1,0 +1,142 @@
+//! What any process does for all: ends what nobody wants any more or comes too late, mends what a crash has left
+//! half done, and forgets what is old.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use futures_util::StreamExt;
+
+use super::client::Client;
+use super::mirror::Board;
+use super::record::{Claimant, Record};
+use crate::moment::now;
+use crate::threads::run::Told;
+
+/// How often it looks.
+const TICK: Duration = Duration::from_millis(250);
+
+/// Who has been heard of.
+struct Heard {
+    processes: HashMap<u64, Instant>,
+    /// Since when the broker has been there, and this process's own signs of life have come back.
+    since: Instant,
+}
+
+pub(super) async fn keep_house(client: Arc<Client>) {
+    let lease = client.bus.config.lease;
+    let mut heard = Heard { processes: HashMap::new(), since: Instant::now() };
+    let mut tick = tokio::time::interval(TICK);
+    tick.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+    let mut beat = tokio::time::interval(lease / 4);
+    let subject = format!("{}.alive", client.bus.config.name);
+    let Ok(mut alive) = client.bus.client.subscribe(subject).await else {
+        return;
+    };
+    loop {
+        tokio::select! {
+            _ = tick.tick() => look(&client, &mut heard).await,
+            () = client.mirror.ended.notified() => release(&client, |_| false).await,
+            _ = beat.tick() => client.bus.tell("alive", client.process.to_be_bytes().to_vec()).await,
+            Some(message) = alive.next() => {
+                if let Some(process) = message.payload.first_chunk() {
+                    heard.hear(u64::from_be_bytes(*process), client.process, lease);
+                }
+            }
+        }
+    }
+}
+
+impl Heard {
+    fn hear(&mut self, process: u64, own: u64, lease: Duration) {
+        let last = self.processes.insert(process, Instant::now());
+        if process == own && last.is_none_or(|last| last.elapsed() > lease / 2) {
+            self.since = Instant::now();
+        }
+    }
+
+    /// Whether a process would have been heard of if it were there.
+    fn misses(&self, process: u64, own: u64, lease: Duration) -> bool {
+        let silent = |process: u64, limit: Duration| {
+            self.processes.get(&process).is_none_or(|last| last.elapsed() > limit)
+        };
+        process != own && self.since.elapsed() > lease && !silent(own, lease / 2) && silent(process, lease)
+    }
+}
+
+async fn look(client: &Client, heard: &mut Heard) {
+    let lease = client.bus.config.lease;
+    let missed = |process: u64| heard.misses(process, client.process, lease);
+    let late = client.mirror.lock().live(is_late);
+    for record in late {
+        tidy(client, &record, |record| record.stop(Told::DeadlinePassed)).await;
+    }
+    release(client, missed).await;
+    heard.processes.retain(|_, last| last.elapsed() < 2 * lease);
+    mend(client).await;
+    forget(client).await;
+}
+
+fn is_late(record: &Record) -> bool {
+    record.deadline.is_some_and(|deadline| deadline <= now())
+}
+
+/// Ends claims of those that are gone: processes, and wholes that have ended.
+async fn release(client: &Client, missed: impl Fn(u64) -> bool) {
+    let gone = |board: &Board, claimant: &Claimant| match claimant {
+        Claimant::Process(process) => missed(*process),
+        Claimant::Whole(id, life) => board.has_ended(*id, *life),
+    };
+    let released = {
+        let board = client.mirror.lock();
+        board.live(|record| record.claimants.iter().any(|claimant| gone(&board, claimant)))
+    };
+    for record in released {
+        tidy(client, &record, |record| {
+            let board = client.mirror.lock();
+            record.claimants.retain(|claimant| !gone(&board, claimant));
+            if !record.is_wanted() {
+                record.stop(Told::Cancelled);
+            }
+        })
+        .await;
+    }
+}
+
+/// Changes a record if it is still that life of the job.
+async fn tidy(client: &Client, record: &Record, change: impl Fn(&mut Record)) {
+    let (id, life) = (record.job.id, record.life);
+    let _shard = client.shard(id).await;
+    let tidied = client.change(id, |record| {
+        let tidies = record.life == life && record.goes_on();
+        if tidies {
+            change(record);
+        }
+        tidies
+    });
+    if let Err(fault) = tidied.await {
+        tracing::warn!(%fault, "a job that nobody wants is not cancelled yet");
+    }
+}
+
+/// Queues what was recorded and is not in its line: the process died between the two, or the broker lost it.
+async fn mend(client: &Client) {
+    let unseen = client.mirror.lock().unseen(client.bus.config.mend_after);
+    for record in unseen {
+        if matches!(client.bus.is_published(&record).await, Ok(false))
+            && let Ok(Some((record, _))) = client.refresh(record.job.id).await
+            && !record.job.state.is_final()
+        {
+            tracing::warn!(job = %record.job.id, "a recorded job was not queued; it is now");
+            drop(client.bus.publish(&record).await);
+        }
+    }
+}
+
+/// Each process forgets by the same rule.
+async fn forget(client: &Client) {
+    let forgotten = client.mirror.lock().forget(client.bus.config.retention);
+    for (id, revision) in forgotten {
+        client.bus.forget(id, revision).await;
+    }
+}

@@ -1,0 +1,66 @@
+//! A job that the broker has given to this worker.
+
+use std::time::Duration;
+
+use async_nats::jetstream::{self, AckKind};
+use futures_util::StreamExt;
+use tokio::time::timeout;
+
+use crate::jetstream::bus::{Line, read_ticket, unavailable};
+use crate::jetstream::client::Client;
+use crate::jetstream::record::Record;
+use crate::{JobId, Unavailable};
+
+pub(super) struct Delivery {
+    pub(super) id: JobId,
+    pub(super) life: u64,
+    pub(super) turn: u32,
+    message: jetstream::Message,
+}
+
+/// The next job of a line; `None`: none for so long.
+pub(super) async fn next(
+    client: &Client,
+    line: Line,
+    wait: Duration,
+) -> Result<Option<Delivery>, Unavailable> {
+    let consumer = client.bus.consumer(line).await?;
+    let batch = consumer.batch().max_messages(1).expires(wait).messages().await;
+    let mut batch = batch.map_err(unavailable)?;
+    // The broker may have gone, and the question with it.
+    let Ok(Some(message)) = timeout(wait + Duration::from_secs(1), batch.next()).await else {
+        return Ok(None);
+    };
+    let message = message.map_err(unavailable)?;
+    if let Some((id, life, turn)) = read_ticket(&message.subject, &message.payload) {
+        return Ok(Some(Delivery { id, life, turn, message }));
+    }
+    tracing::warn!(subject = %message.subject, "what is queued there is no job");
+    message.double_ack_with(AckKind::Term).await.map_err(unavailable)?;
+    Ok(None)
+}
+
+impl Delivery {
+    /// Whether it is this turn's, and that is not over.
+    pub(super) fn is_for(&self, record: &Record) -> bool {
+        (record.life, record.turn) == (self.life, self.turn) && !record.job.state.is_final()
+    }
+
+    /// The job is recorded as done, or as somebody else's; the broker forgets it. If that fails it comes again, and is found
+    /// to be done.
+    pub(super) async fn done(&self) {
+        if let Err(fault) = self.message.double_ack().await {
+            tracing::debug!(%fault, "a job is done and its message stays");
+        }
+    }
+
+    /// Tells the broker that somebody is at it, for as long as this is polled.
+    pub(super) async fn in_hand(&self, ack_wait: Duration) {
+        loop {
+            tokio::time::sleep(ack_wait / 3).await;
+            if let Err(fault) = self.message.ack_with(AckKind::Progress).await {
+                tracing::debug!(%fault, "the broker was not told that a job runs");
+            }
+        }
+    }
+}
