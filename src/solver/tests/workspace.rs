@@ -23,3 +23,5 @@ mod slices;
 mod surface;
 #[path = "workspace/topology.rs"]
 mod topology;
+#[path = "workspace/watched.rs"]
+mod watched;

@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
-use super::observer::{Observer, go_on};
+use super::observer::{Observer, Pace, go_on};
 use super::request::{Kind, Request, WorkspaceError};
 use crate::inverse::{part_working, platform_working, tool_working};
 use crate::limit::{Margin, Refusal};
@@ -36,7 +36,8 @@ pub fn contains(
     observer: &dyn Observer,
 ) -> Result<Vec<Membership>, WorkspaceError> {
     request.check()?;
-    let mut members = vec![Membership { inside: false, margin: None }; points.len()];
+    let nothing = Membership { inside: false, margin: None };
+    let mut members = Pace::new(observer).filled(&nothing, points.len())?;
     points.par_chunks(BATCH).zip(members.par_chunks_mut(BATCH)).try_for_each(|(points, members)| {
         go_on(observer)?;
         for (points, places) in points.chunks(TOGETHER).zip(members.chunks_mut(TOGETHER)) {

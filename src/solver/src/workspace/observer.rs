@@ -23,6 +23,41 @@ impl Observer for Unobserved {
     }
 }
 
+/// Short steps between two looks: each is far below a microsecond.
+const STEPS: u32 = 4_096;
+
+/// Counts the short steps of a loop and looks at the observer every so many.
+pub(super) struct Pace<'a> {
+    pub(super) observer: &'a dyn Observer,
+    left: u32,
+}
+
+impl<'a> Pace<'a> {
+    pub(super) fn new(observer: &'a dyn Observer) -> Self {
+        Self { observer, left: STEPS }
+    }
+
+    #[inline]
+    pub(super) fn step(&mut self) -> Result<(), WorkspaceError> {
+        self.left -= 1;
+        if self.left == 0 {
+            self.left = STEPS;
+            go_on(self.observer)?;
+        }
+        Ok(())
+    }
+
+    /// `count` copies of a value: the first touch of much memory takes its time.
+    pub(super) fn filled<T: Clone>(&mut self, value: &T, count: usize) -> Result<Vec<T>, WorkspaceError> {
+        let mut all = Vec::with_capacity(count);
+        while all.len() < count {
+            go_on(self.observer)?;
+            all.resize(count.min(all.len() + STEPS as usize), value.clone());
+        }
+        Ok(all)
+    }
+}
+
 pub(super) fn go_on(observer: &dyn Observer) -> Result<(), WorkspaceError> {
     if observer.cancelled() { Err(WorkspaceError::Cancelled) } else { Ok(()) }
 }

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use super::domain::Domain;
 use super::narrow::narrowed;
-use super::observer::Observer;
+use super::observer::{Observer, Pace};
 use super::request::WorkspaceError;
 use patch::Patch;
 pub(super) use patch::{Rim, Triangle, Vertex};
@@ -74,7 +74,7 @@ impl Plane {
                 Ok(patch)
             })
             .collect();
-        join::join(domain, &lattice, patches?)
+        join::join(domain, &lattice, patches?, &mut Pace::new(observer))
     }
 
     /// Whether the sides are closed rings.

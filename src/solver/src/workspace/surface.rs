@@ -5,7 +5,7 @@ mod tidy;
 mod twins;
 
 use super::domain::{Binding, Domain, stroke_binding};
-use super::observer::{Observer, go_on};
+use super::observer::{Observer, Pace, go_on};
 use super::plane::{ATTEMPTS, Plane, Rim};
 use super::request::{Request, WorkspaceError};
 use crate::machine::Machine;
@@ -39,9 +39,16 @@ pub fn surface(
     go_on(observer)?;
     let domain = Domain::new(machine, request, None);
     let mut surface = closed(&domain, request.tolerance, observer)?;
-    if surface.volume() < 0.0 {
+    let mut pace = Pace::new(observer);
+    let mut volume = 0.0;
+    for triangle in &surface.triangles {
+        pace.step()?;
+        volume += surface.six_volumes(triangle);
+    }
+    if volume < 0.0 {
         // The map turns the workspace inside out.
         for triangle in &mut surface.triangles {
+            pace.step()?;
             triangle.swap(1, 2);
         }
     }
@@ -55,7 +62,8 @@ fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Resul
     for attempt in ATTEMPTS {
         let plane = Plane::trace(domain, attempt, tolerance, observer)?;
         go_on(observer)?;
-        answer = made_one(Surface::over(domain, &plane), tolerance);
+        let mut pace = Pace::new(observer);
+        answer = made_one(Surface::over(domain, &plane, &mut pace)?, tolerance, &mut pace);
         if answer != Err(WorkspaceError::Open) {
             break;
         }
@@ -63,32 +71,30 @@ fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Resul
     answer
 }
 
-fn made_one(mut surface: Surface, tolerance: f64) -> Result<Surface, WorkspaceError> {
-    part::part(&mut surface)?;
-    tidy::contract(&mut surface, tolerance);
+fn made_one(mut surface: Surface, tolerance: f64, pace: &mut Pace<'_>) -> Result<Surface, WorkspaceError> {
+    part::part(&mut surface, pace)?;
+    tidy::contract(&mut surface, tolerance, pace)?;
     // Contraction keeps a manifold one; this looks at the result, and costs little.
-    part::part(&mut surface)?;
+    part::part(&mut surface, pace)?;
     Ok(surface)
 }
 
 impl Surface {
     /// Volume enclosed, mm³.
     pub fn volume(&self) -> f64 {
+        self.triangles.iter().map(|triangle| self.six_volumes(triangle)).sum::<f64>() / 6.0
+    }
+
+    /// Six times the volume between a triangle and the first vertex.
+    fn six_volumes(&self, triangle: &[u32; 3]) -> f64 {
         let Some(&[ox, oy, oz]) = self.positions.first() else { return 0.0 };
-        let six: f64 = self
-            .triangles
-            .iter()
-            .map(|triangle| {
-                let [a, b, c] = triangle.map(|corner| {
-                    let [x, y, z] = self.positions[corner as usize];
-                    [x - ox, y - oy, z - oz]
-                });
-                a[0] * (b[1] * c[2] - b[2] * c[1])
-                    + a[1] * (b[2] * c[0] - b[0] * c[2])
-                    + a[2] * (b[0] * c[1] - b[1] * c[0])
-            })
-            .sum();
-        six / 6.0
+        let [a, b, c] = triangle.map(|corner| {
+            let [x, y, z] = self.positions[corner as usize];
+            [x - ox, y - oy, z - oz]
+        });
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+            + a[1] * (b[2] * c[0] - b[0] * c[2])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
     }
 
     /// Least and greatest coordinates, mm; `None` if the surface is empty.
@@ -102,39 +108,39 @@ impl Surface {
         }))
     }
 
-    fn over(domain: &Domain<'_>, plane: &Plane) -> Self {
+    fn over(domain: &Domain<'_>, plane: &Plane, pace: &mut Pace<'_>) -> Result<Self, WorkspaceError> {
         let mut surface = Self::default();
         let count = 2 * plane.triangles.len() + 2 * plane.rims.len();
         surface.triangles.reserve_exact(count);
         surface.bindings.reserve_exact(count);
-        let sheets = surface.vertices(plane);
+        let sheets = surface.vertices(plane, pace)?;
         for triangle in &plane.triangles {
+            pace.step()?;
             let [a, b, c] = triangle.corners.map(|corner| sheets[corner as usize]);
             surface.add([a[0], c[0], b[0]], stroke_binding(triangle.sliders[0], false));
             surface.add([a[1], b[1], c[1]], stroke_binding(triangle.sliders[1], true));
         }
         for rim in &plane.rims {
+            pace.step()?;
             surface.wall(domain, plane, rim, rim.ends.map(|end| sheets[end as usize]));
         }
-        surface
+        Ok(surface)
     }
 
     /// Numbers of each plane vertex's lower and upper position.
-    fn vertices(&mut self, plane: &Plane) -> Vec<[u32; 2]> {
+    fn vertices(&mut self, plane: &Plane, pace: &mut Pace<'_>) -> Result<Vec<[u32; 2]>, WorkspaceError> {
         self.positions.reserve_exact(2 * plane.vertices.len());
-        plane
-            .vertices
-            .iter()
-            .map(|vertex| {
-                let low = u32::try_from(self.positions.len()).unwrap_or(u32::MAX);
-                self.positions.push(vertex.ends[0]);
-                if vertex.pinched {
-                    return [low; 2];
-                }
+        let mut sheets = Vec::with_capacity(plane.vertices.len());
+        for vertex in &plane.vertices {
+            pace.step()?;
+            let low = u32::try_from(self.positions.len()).unwrap_or(u32::MAX);
+            self.positions.push(vertex.ends[0]);
+            if !vertex.pinched {
                 self.positions.push(vertex.ends[1]);
-                [low, low + 1]
-            })
-            .collect()
+            }
+            sheets.push([low, low + u32::from(!vertex.pinched)]);
+        }
+        Ok(sheets)
     }
 
     /// The wall over a side, by the shorter of its diagonals. Of rods that are too near, it names

@@ -1,17 +1,16 @@
 //! Grids, regions and volumes of dexterity against membership, measure and each other.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use verne_solver::Machine;
 use verne_solver::workspace::dexterity::{
     Dexterity, DexterityRequest, Grid, Region, dexterity, merge, orientations, slab, volumes,
 };
 use verne_solver::workspace::{
-    Kind, Observer, Request, Surface, Unobserved, Volume, WorkspaceError, contains, measure,
+    Kind, Request, Surface, Unobserved, Volume, WorkspaceError, contains, measure,
 };
 
 use crate::machines::{changed, others};
 use crate::topology::Topology;
+use crate::watched::Looks;
 
 fn asked(from: f64, to: f64, cell: f64) -> DexterityRequest {
     DexterityRequest { tool_length: 80.0, phi2: 0.3, phi1: [from, to], cell }
@@ -163,34 +162,11 @@ fn too_much_is_refused() {
     }
 }
 
-/// Looks until the end, or that end after so many.
-struct Looks {
-    left: AtomicUsize,
-    count: AtomicUsize,
-}
-
-impl Observer for Looks {
-    fn progress(&self, part: f64) {
-        assert!((0.0..=1.0).contains(&part));
-    }
-
-    fn cancelled(&self) -> bool {
-        self.count.fetch_add(1, Ordering::Relaxed);
-        self.left.fetch_sub(1, Ordering::Relaxed) <= 1
-    }
-}
-
-/// There is a look at every node, and any of them ends the work.
 #[test]
-fn can_be_cancelled() {
+fn every_node_is_a_look() {
     let machine = Machine::verne();
     let request = asked(-0.1, 0.1, 90.0);
-    let looks = |left: usize| Looks { left: AtomicUsize::new(left), count: AtomicUsize::new(0) };
-    let all = looks(usize::MAX);
-    let found = dexterity(&machine, &request, &all).unwrap();
-    let all = all.count.into_inner();
-    assert!(all > found.grid.nodes());
-    for left in [1, 100, all / 3, all / 2, all - 2] {
-        assert_eq!(dexterity(&machine, &request, &looks(left)).unwrap_err(), WorkspaceError::Cancelled);
-    }
+    let looks = Looks::until(usize::MAX);
+    let found = dexterity(&machine, &request, &looks).unwrap();
+    assert!(looks.count() > found.grid.nodes());
 }

@@ -1,10 +1,9 @@
 //! Meshes: closed, oriented, near enough, and the same every time.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use verne_solver::workspace::{
-    Kind, Observer, Request, Surface, Unobserved, Volume, WorkspaceError, contains, measure, surface,
+    Kind, Request, Surface, Unobserved, Volume, WorkspaceError, contains, measure, surface,
 };
 use verne_solver::{Constraint, Element, Machine, Margins, platform_working};
 
@@ -232,31 +231,6 @@ fn empty_is_an_answer() {
     let machine = changed(|data| data.limits.rotary = [-0.1, 0.1]);
     let question = Request { phi2: 1.0, ..request(Kind::Part, 50.0, 0.0, 1.0) };
     assert_eq!(made(&machine, &question), Surface::default());
-}
-
-struct After(AtomicUsize);
-
-impl Observer for After {
-    fn progress(&self, part: f64) {
-        assert!((0.0..=1.0).contains(&part));
-    }
-
-    fn cancelled(&self) -> bool {
-        self.0.fetch_sub(1, Ordering::Relaxed) <= 1
-    }
-}
-
-#[test]
-fn can_be_cancelled() {
-    let machine = Machine::verne();
-    let question = request(Kind::Platform, 0.0, 0.0, 0.01);
-    for looks in [1, 2, 20] {
-        let observer = After(AtomicUsize::new(looks));
-        let answer = surface(&machine, &question, &observer);
-        assert_eq!(answer.unwrap_err(), WorkspaceError::Cancelled);
-        let answer = measure(&machine, &question, &After(AtomicUsize::new(looks)));
-        assert_eq!(answer.unwrap_err(), WorkspaceError::Cancelled);
-    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Slabs made one.
 
 use super::super::measure::Volume;
-use super::super::observer::Observer;
+use super::super::observer::{Observer, Pace};
 use super::super::request::WorkspaceError;
 use super::region::{Region, triangles};
 use super::slab::{Crossing, Slab};
@@ -25,9 +25,11 @@ pub fn merge(
     }
     let (mut offsets, mut intervals, mut inside) = (vec![0], Vec::new(), [Vec::new(), Vec::new()]);
     let mut crossings: [Vec<Crossing>; 2] = [Vec::new(), Vec::new()];
+    let mut pace = Pace::new(observer);
     for slab in slabs {
         let mut from = 0;
         for &count in &slab.counts {
+            pace.step()?;
             let found = &slab.intervals[from..from + usize::from(count)];
             from += found.len();
             intervals.extend(found);

@@ -71,6 +71,7 @@ pub fn slab(
     let mut slab = Slab { layers: layers.clone(), ..Slab::default() };
     let mut before: Option<Vec<Row>> = None;
     for (layer, section) in looked_at.zip(&sections) {
+        go_on(observer)?;
         let rows = work.layer(layer, section)?;
         done.one(2);
         if layers.contains(&layer) {

@@ -1,6 +1,8 @@
 //! Curves inside a triangle, drawn to tolerance.
 
 use super::super::domain::Domain;
+use super::super::observer::go_on;
+use super::super::request::WorkspaceError;
 use super::leaf::Leaf;
 use super::site::{Site, value};
 use crate::pose::Point;
@@ -16,30 +18,42 @@ const PRECISE: f64 = 1e-10;
 const FAR: f64 = 0.6;
 
 /// Points to draw between two sites of a curve, in order.
-pub(super) fn between(leaf: &mut Leaf<'_>, curve: usize, from: usize, to: usize) -> Vec<usize> {
+pub(super) fn between(
+    leaf: &mut Leaf<'_>,
+    curve: usize,
+    from: usize,
+    to: usize,
+) -> Result<Vec<usize>, WorkspaceError> {
     let mut points = Vec::new();
     if leaf.sites[from].border & leaf.sites[to].border == 0 {
-        halve(leaf, curve, [from, to], DEPTH, &mut points);
+        halve(leaf, curve, [from, to], DEPTH, &mut points)?;
     }
-    points
+    Ok(points)
 }
 
-fn halve(leaf: &mut Leaf<'_>, curve: usize, [from, to]: [usize; 2], depth: u32, points: &mut Vec<usize>) {
+fn halve(
+    leaf: &mut Leaf<'_>,
+    curve: usize,
+    [from, to]: [usize; 2],
+    depth: u32,
+    points: &mut Vec<usize>,
+) -> Result<(), WorkspaceError> {
+    go_on(leaf.observer)?;
     if depth == 0 || close(leaf, curve, &leaf.sites[from], &leaf.sites[to]) {
-        return;
+        return Ok(());
     }
     let ends = [leaf.sites[from].at(), leaf.sites[to].at()];
     let at = drawn(leaf.domain, curve, ends, 0.5);
     if !inside(leaf, at) || at == ends[0] || at == ends[1] {
-        return;
+        return Ok(());
     }
     let mut site = Site::new(leaf.domain, at);
     site.values[curve] = 0.0;
     leaf.sites.push(site);
     let middle = leaf.sites.len() - 1;
-    halve(leaf, curve, [from, middle], depth - 1, points);
+    halve(leaf, curve, [from, middle], depth - 1, points)?;
     points.push(middle);
-    halve(leaf, curve, [middle, to], depth - 1, points);
+    halve(leaf, curve, [middle, to], depth - 1, points)
 }
 
 /// Whether a chord is close enough to its curve on both sheets, and the ruled wall over the curve

@@ -1,6 +1,7 @@
 //! The squares' patches made one.
 
 use super::super::domain::Domain;
+use super::super::observer::Pace;
 use super::super::request::WorkspaceError;
 use super::patch::{Patch, Rim, Set, Table, Triangle, Vertex, key};
 use super::site::Site;
@@ -10,6 +11,7 @@ pub(super) fn join(
     domain: &Domain<'_>,
     lattice: &Lattice,
     patches: Vec<Patch>,
+    pace: &mut Pace<'_>,
 ) -> Result<Plane, WorkspaceError> {
     let total: usize = patches.iter().map(|patch| patch.vertices.len()).sum();
     // Two sheets' vertices, and those that are added, must be numbered by 32 bits.
@@ -22,6 +24,7 @@ pub(super) fn join(
     for patch in patches {
         let mut numbers = Vec::with_capacity(patch.vertices.len());
         for vertex in patch.vertices {
+            pace.step()?;
             let next = number(vertices.len());
             let found =
                 if lattice.shared(vertex.at) { *shared.entry(key(vertex.at)).or_insert(next) } else { next };
@@ -31,12 +34,17 @@ pub(super) fn join(
             numbers.push(found);
         }
         let place = |n: u32| numbers[n as usize];
-        triangles
-            .extend(patch.triangles.into_iter().map(|t| Triangle { corners: t.corners.map(place), ..t }));
-        rims.extend(patch.rims.into_iter().map(|rim| Rim { ends: rim.ends.map(place), ..rim }));
+        for triangle in patch.triangles {
+            pace.step()?;
+            triangles.push(Triangle { corners: triangle.corners.map(place), ..triangle });
+        }
+        for rim in patch.rims {
+            pace.step()?;
+            rims.push(Rim { ends: rim.ends.map(place), ..rim });
+        }
     }
-    let mut plane = Plane { vertices, triangles, rims: outer(rims) };
-    plane.part_sheets(domain);
+    let mut plane = Plane { vertices, triangles, rims: outer(rims, pace)? };
+    plane.part_sheets(domain, pace)?;
     Ok(plane)
 }
 
@@ -45,20 +53,38 @@ fn number(n: usize) -> u32 {
 }
 
 /// The sides that have the domain on their left only.
-fn outer(rims: Vec<Rim>) -> Vec<Rim> {
-    let directed: Set<[u32; 2]> = rims.iter().map(|rim| rim.ends).collect();
-    rims.into_iter().filter(|Rim { ends: [a, b], .. }| !directed.contains(&[*b, *a])).collect()
+fn outer(rims: Vec<Rim>, pace: &mut Pace<'_>) -> Result<Vec<Rim>, WorkspaceError> {
+    let directed = directed(&rims, pace)?;
+    let mut outer = Vec::new();
+    for rim in rims {
+        pace.step()?;
+        let [a, b] = rim.ends;
+        if !directed.contains(&[b, a]) {
+            outer.push(rim);
+        }
+    }
+    Ok(outer)
+}
+
+fn directed(rims: &[Rim], pace: &mut Pace<'_>) -> Result<Set<[u32; 2]>, WorkspaceError> {
+    let mut directed = Set::default();
+    for rim in rims {
+        pace.step()?;
+        directed.insert(rim.ends);
+    }
+    Ok(directed)
 }
 
 impl Plane {
     /// An inner edge between two points at which the sheets meet would belong to both sheets: it
     /// is halved, and its middle is a vertex of each.
-    fn part_sheets(&mut self, domain: &Domain<'_>) {
-        let rims: Set<[u32; 2]> = self.rims.iter().map(|rim| rim.ends).collect();
+    fn part_sheets(&mut self, domain: &Domain<'_>, pace: &mut Pace<'_>) -> Result<(), WorkspaceError> {
+        let rims = directed(&self.rims, pace)?;
         let mut middles: Table<[u32; 2], u32> = Table::default();
         let mut numbers: Vec<usize> = (0..self.triangles.len()).collect();
         // A triangle may have several such edges: its parts are looked at again.
         while let Some(which) = numbers.pop() {
+            pace.step()?;
             let corners = self.triangles[which].corners;
             let side = (0..3).find(|&i| {
                 let ends = [corners[i], corners[(i + 1) % 3]];
@@ -79,6 +105,7 @@ impl Plane {
             self.triangles.push(Triangle { corners: [middle, b, c], sliders });
             numbers.extend([which, self.triangles.len() - 1]);
         }
+        Ok(())
     }
 
     fn between(&self, domain: &Domain<'_>, a: u32, b: u32) -> Vertex {

@@ -7,9 +7,12 @@
 mod deliver;
 
 use super::super::domain::{Domain, LIMITS};
+use super::super::observer::{Observer, go_on};
+use super::super::request::WorkspaceError;
 use super::super::root;
 use super::bend;
 use super::patch::Patch;
+use super::refine::Refinement;
 use super::site::{CREASES, CURVES, Site, value};
 
 /// Resolution of a point on an edge, as a part of the edge.
@@ -25,6 +28,7 @@ pub(super) type Piece = Vec<usize>;
 pub(super) struct Leaf<'a> {
     pub(super) domain: &'a Domain<'a>,
     pub(super) tolerance: f64,
+    pub(super) observer: &'a dyn Observer,
     pub(super) sites: Vec<Site>,
     pieces: Vec<Piece>,
     /// Sides that were divided: the two ends, in order, and the point between.
@@ -32,14 +36,13 @@ pub(super) struct Leaf<'a> {
 }
 
 impl<'a> Leaf<'a> {
-    pub(super) fn new(domain: &'a Domain<'a>, tolerance: f64, corners: [&Site; 3]) -> Self {
-        Self::with_points(domain, tolerance, corners, [const { Vec::new() }; 3])
+    pub(super) fn new(refinement: &Refinement<'a>, corners: [&Site; 3]) -> Self {
+        Self::with_points(refinement, corners, [const { Vec::new() }; 3])
     }
 
     /// A triangle with further points on its edges, in order.
     pub(super) fn with_points(
-        domain: &'a Domain<'a>,
-        tolerance: f64,
+        refinement: &Refinement<'a>,
         corners: [&Site; 3],
         points: [Vec<Site>; 3],
     ) -> Self {
@@ -55,27 +58,30 @@ impl<'a> Leaf<'a> {
                 sites.push(Site { border: 1 << edge, ..point });
             }
         }
-        Self { domain, tolerance, sites, pieces: vec![piece], divided: Vec::new() }
+        let Refinement { domain, tolerance, observer } = *refinement;
+        Self { domain, tolerance, observer, sites, pieces: vec![piece], divided: Vec::new() }
     }
 
     /// Cuts, and leaves the result in the patch.
-    pub(super) fn cut_into(mut self, patch: &mut Patch) {
+    pub(super) fn cut_into(mut self, patch: &mut Patch) -> Result<(), WorkspaceError> {
+        go_on(self.observer)?;
         for limit in 0..LIMITS {
-            self.cut(limit, false);
+            self.cut(limit, false)?;
         }
         if self.pieces.is_empty() {
-            return;
+            return Ok(());
         }
         if !self.domain.flat() {
             for crease in [0, 2] {
-                self.cut(CREASES + crease, true);
-                self.cut(CREASES + crease + 1, true);
+                self.cut(CREASES + crease, true)?;
+                self.cut(CREASES + crease + 1, true)?;
             }
         }
         self.deliver(patch);
+        Ok(())
     }
 
-    fn cut(&mut self, curve: usize, keep: bool) {
+    fn cut(&mut self, curve: usize, keep: bool) -> Result<(), WorkspaceError> {
         // The second crease of a sheet ends at the first, where slider 1 takes over.
         let behind = (curve > CREASES && (curve - CREASES) % 2 == 1).then(|| curve - 1);
         let mut pieces = Vec::with_capacity(self.pieces.len());
@@ -86,12 +92,13 @@ impl<'a> Leaf<'a> {
             if elsewhere || !piece.iter().any(negative) {
                 pieces.push(piece);
             } else if piece.iter().any(|&site| self.sites[site].values[curve] > 0.0) {
-                self.divide(curve, &piece, keep, &mut pieces);
+                self.divide(curve, &piece, keep, &mut pieces)?;
             } else if keep {
                 pieces.push(piece);
             }
         }
         self.pieces = pieces;
+        Ok(())
     }
 
     /// On which side of a curve a piece lies that the curve does not cut.
@@ -101,7 +108,13 @@ impl<'a> Leaf<'a> {
     }
 
     /// Divides a piece along a curve that crosses it.
-    fn divide(&mut self, curve: usize, piece: &[usize], keep: bool, pieces: &mut Vec<Piece>) {
+    fn divide(
+        &mut self,
+        curve: usize,
+        piece: &[usize],
+        keep: bool,
+        pieces: &mut Vec<Piece>,
+    ) -> Result<(), WorkspaceError> {
         let mut ring = Piece::with_capacity(piece.len() + 4);
         for (i, &a) in piece.iter().enumerate() {
             let b = piece[(i + 1) % piece.len()];
@@ -113,7 +126,7 @@ impl<'a> Leaf<'a> {
             }
         }
         let joined = self.joined(curve, &ring);
-        let (inner, cut_off) = self.split(curve, &ring, joined);
+        let (inner, cut_off) = self.split(curve, &ring, joined)?;
         // What is cut off is negative where the positive side is joined, and positive else.
         if joined {
             pieces.extend(inner);
@@ -126,6 +139,7 @@ impl<'a> Leaf<'a> {
                 pieces.extend(inner);
             }
         }
+        Ok(())
     }
 
     /// Whether the positive parts of a ring hang together between several negative ones.
@@ -145,7 +159,12 @@ impl<'a> Leaf<'a> {
 
     /// Cuts off the runs of one sign: negative ones if the positive side is `joined`. Returns the
     /// rest, if it has an area, and the parts cut off.
-    fn split(&mut self, curve: usize, ring: &[usize], joined: bool) -> (Option<Piece>, Vec<Piece>) {
+    fn split(
+        &mut self,
+        curve: usize,
+        ring: &[usize],
+        joined: bool,
+    ) -> Result<(Option<Piece>, Vec<Piece>), WorkspaceError> {
         let sign = if joined { -1.0 } else { 1.0 };
         let off = |leaf: &Self, site: usize| leaf.sites[site].values[curve] * sign > 0.0;
         let count = ring.len();
@@ -153,7 +172,7 @@ impl<'a> Leaf<'a> {
         let mut parts = Vec::new();
         // Begin where the ring is not cut off.
         let Some(start) = (0..count).find(|&i| !off(self, ring[i])) else {
-            return (None, vec![ring.to_vec()]);
+            return Ok((None, vec![ring.to_vec()]));
         };
         let mut run = Piece::new();
         for step in 1..=count {
@@ -170,9 +189,9 @@ impl<'a> Leaf<'a> {
                 run.push(site);
                 if from == site {
                     // The curve only touches the ring here.
-                    return (None, vec![ring.to_vec()]);
+                    return Ok((None, vec![ring.to_vec()]));
                 }
-                let bent = bend::between(self, curve, from, site);
+                let bent = bend::between(self, curve, from, site)?;
                 rest.extend(&bent);
                 run.extend(bent.iter().rev());
                 parts.push(std::mem::take(&mut run));
@@ -181,7 +200,7 @@ impl<'a> Leaf<'a> {
         }
         let other = rest.iter().any(|&site| self.sites[site].values[curve] * sign < 0.0);
         let area = rest.len() >= 3 && (other || rest.iter().any(|site| !ring.contains(site)));
-        if area { (Some(rest), parts) } else { (None, vec![ring.to_vec()]) }
+        Ok(if area { (Some(rest), parts) } else { (None, vec![ring.to_vec()]) })
     }
 
     /// The point at which a curve crosses a side.

@@ -4,7 +4,7 @@
 //! without knowing of each other, and parts of the plane can be worked on in any order.
 
 use super::super::domain::{Domain, LIMITS};
-use super::super::observer::{Observer, go_on};
+use super::super::observer::Observer;
 use super::super::path::{Shape, control, shape};
 use super::super::request::WorkspaceError;
 use super::super::root;
@@ -61,11 +61,7 @@ impl Refinement<'_> {
         let [ab, bc, ca] = [0, 1, 2].map(|i| self.edge(corners[i], &middles[i], corners[(i + 1) % 3]));
         let [m, n, o] = &middles;
         match (ab, bc, ca) {
-            (Kept, Kept, Kept) => {
-                go_on(self.observer)?;
-                Leaf::new(self.domain, self.tolerance, corners).cut_into(patch);
-                Ok(())
-            }
+            (Kept, Kept, Kept) => Leaf::new(self, corners).cut_into(patch),
             (Halved, Kept, Kept) => self.two([a, b, c], m, patch),
             (Kept, Halved, Kept) => self.two([b, c, a], n, patch),
             (Kept, Kept, Halved) => self.two([c, a, b], o, patch),
@@ -92,14 +88,12 @@ impl Refinement<'_> {
 
     /// Cuts a triangle as it is, with the points that its neighbours will have on its edges.
     fn finish(&self, corners: [&Site; 3], patch: &mut Patch) -> Result<(), WorkspaceError> {
-        go_on(self.observer)?;
         let points = [0, 1, 2].map(|i| {
             let mut points = Vec::new();
             self.divisions(corners[i], corners[(i + 1) % 3], &mut points);
             points
         });
-        Leaf::with_points(self.domain, self.tolerance, corners, points).cut_into(patch);
-        Ok(())
+        Leaf::with_points(self, corners, points).cut_into(patch)
     }
 
     /// All points at which an edge is halved, in order.

@@ -5,20 +5,21 @@
 
 use super::Surface;
 use super::twins::{Twins, ends};
+use crate::workspace::observer::Pace;
 use crate::workspace::request::WorkspaceError;
 
 /// Leaves every edge with two triangles, which run along it in opposite directions, and every
 /// vertex with one ring of triangles; an error if the surface is not closed. Linear where there
 /// is nothing to do.
-pub(super) fn part(surface: &mut Surface) -> Result<(), WorkspaceError> {
+pub(super) fn part(surface: &mut Surface, pace: &mut Pace<'_>) -> Result<(), WorkspaceError> {
     // Each round takes triangles out, ends a crowd or is the last.
     loop {
-        let twins = Twins::of(surface)?;
+        let twins = Twins::of(surface, pace)?;
         if !twins.doubled.is_empty() {
-            take_out(surface, &twins.doubled);
+            take_out(surface, &twins.doubled, pace)?;
             continue;
         }
-        part_vertices(surface, &twins);
+        part_vertices(surface, &twins, pace)?;
         if !bisect(surface, &twins) {
             return Ok(());
         }
@@ -26,21 +27,26 @@ pub(super) fn part(surface: &mut Surface) -> Result<(), WorkspaceError> {
 }
 
 /// A triangle may have several doubles: only whole pairs go.
-fn take_out(surface: &mut Surface, doubled: &[[usize; 2]]) {
-    let mut kept = vec![true; surface.triangles.len()];
+fn take_out(
+    surface: &mut Surface,
+    doubled: &[[usize; 2]],
+    pace: &mut Pace<'_>,
+) -> Result<(), WorkspaceError> {
+    let mut kept = pace.filled(&true, surface.triangles.len())?;
     for &[a, b] in doubled {
         if kept[a] && kept[b] {
             (kept[a], kept[b]) = (false, false);
         }
     }
-    super::tidy::compact(surface, &kept);
+    super::tidy::compact(surface, &kept, pace)
 }
 
 /// Gives each ring of triangles around a vertex its own copy; the first keeps the vertex.
-fn part_vertices(surface: &mut Surface, twins: &Twins) {
+fn part_vertices(surface: &mut Surface, twins: &Twins, pace: &mut Pace<'_>) -> Result<(), WorkspaceError> {
     let mut taken = vec![false; surface.positions.len()];
     let mut seen = vec![false; twins.of.len()];
     for first in 0..seen.len() {
+        pace.step()?;
         if seen[first] {
             continue;
         }
@@ -54,6 +60,7 @@ fn part_vertices(surface: &mut Surface, twins: &Twins) {
             corner = twins.around(corner);
         }
     }
+    Ok(())
 }
 
 fn copy(surface: &mut Surface, vertex: u32) -> u32 {

@@ -4,31 +4,43 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Surface;
 use crate::pose::Point;
+use crate::workspace::observer::{Pace, go_on};
+use crate::workspace::request::WorkspaceError;
 
 /// Longest edge contracted, in units of the tolerance.
 const SHORT: f64 = 0.02;
 
 /// Contracts short edges where the surface stays one: the two ends have only the edge's own two
 /// triangles' corners for common neighbours, no triangle doubles another, and none turns over.
-pub(super) fn contract(surface: &mut Surface, tolerance: f64) {
+pub(super) fn contract(
+    surface: &mut Surface,
+    tolerance: f64,
+    pace: &mut Pace<'_>,
+) -> Result<(), WorkspaceError> {
     let short = SHORT * tolerance;
-    let edges = short_edges(surface, short);
+    let edges = short_edges(surface, short, pace)?;
     if edges.is_empty() {
-        return;
+        return Ok(());
     }
-    let mut work = Contraction::around(surface, &edges);
+    let mut work = Contraction::around(surface, &edges, pace)?;
     for [a, b] in edges {
+        go_on(pace.observer)?;
         work.contract(a, b, short);
     }
     let kept = work.kept;
-    compact(surface, &kept);
+    compact(surface, &kept, pace)
 }
 
 /// Each once, in the order of the triangles.
-fn short_edges(surface: &Surface, short: f64) -> Vec<[u32; 2]> {
-    let sides = surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+fn short_edges(surface: &Surface, short: f64, pace: &mut Pace<'_>) -> Result<Vec<[u32; 2]>, WorkspaceError> {
     let place = |vertex: u32| surface.positions[vertex as usize];
-    sides.filter(|&[a, b]| a < b && distance(place(a), place(b)) < short).collect()
+    let mut found = Vec::new();
+    for &[a, b, c] in &surface.triangles {
+        pace.step()?;
+        let sides = [[a, b], [b, c], [c, a]].into_iter();
+        found.extend(sides.filter(|&[a, b]| a < b && distance(place(a), place(b)) < short));
+    }
+    Ok(found)
 }
 
 struct Contraction<'a> {
@@ -41,20 +53,26 @@ struct Contraction<'a> {
 }
 
 impl<'a> Contraction<'a> {
-    fn around(surface: &'a mut Surface, edges: &[[u32; 2]]) -> Self {
-        let mut around: BTreeMap<u32, Vec<u32>> =
-            edges.iter().flatten().map(|&vertex| (vertex, Vec::new())).collect();
+    fn around(
+        surface: &'a mut Surface,
+        edges: &[[u32; 2]],
+        pace: &mut Pace<'_>,
+    ) -> Result<Self, WorkspaceError> {
+        let mut around: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         let mut marked = vec![false; surface.positions.len()];
-        for vertex in around.keys() {
-            marked[*vertex as usize] = true;
+        for &vertex in edges.as_flattened() {
+            pace.step()?;
+            around.entry(vertex).or_default();
+            marked[vertex as usize] = true;
         }
         for (number, triangle) in (0_u32..).zip(&surface.triangles) {
+            pace.step()?;
             for corner in triangle.iter().filter(|corner| marked[**corner as usize]) {
                 around.entry(*corner).or_default().push(number);
             }
         }
-        let kept = vec![true; surface.triangles.len()];
-        Self { surface, around, moved: BTreeMap::new(), kept }
+        let kept = pace.filled(&true, surface.triangles.len())?;
+        Ok(Self { surface, around, moved: BTreeMap::new(), kept })
     }
 
     fn contract(&mut self, a: u32, b: u32, short: f64) {
@@ -127,29 +145,40 @@ impl<'a> Contraction<'a> {
 }
 
 /// Takes out the triangles that are not kept and the vertices that nothing uses.
-pub(super) fn compact(surface: &mut Surface, kept: &[bool]) {
-    let mut keep = kept.iter().copied();
-    surface.triangles.retain(|_| keep.next().unwrap_or(true));
-    let mut keep = kept.iter().copied();
-    surface.bindings.retain(|_| keep.next().unwrap_or(true));
+pub(super) fn compact(
+    surface: &mut Surface,
+    kept: &[bool],
+    pace: &mut Pace<'_>,
+) -> Result<(), WorkspaceError> {
+    let (triangles, bindings) = (&mut surface.triangles, &mut surface.bindings);
     let mut used = vec![false; surface.positions.len()];
-    for corner in surface.triangles.iter().flatten() {
-        used[*corner as usize] = true;
-    }
     let mut count = 0;
-    let numbers: Vec<u32> = used
-        .iter()
-        .map(|&used| {
-            let number = count;
-            count += u32::from(used);
-            number
-        })
-        .collect();
-    for corner in surface.triangles.iter_mut().flatten() {
-        *corner = numbers[*corner as usize];
+    for (number, _) in kept.iter().enumerate().filter(|(_, kept)| **kept) {
+        pace.step()?;
+        (triangles[count], bindings[count]) = (triangles[number], bindings[number]);
+        for corner in triangles[count] {
+            used[corner as usize] = true;
+        }
+        count += 1;
     }
-    let mut keep = used.into_iter();
-    surface.positions.retain(|_| keep.next().unwrap_or(true));
+    triangles.truncate(count);
+    bindings.truncate(count);
+    let mut numbers = Vec::with_capacity(used.len());
+    let mut next = 0_u32;
+    for (vertex, &used) in used.iter().enumerate() {
+        pace.step()?;
+        numbers.push(next);
+        if used {
+            surface.positions[next as usize] = surface.positions[vertex];
+            next += 1;
+        }
+    }
+    surface.positions.truncate(next as usize);
+    for triangle in triangles {
+        pace.step()?;
+        *triangle = triangle.map(|corner| numbers[corner as usize]);
+    }
+    Ok(())
 }
 
 fn distance(a: Point, b: Point) -> f64 {

@@ -4,6 +4,7 @@
 
 use super::Surface;
 use crate::pose::Point;
+use crate::workspace::observer::Pace;
 use crate::workspace::request::WorkspaceError;
 
 /// A side that has no twin yet.
@@ -21,11 +22,13 @@ pub(super) struct Twins {
 
 impl Twins {
     /// Pairs the sides; an edge whose directions do not balance is an error.
-    pub(super) fn of(surface: &Surface) -> Result<Self, WorkspaceError> {
+    pub(super) fn of(surface: &Surface, pace: &mut Pace<'_>) -> Result<Self, WorkspaceError> {
         let sides = u32::try_from(3 * surface.triangles.len()).map_err(|_| WorkspaceError::TooFine)?;
-        let (starts, sorted) = by_edge(surface, sides);
-        let mut twins = Self { of: vec![ALONE; sides as usize], crowds: Vec::new(), doubled: Vec::new() };
+        let (starts, sorted) = by_edge(surface, sides, pace)?;
+        let of = pace.filled(&ALONE, sides as usize)?;
+        let mut twins = Self { of, crowds: Vec::new(), doubled: Vec::new() };
         for ends in starts.windows(2) {
+            pace.step()?;
             for edge in sorted[ends[0]..ends[1]].chunk_by(|a, b| a.0 == b.0) {
                 match *edge {
                     [(_, a), (_, b)] if rises(surface, a) != rises(surface, b) => twins.pair(surface, a, b),
@@ -78,29 +81,36 @@ impl Twins {
     }
 }
 
+/// Places of the vertices' edges, and for each side its upper end and its number.
+type Edges = (Vec<usize>, Vec<(u32, u32)>);
+
 /// The sides by their edges: for each vertex the place of the edges that it is the lower end of,
 /// and for each side there the upper end and the side. Counting needs no comparisons, and the
 /// edges of one vertex are few.
-fn by_edge(surface: &Surface, sides: u32) -> (Vec<usize>, Vec<(u32, u32)>) {
+fn by_edge(surface: &Surface, sides: u32, pace: &mut Pace<'_>) -> Result<Edges, WorkspaceError> {
     let mut starts = vec![0; surface.positions.len() + 2];
     for side in 0..sides {
+        pace.step()?;
         let [a, b] = ends(surface, side);
         starts[a.min(b) as usize + 2] += 1;
     }
     for vertex in 2..starts.len() {
+        pace.step()?;
         starts[vertex] += starts[vertex - 1];
     }
     let mut sorted = vec![(0, 0); sides as usize];
     for side in 0..sides {
+        pace.step()?;
         let [a, b] = ends(surface, side);
         let place = &mut starts[a.min(b) as usize + 1];
         sorted[*place] = (a.max(b), side);
         *place += 1;
     }
     for ends in starts.windows(2) {
+        pace.step()?;
         sorted[ends[0]..ends[1]].sort_unstable();
     }
-    (starts, sorted)
+    Ok((starts, sorted))
 }
 
 /// The sides of one edge with their triangles' angles around it, seen against the edge's
