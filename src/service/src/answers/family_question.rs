@@ -56,8 +56,10 @@ impl FamilyQuestion {
         };
         if !tool_length.is_empty() {
             // Where both ends are allowed, so is what lies between.
-            let outside = extremes(&tool_length).into_iter().find(|length| !is_tool_length(*length));
-            outside.into_iter().for_each(|length| faults.tool_length(length));
+            if let Some(outside) = extremes(&tool_length).into_iter().find(|length| !is_tool_length(*length))
+            {
+                faults.tool_length(outside);
+            }
         }
         for (pointer, numbers) in [("/phi1", &phi1), ("/phi2", &phi2)] {
             let outside =

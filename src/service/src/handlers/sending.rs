@@ -67,10 +67,10 @@ pub(super) async fn mesh(
     if let Some(content) = results.part(id, &file).await {
         return Ok(Obtained::Ready(sent(content)));
     }
-    if results.part(id, part).await.is_none() {
-        if let Obtained::Pending(job) = state.compute(&question, patience).await? {
-            return Ok(Obtained::Pending(job));
-        }
+    if results.part(id, part).await.is_none()
+        && let Obtained::Pending(job) = state.compute(&question, patience).await?
+    {
+        return Ok(Obtained::Pending(job));
     }
     let mesh = results.mesh(id, part).await.ok_or(Error::NoRoom)?;
     drop(described);
