@@ -62,6 +62,7 @@ pub fn unpack(bytes: &[u8]) -> Result<Mesh, Unreadable> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "what a test cannot prepare has failed it")]
 mod tests {
     use super::{pack, unpack};
     use crate::{Mesh, Swatch};

@@ -19,6 +19,7 @@ fn coarse() -> Value {
 }
 
 /// A point of the grid in the part frame.
+#[allow(clippy::cast_precision_loss, reason = "indices of a grid are small")]
 fn point(grid: &Value, [i, j, k]: [u64; 3]) -> [f64; 3] {
     let step = grid["step"].as_f64().unwrap();
     let at = |axis: usize, n: u64| grid["origin"][axis].as_f64().unwrap() + step * n as f64;
@@ -50,7 +51,7 @@ async fn points_agree_with_membership() {
         let contained =
             send_to(service.clone(), json_request(Method::POST, "/workspace/contains", body)).await.json;
         for (n, inside) in contained["inside"].as_array().unwrap().iter().enumerate() {
-            let [from, to] = [n, n + 1].map(|n| 2 * offsets[n].as_u64().unwrap() as usize);
+            let [from, to] = [n, n + 1].map(|n| 2 * usize::try_from(offsets[n].as_u64().unwrap()).unwrap());
             let within = intervals[from..to].chunks(2).any(|ends| (ends[0]..=ends[1]).contains(&phi1));
             assert_eq!(inside.as_bool().unwrap(), within, "{:?} at {phi1}", points[n]);
             met[usize::from(within)] += 1;

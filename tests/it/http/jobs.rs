@@ -185,15 +185,13 @@ async fn the_wait_is_the_clients_within_the_services_limit() {
 
 #[tokio::test]
 async fn a_thousand_equal_questions_at_once_are_computed_once() {
-    let alone = opened(&one_core()).await;
-    let answer = ask(&alone, table()).await;
-    let computations = metric(&alone, "verne_jobs_started_total").await;
     let service = opened(&one_core()).await;
-    let question = || json_request(Method::POST, "/workspace", table());
+    let question = || json_request(Method::POST, "/workspace", json!({"kind": "part", "tolerance": 0.1}));
     let asking: Vec<_> = (0..1000).map(|_| tokio::spawn(send_to(service.clone(), question()))).collect();
+    let mut replies = Vec::new();
     for asked in asking {
-        let reply = asked.await.unwrap();
-        assert_eq!((reply.status, &reply.bytes), (StatusCode::OK, &answer.bytes));
+        replies.push(asked.await.unwrap());
     }
-    assert_eq!(metric(&service, "verne_jobs_started_total").await, computations);
+    assert!(replies.iter().all(|reply| reply.status == StatusCode::OK && reply.bytes == replies[0].bytes));
+    assert_eq!(metric(&service, "verne_jobs_started_total").await, 1);
 }

@@ -30,7 +30,7 @@ pub(super) async fn open(directory: &Path) -> Service {
 
 /// Stops a service and lets go of its directory.
 pub(super) async fn close(service: Service) {
-    service.stop(Duration::from_secs(60)).await;
+    service.stop(Duration::from_mins(1)).await;
 }
 
 struct Answers {

@@ -23,7 +23,7 @@ use crate::feed::Feeder;
 use crate::job::{finish, queued};
 use crate::threads::run::{End, Outcome, Told};
 use crate::threads::turn::Turn;
-use crate::{Claim, JobId, Submission, SubmitError, Work};
+use crate::{Claim, Job, JobId, Submission, SubmitError, Work};
 use claims::Stake;
 
 pub(super) struct Keeper {

@@ -130,6 +130,7 @@ impl<'de> Visitor<'de> for OneOrMany {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
     use super::Span;
 
