@@ -26,7 +26,20 @@ pub(crate) fn nearest(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     (square.sqrt(), [RODS[i], RODS[j]])
 }
 
-/// The same, if the least distance is below `distance`; no less often, but for rounding.
+/// The least distances between two rods' axes, mm: of leg I's, of a parallelogram's, and of rods of
+/// different legs. Their minimum is [`nearest`]'s; it has a kink where another of them becomes the
+/// least, and each of them has none there.
+#[inline]
+pub(crate) fn nearest_by_legs(g: &Geometry, rods: &Rods) -> [f64; 3] {
+    let ends = rods.platform_ends(g);
+    let first = square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1]);
+    let (mut parallel, mut between) = ((f64::INFINITY, 0, 1), (f64::INFINITY, 0, 1));
+    meet_parallelograms(&mut parallel, g, rods);
+    meet_between_legs(&mut between, g, &ends, rods);
+    [first, parallel.0, between.0].map(f64::sqrt)
+}
+
+/// [`nearest`], if the least distance is below `distance`; no less often, but for rounding.
 #[inline]
 pub(super) fn nearest_within(
     g: &Geometry,
@@ -75,6 +88,12 @@ fn apart([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
 /// All pairs but the first leg's. Rods 22 and 32 stand to each other as 21 and 31 do.
 #[inline]
 fn meet_others(nearest: &mut Nearest, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
+    meet_parallelograms(nearest, g, rods);
+    meet_between_legs(nearest, g, ends, rods);
+}
+
+#[inline]
+fn meet_parallelograms(nearest: &mut Nearest, g: &Geometry, rods: &Rods) {
     let half = g.parallelogram_half_width;
     for (leg, length, first) in [(2, g.L2, 2), (3, g.L3, 4)] {
         let square = square_parallel(2.0 * half, length, &rods.directions[leg]);
@@ -82,6 +101,11 @@ fn meet_others(nearest: &mut Nearest, g: &Geometry, ends: &[[f64; 3]; 6], rods: 
             *nearest = (square, first, first + 1);
         }
     }
+}
+
+#[inline]
+fn meet_between_legs(nearest: &mut Nearest, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
+    let half = g.parallelogram_half_width;
     for i in [0, 1] {
         for j in [2, 4] {
             if !far(nearest, &to_middle(ends, i, j, half), rods, [i, j], half) {

@@ -15,11 +15,14 @@ use crate::rods::Rods;
 use crate::table::table_angles;
 
 /// Number of limits.
-pub(super) const LIMITS: usize = 24;
+pub(super) const LIMITS: usize = 26;
+/// First of the limits that stem from the rods' distances: of leg I's, of a parallelogram's, between
+/// legs.
+const INTERFERENCE: usize = 15;
 /// First of the limits that stem from the strokes, and their number.
-pub(super) const STROKES: usize = 16;
+pub(super) const STROKES: usize = 18;
 /// First of the two limits that stem from the table.
-pub(super) const TILT: usize = 22;
+pub(super) const TILT: usize = 24;
 /// Pairs of sliders (i, j): `z_hi` of slider i over `z_lo` of slider j.
 const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
 const RODS: [u8; 4] = [11, 12, 21, 31];
@@ -77,7 +80,13 @@ impl<'a> Domain<'a> {
     /// All limits at a column.
     pub(super) fn values(&self, column: &Column) -> Values {
         let rods = self.rods(column);
-        std::array::from_fn(|limit| self.with_rods(limit, column, &rods))
+        let mut values = std::array::from_fn(|limit| {
+            if (INTERFERENCE..STROKES).contains(&limit) { 0.0 } else { self.with_rods(limit, column, &rods) }
+        });
+        let g = self.machine.geometry();
+        let distances = interference::nearest_by_legs(g, &rods);
+        values[INTERFERENCE..STROKES].copy_from_slice(&distances.map(|d| d - 2.0 * g.rod_radius));
+        values
     }
 
     /// One limit at a column.
@@ -108,7 +117,9 @@ impl<'a> Domain<'a> {
                 let (c, s) = (rods.c, rods.s);
                 self.chords[1] - chord(axis(&d.platform_axes, limit - 11), [x, c * y + s * z, c * z - s * y])
             }
-            15 => interference::nearest(g, rods).0 - 2.0 * g.rod_radius,
+            INTERFERENCE..STROKES => {
+                interference::nearest_by_legs(g, rods)[limit - INTERFERENCE] - 2.0 * g.rod_radius
+            }
             STROKES..TILT => self.stroke(limit - STROKES, column),
             _ => self.tilt(limit - TILT, column),
         }
@@ -241,7 +252,7 @@ pub(super) fn binding(limit: u8) -> Binding {
         6 => (Constraint::ParallelSingularity, Element::Platform),
         7..=10 => (Constraint::SliderJoint, Element::Rod(RODS[limit - 7])),
         11..=14 => (Constraint::PlatformJoint, Element::Rod(RODS[limit - 11])),
-        15 => (Constraint::RodInterference, Element::Platform),
+        INTERFERENCE..STROKES => (Constraint::RodInterference, Element::Platform),
         STROKES..TILT => (Constraint::Stroke, Element::Stroke { slider, high: number % 2 == 1 }),
         _ => (Constraint::Tilt, Element::Range { high: limit > TILT }),
     };

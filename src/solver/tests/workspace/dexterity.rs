@@ -41,8 +41,8 @@ fn surface(region: &Region) -> Surface {
 /// With one inclination asked, both regions are the part's workspace for it.
 #[test]
 fn of_one_inclination_is_the_workspace() {
-    let mut machines = vec![Machine::verne(), changed(|data| data.limits.tilt = [-0.2, 0.6])];
-    machines.extend(others().into_iter().map(|(_, machine)| machine).take(4));
+    let mut machines = vec![changed(|data| data.limits.tilt = [-0.2, 0.6])];
+    machines.extend(others().into_iter().map(|(_, machine)| machine).skip(3));
     for machine in machines {
         let request = asked(0.25, 0.25, 60.0);
         let workspace =
@@ -103,7 +103,7 @@ fn regions_nest() {
 #[test]
 fn surfaces_are_closed_and_of_the_right_volume() {
     for machine in [Machine::verne(), changed(|data| data.limits.stroke = [[100.0, 400.0]; 3])] {
-        let found = computed(&machine, &asked(-0.2, 0.3, 40.0));
+        let found = computed(&machine, &asked(-0.2, 0.3, 50.0));
         for region in [&found.reachable, &found.dexterous] {
             let mesh = surface(region);
             let topology = Topology::of(&mesh);
@@ -117,7 +117,7 @@ fn surfaces_are_closed_and_of_the_right_volume() {
 #[test]
 fn slabs_and_threads_do_not_matter() {
     let machine = Machine::verne();
-    let request = asked(-0.3, 0.4, 80.0);
+    let request = asked(-0.3, 0.4, 120.0);
     let whole = computed(&machine, &request);
     let grid = Grid::new(&machine, &request, &Unobserved).unwrap();
     let cuts = [0, 3, 4, grid.counts[0]];
@@ -130,10 +130,8 @@ fn slabs_and_threads_do_not_matter() {
     assert!(merge(&request, &grid, slabs.clone(), volumes, &Unobserved).unwrap() == whole);
     slabs.pop();
     assert_eq!(merge(&request, &grid, slabs, volumes, &Unobserved).unwrap_err(), WorkspaceError::Open);
-    for threads in [1, 3] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        assert!(pool.install(|| computed(&machine, &request)) == whole);
-    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    assert!(pool.install(|| computed(&machine, &request)) == whole);
 }
 
 #[test]

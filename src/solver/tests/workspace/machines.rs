@@ -33,6 +33,17 @@ impl Random {
 pub(crate) fn others() -> Vec<(&'static str, Machine)> {
     vec![
         ("thick rods", changed(|data| data.geometry.rod_radius = 60.0)),
+        (
+            "thick rods on unlike legs",
+            changed(|data| {
+                let g = &mut data.geometry;
+                (g.d1, g.d2) = (617.0, -689.0);
+                (g.R1, g.r1, g.R2, g.r4) = (253.0, 67.0, 152.0, 401.5);
+                (g.L1, g.L2, g.L3) = (867.5, 1_014.5, 1_339.6);
+                g.rod_radius = 66.74;
+                data.limits.stroke = [[180.0, 717.0], [30.0, 401.0], [0.0, 750.0]];
+            }),
+        ),
         ("short strokes", changed(|data| data.limits.stroke = [[100.0, 400.0]; 3])),
         (
             "unequal strokes",

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::super::domain::{Binding, stroke_binding};
 use super::super::path::{Limits, intervals};
-use super::section::{Piece, Setting};
+use super::section::{ALPHA, Piece, Setting};
 use crate::angle::sin_cos;
 
 /// Looks along a circle, at least.
@@ -94,7 +94,7 @@ impl<'a> Circle<'a> {
     /// alpha at an angle.
     #[inline]
     pub(super) fn alpha(&self, beta: f64) -> f64 {
-        self.piece.values(self.radius * beta.sin())[3]
+        self.piece.value(ALPHA, self.radius * beta.sin())
     }
 }
 
@@ -139,8 +139,7 @@ impl Strokes<'_> {
     fn rho(&self, beta: f64) -> [f64; 3] {
         let Circle { piece, radius, .. } = self.0;
         let (s, c) = sin_cos(beta);
-        let [f1, f2, f3, _] = piece.values(radius * s);
-        [f1, f2, f3].map(|f| -radius * c - f)
+        piece.drops(radius * s).map(|drop| -radius * c - drop)
     }
 }
 
@@ -152,7 +151,10 @@ impl Limits<6> for Strokes<'_> {
 
     fn one(&self, limit: usize, beta: f64) -> f64 {
         let slider = limit / 2;
-        of_end(self.rho(beta)[slider], self.0.setting.machine.limits().stroke[slider], limit % 2)
+        let Circle { piece, radius, .. } = self.0;
+        let (s, c) = sin_cos(beta);
+        let rho = -radius * c - piece.value(slider, radius * s);
+        of_end(rho, self.0.setting.machine.limits().stroke[slider], limit % 2)
     }
 }
 

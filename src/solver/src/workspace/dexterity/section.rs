@@ -61,6 +61,8 @@ struct Look {
 
 /// zeta - rho of the three sliders, mm, and alpha.
 pub(super) type Values = [f64; 4];
+/// Which of them is alpha.
+pub(super) const ALPHA: usize = 3;
 
 impl<'a> Setting<'a> {
     pub(super) fn new(machine: &'a Machine, request: &DexterityRequest) -> Self {
@@ -129,13 +131,13 @@ impl<'a> Setting<'a> {
     /// Looks so dense that cubics between them are precise half-way.
     fn looks(&self, x: f64, [low, high]: [f64; 2]) -> Vec<Look> {
         let mut count = LOOKS[0];
+        let look = |n: u32, of: u32| self.look([x, low + (high - low) * (f64::from(n) / f64::from(of))]);
+        let mut all: Vec<Look> = (0..=2 * count).map(|n| look(n, 2 * count)).collect();
         loop {
-            let at = |n: u32| low + (high - low) * (f64::from(n) / f64::from(2 * count));
-            let all: Vec<Look> = (0..=2 * count).map(|n| self.look([x, at(n)])).collect();
             let looks: Vec<Look> = all.iter().copied().step_by(2).collect();
             let precise = |[a, middle, b]: [&Look; 3]| {
-                let cubic = a.cubic(b, middle.eta);
-                let off = |n: usize| (cubic[n] - middle.values[n]).abs();
+                let part = a.part(b, middle.eta);
+                let off = |n: usize| (a.cubic(b, part, n) - middle.values[n]).abs();
                 let turned = off(3) * self.machine.derived.scale;
                 off(0).max(off(1)).max(off(2)).max(turned) <= PRECISE
             };
@@ -144,6 +146,10 @@ impl<'a> Setting<'a> {
                 return looks;
             }
             count *= 2;
+            let between = (0..count).map(|n| look(2 * n + 1, 2 * count));
+            let mut finer: Vec<Look> = all.iter().copied().zip(between).flat_map(|(a, b)| [a, b]).collect();
+            finer.extend(all.last());
+            all = finer;
         }
     }
 
@@ -184,28 +190,36 @@ impl Piece {
         [end(self.looks.first()), end(self.looks.last())]
     }
 
-    /// The values at eta.
+    /// zeta - rho of the three sliders at eta, mm.
     #[inline]
-    pub(super) fn values(&self, eta: f64) -> Values {
-        let [a, b] = self.around(eta);
-        a.cubic(b, eta)
+    pub(super) fn drops(&self, eta: f64) -> [f64; 3] {
+        let ([a, b], t) = self.around(eta);
+        [0, 1, 2].map(|n| a.cubic(b, t, n))
+    }
+
+    /// One of the values at eta.
+    #[inline]
+    pub(super) fn value(&self, n: usize, eta: f64) -> f64 {
+        let ([a, b], t) = self.around(eta);
+        a.cubic(b, t, n)
     }
 
     /// d(alpha)/d(eta).
     pub(super) fn alpha_rate(&self, eta: f64) -> f64 {
-        let [a, b] = self.around(eta);
+        let ([a, b], t) = self.around(eta);
         let (width, rise) = (b.eta - a.eta, b.values[3] - a.values[3]);
-        let t = (eta - a.eta) / width;
         let (first, second) = (a.slopes[3], b.slopes[3]);
         (1.0 - t) * (1.0 - 3.0 * t) * first
             + t * (3.0 * t - 2.0) * second
             + 6.0 * t * (1.0 - t) * rise / width
     }
 
+    /// The looks beside eta and its part of the way between them.
     #[inline]
-    fn around(&self, eta: f64) -> [&Look; 2] {
+    fn around(&self, eta: f64) -> ([&Look; 2], f64) {
         let next = self.looks.partition_point(|look| look.eta <= eta).clamp(1, self.looks.len() - 1);
-        [&self.looks[next - 1], &self.looks[next]]
+        let (a, b) = (&self.looks[next - 1], &self.looks[next]);
+        ([a, b], a.part(b, eta))
     }
 
     /// eta, alpha and the ends' zetas at each look.
@@ -215,19 +229,19 @@ impl Piece {
 }
 
 impl Look {
-    /// The values of the cubics between two looks, at eta.
+    /// The part of the way to the next look at which eta lies.
     #[inline]
-    fn cubic(&self, next: &Self, eta: f64) -> Values {
-        let width = next.eta - self.eta;
-        let t = ((eta - self.eta) / width).clamp(0.0, 1.0);
-        let rest = 1.0 - t;
-        let mut values = self.values;
-        for (n, value) in values.iter_mut().enumerate() {
-            let rise = next.values[n] - self.values[n];
-            let (first, second) = (self.slopes[n] * width - rise, next.slopes[n] * width - rise);
-            *value += t * (rise + rest * (rest * first - t * second));
-        }
-        values
+    fn part(&self, next: &Self, eta: f64) -> f64 {
+        ((eta - self.eta) / (next.eta - self.eta)).clamp(0.0, 1.0)
+    }
+
+    /// The value of a cubic between two looks, at a part of the way.
+    #[inline]
+    fn cubic(&self, next: &Self, t: f64, n: usize) -> f64 {
+        let (width, rest) = (next.eta - self.eta, 1.0 - t);
+        let rise = next.values[n] - self.values[n];
+        let (first, second) = (self.slopes[n] * width - rise, next.slopes[n] * width - rise);
+        self.values[n] + t * (rise + rest * (rest * first - t * second))
     }
 }
 
