@@ -65,9 +65,9 @@ impl Service {
             machines.publish_directory(directory).map_err(StartError::Machine)?;
         }
         let (routes, _) = router::routes().split_for_parts();
-        let Storage { results, jobs } = Storage::open(config).await.map_err(StartError::Storage)?;
+        let Storage { results, jobs, computed } = Storage::open(config).await.map_err(StartError::Storage)?;
         let stopping = CancellationToken::new();
-        let metrics = Metrics::of(Arc::clone(&jobs), results.store());
+        let metrics = Metrics::of(Arc::clone(&jobs), results.store(), computed);
         let limits = config.limits();
         let state = Arc::new(State { machines, limits, results, jobs, metrics, stopping });
         let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use prometheus_client::collector::Collector;
 use prometheus_client::encoding::{DescriptorEncoder, EncodeMetric};
-use prometheus_client::metrics::counter::ConstCounter;
+use prometheus_client::metrics::counter::{ConstCounter, Counter};
 use prometheus_client::metrics::gauge::ConstGauge;
 use prometheus_client::registry::Registry;
 use verne_jobs::Backend;
@@ -19,8 +19,9 @@ pub(crate) struct Metrics(Registry);
 
 impl Metrics {
     /// What jobs and results say of themselves whenever they are asked.
-    pub(crate) fn of(jobs: Arc<dyn Backend>, store: Store) -> Self {
+    pub(crate) fn of(jobs: Arc<dyn Backend>, store: Store, computed: Counter) -> Self {
         let mut registry = Registry::with_prefix("verne");
+        registry.register("computations", "Workspaces and pieces of maps computed", computed);
         registry.register_collector(Box::new(Jobs(jobs)));
         registry.register_collector(Box::new(Results(store)));
         Self(registry)
@@ -47,7 +48,7 @@ impl Collector for Jobs {
         let counts = self.0.counts();
         gauge(&mut encoder, "jobs_queued", "Jobs that wait for their turn", number(counts.queued))?;
         gauge(&mut encoder, "jobs_running", "Jobs that are being computed", number(counts.running))?;
-        counter(&mut encoder, "jobs_started", "Computations begun", counts.started)?;
+        counter(&mut encoder, "jobs_started", "Runs of jobs and of their parts", counts.started)?;
         counter(&mut encoder, "jobs_succeeded", "Jobs that have a result", counts.succeeded)?;
         counter(&mut encoder, "jobs_failed", "Jobs that failed", counts.failed)?;
         counter(&mut encoder, "jobs_cancelled", "Jobs that were cancelled", counts.cancelled)

@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use prometheus_client::metrics::counter::Counter;
 use tokio::runtime::Handle;
 use verne_jobs::{Backend, Embedded, embedded};
 use verne_store::Store;
@@ -44,6 +45,8 @@ pub(crate) struct Storage {
     pub results: Results,
     /// What is being computed.
     pub jobs: Arc<dyn Backend>,
+    /// How much was computed.
+    pub computed: Counter,
 }
 
 impl Storage {
@@ -77,7 +80,8 @@ impl Storage {
             disk_bytes: config.disk_bytes,
         };
         let results = Results::new(Store::open(&kept).await.map_err(StorageError::Results)?);
-        let tasks = Tasks::new(results.clone(), Handle::current());
+        let computed = Counter::default();
+        let tasks = Tasks::new(results.clone(), computed.clone(), Handle::current());
         let jobs = open_jobs(config, below("jobs"), tasks).await?;
         if let Some(damaged) = jobs.set_aside() {
             tracing::error!(path = %damaged.display(), "the records of jobs were damaged: set aside, begun anew");
@@ -85,7 +89,7 @@ impl Storage {
         if let Some(directory) = directory {
             tracing::info!("jobs and results are kept in {}", directory.display());
         }
-        Ok(Self { results, jobs: Arc::new(jobs) })
+        Ok(Self { results, jobs: Arc::new(jobs), computed })
     }
 }
 

@@ -1,6 +1,7 @@
 //! What jobs compute: the answer to a written question, kept among the results.
 
 use axum::body::Bytes;
+use prometheus_client::metrics::counter::Counter;
 use tokio::runtime::Handle;
 use verne_jobs::{JobId, Stop, Submission, Watch, Work};
 use verne_solver::workspace::Observer;
@@ -27,14 +28,16 @@ const FAULT_BYTES: usize = 256;
 /// Answers questions on the threads of the queue.
 pub(crate) struct Tasks {
     results: Results,
+    /// What was really computed: a job whose result is there already computes nothing.
+    computed: Counter,
     /// The store is asked on the runtime; the queue's threads are none of its own and may wait for it.
     runtime: Handle,
 }
 
 impl Tasks {
-    /// Keeps what it computes among these results.
-    pub(crate) fn new(results: Results, runtime: Handle) -> Self {
-        Self { results, runtime }
+    /// Keeps what it computes among these results, and counts it.
+    pub(crate) fn new(results: Results, computed: Counter, runtime: Handle) -> Self {
+        Self { results, computed, runtime }
     }
 
     fn answer(&self, question: &Question, observer: &dyn Observer) -> Result<(), Error> {
@@ -51,6 +54,7 @@ impl Tasks {
         if let Some(record) = self.known(asked.id, &[MESH]) {
             return Ok(record.summary.bytes.to_vec());
         }
+        self.computed.inc();
         let computed = compute_workspace(asked, observer)?;
         let parts = vec![(MESH, packed_mesh(&computed.mesh)?)];
         let question = Question::Workspace(asked.clone());
@@ -106,6 +110,7 @@ impl Tasks {
             Piece::Slab { of, number, count } => compute_slab(of, [*number, *count], observer)?,
             Piece::Volumes(map) => compute_volumes(map, observer)?,
         };
+        self.computed.inc();
         Ok(self.keep(piece.id(), made))
     }
 

@@ -193,5 +193,5 @@ async fn a_thousand_equal_questions_at_once_are_computed_once() {
         replies.push(asked.await.unwrap());
     }
     assert!(replies.iter().all(|reply| reply.status == StatusCode::OK && reply.bytes == replies[0].bytes));
-    assert_eq!(metric(&service, "verne_jobs_started_total").await, 1);
+    assert_eq!(metric(&service, "verne_computations_total").await, 1);
 }
