@@ -48,11 +48,12 @@ fn polynomial<const N: usize>(pairs: &[[f64; 2]; N], x: f64) -> f64 {
 /// sin and cos of an angle, to about a unit in the last place.
 #[inline]
 pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
-    if angle.abs() < MOST { sin_cos_below(angle) } else { angle.sin_cos() }
+    if angle.abs() < MOST { sin_cos_of_turn(angle) } else { angle.sin_cos() }
 }
 
+/// [`sin_cos`] of an angle that is known to be within some turns.
 #[inline]
-fn sin_cos_below(angle: f64) -> (f64, f64) {
+pub(crate) fn sin_cos_of_turn(angle: f64) -> (f64, f64) {
     let shifted = angle * FRAC_2_PI + ROUND;
     let (quarters, count) = (shifted - ROUND, shifted.to_bits());
     let x = (angle - quarters * QUARTER[0]) - quarters * QUARTER[1];

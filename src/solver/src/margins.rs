@@ -2,17 +2,16 @@
 
 pub(crate) mod cone;
 pub(crate) mod interference;
+pub(crate) mod together;
 pub(crate) mod weights;
 mod worst;
 
 use crate::jacobian::{determinant, matrix};
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
-use crate::pose::TableAngles;
+use crate::pose::{PlatformPose, TableAngles};
 use crate::posture::Posture;
 use crate::rods::Rods;
-
-pub(crate) use worst::worst;
 
 /// All margins of one posture. Arrays of four are rod 11, rod 12, the rods of leg II, the rods of
 /// leg III (a parallelogram's two rods are parallel).
@@ -45,13 +44,24 @@ pub struct Margins {
 impl Margins {
     /// The margins of a posture, with the table's where it takes part.
     pub fn of(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Self {
+        Self::of_solution(machine, &posture.pose, posture.rho, table)
+    }
+
+    /// The same of a posture's pose and sliders.
+    #[inline]
+    fn of_solution(
+        machine: &Machine,
+        pose: &PlatformPose,
+        rho: [f64; 3],
+        table: Option<TableAngles>,
+    ) -> Self {
         let (g, limits, derived) = (machine.geometry(), machine.limits(), &machine.derived);
-        let rods = Rods::of(machine, &posture.pose, posture.rho);
+        let rods = Rods::of(machine, pose, rho);
         let (distance, nearest_rods) = interference::nearest(g, &rods);
         let directions = cone::columns(&rods.directions);
         Self {
-            stroke: std::array::from_fn(|i| between(limits.stroke[i], posture.rho[i])),
-            leg_length: drops(machine, posture, &rods),
+            stroke: std::array::from_fn(|i| between(limits.stroke[i], rho[i])),
+            leg_length: drops(machine, pose, rho, &rods),
             serial_singularity: rods.directions.map(|direction| direction[2] - limits.serial_margin),
             parallel_singularity: det(machine, &rods),
             slider_joint: cone::margins(limits.slider_cone, &derived.slider_axes, &directions),
@@ -95,9 +105,9 @@ impl Margins {
 
 /// What each leg's length leaves for its drop along z, mm.
 #[inline]
-fn drops(machine: &Machine, posture: &Posture, rods: &Rods) -> [f64; 3] {
-    let (z, q) = (posture.pose.z, machine.geometry().R2 * rods.s);
-    let [rho1, rho2, rho3] = posture.rho;
+fn drops(machine: &Machine, pose: &PlatformPose, rho: [f64; 3], rods: &Rods) -> [f64; 3] {
+    let (z, q) = (pose.z, machine.geometry().R2 * rods.s);
+    let [rho1, rho2, rho3] = rho;
     [z - rho1, z - q - rho2, z + q - rho3].map(f64::abs)
 }
 

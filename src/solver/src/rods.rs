@@ -23,7 +23,12 @@ pub(crate) struct Rods {
 impl Rods {
     #[inline]
     pub(crate) fn of(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> Self {
-        let (s, c) = sin_cos(pose.alpha);
+        Self::towards(machine, pose, rho, sin_cos(pose.alpha))
+    }
+
+    /// The same from the sine and cosine of alpha.
+    #[inline]
+    pub(crate) fn towards(machine: &Machine, pose: &PlatformPose, rho: [f64; 3], (s, c): (f64, f64)) -> Self {
         let vectors = vectors_of(machine, pose, rho, [c, s]);
         Self::along(vectors, &machine.derived.inverse_lengths, [c, s])
     }

@@ -52,33 +52,34 @@ pub(super) fn margins(half_angle: f64, a: &Columns, b: &Columns) -> [f64; 4] {
     margins
 }
 
-/// Whether all four rods' angles from their axes at the sliders are clearly below an angle.
+/// Positive only if all four rods' angles from their axes at the sliders are clearly below an
+/// angle.
 #[inline]
-pub(super) fn within(axes: &Columns, rods: &Rods, angle: f64) -> bool {
+pub(super) fn room(axes: &Columns, rods: &Rods, angle: f64) -> f64 {
     let dot = |i: usize| {
         let [x, y, z] = rods.directions[i];
         axes[0][i] * x + axes[1][i] * y + axes[2][i] * z
     };
-    clearly(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
+    below(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
 }
 
 /// The same at the platform: the axes turn with it.
 #[inline]
-pub(super) fn within_on_platform(axes: &Columns, rods: &Rods, angle: f64) -> bool {
+pub(super) fn room_on_platform(axes: &Columns, rods: &Rods, angle: f64) -> f64 {
     let (c, s) = (rods.c, rods.s);
     let dot = |i: usize| {
         let [x, y, z] = rods.directions[i];
         axes[0][i] * x + axes[1][i] * (c * y + s * z) + axes[2][i] * (c * z - s * y)
     };
-    clearly(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
+    below(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
 }
 
-/// Whether an angle is clearly below another, from its cosine. An upper bound of its square, if it
-/// is acute: the beginning of the power series in the square of the chord, whose terms are all
-/// positive, and the rest as it is at a right angle.
+/// Positive only if an angle is clearly below another, from its cosine. An upper bound of its
+/// square, if it is acute: the beginning of the power series in the square of the chord, whose
+/// terms are all positive, and the rest as it is at a right angle.
 #[inline]
-fn clearly(cosine: f64, angle: f64) -> bool {
+fn below(cosine: f64, angle: f64) -> f64 {
     let square = 2.0 - 2.0 * cosine + ROUNDING;
     let most = square * (1.0 + square * (1.0 / 12.0 + REST * square));
-    cosine > 0.0 && angle > 0.0 && most < angle * angle
+    lesser(lesser(cosine, angle), angle * angle - most)
 }

@@ -39,44 +39,24 @@ pub(crate) fn nearest_by_legs(g: &Geometry, rods: &Rods) -> [f64; 3] {
     [first, parallel.0, between.0].map(f64::sqrt)
 }
 
-/// [`nearest`], if the least distance is below `distance`; no less often, but for rounding.
+/// Positive only if all rods are clearly further apart than a distance, which is not negative: leg
+/// I's across the platform, leg I from the others along x, legs II and III from each other along
+/// y, a parallelogram's two as the lines that they lie on.
 #[inline]
-pub(super) fn nearest_within(
-    g: &Geometry,
-    pose: &PlatformPose,
-    rods: &Rods,
-    distance: f64,
-) -> Option<(f64, [u8; 2])> {
+pub(super) fn room(g: &Geometry, pose: &PlatformPose, rods: &Rods, distance: f64) -> f64 {
     let least = WITHIN * distance * distance;
-    if distance <= 0.0 || all_beyond(g, pose, rods, least) {
-        return None;
-    }
-    let ends = rods.platform_ends(g);
-    let mut nearest = (least, 0, 1);
-    meet(&mut nearest, &ends, rods, [0, 1]);
-    meet_others(&mut nearest, g, &ends, rods);
-    let (square, i, j) = nearest;
-    (square < least).then(|| (square.sqrt(), [RODS[i], RODS[j]]))
-}
-
-/// Whether all rods are seen to be further apart than a distance, given its square: leg I's rods
-/// across the platform, leg I from the others along x, legs II and III from each other along y.
-#[inline]
-fn all_beyond(g: &Geometry, pose: &PlatformPose, rods: &Rods, square: f64) -> bool {
     let half = g.parallelogram_half_width;
-    let [first, second] = [[pose.x + g.D1, g.d1], [pose.x + g.D2, g.d2]];
+    let along_x = apart([pose.x + g.D1, g.d1], [pose.x + g.D2, g.d2]) - half;
     let sides = g.R2 * rods.c;
-    let along_x = apart(first, second) - half;
     let along_y = apart([pose.y - sides, -g.r4], [pose.y + sides, g.r4]);
     let clear = lesser(along_x, along_y);
-    let [_, _, second, third] = &rods.directions;
-    let parallel =
-        lesser(square_parallel(2.0 * half, g.L2, second), square_parallel(2.0 * half, g.L3, third));
-    let gap = [0.0, 2.0 * g.R1 * rods.c, 2.0 * g.R1 * rods.s];
-    clear > 0.0
-        && clear * clear > square
-        && parallel > square
-        && far(&(square, 0, 1), &gap, rods, [0, 1], 0.0)
+    let [.., [second, ..], [third, ..]] = rods.directions;
+    let parallel = 4.0 * half * half * (1.0 - greater(second * second, third * third));
+    // The projections on leg I's arms, of half the length between them.
+    let across = |rod: usize| rods.c * rods.vectors[rod][1] + rods.s * rods.vectors[rod][2];
+    let first = 2.0 * g.R1 - greater(across(0), 0.0) + lesser(across(1), 0.0);
+    let legs = lesser(lesser(clear, first), parallel - least);
+    lesser(legs, lesser(clear * clear, first * first) - least)
 }
 
 /// Distance between two intervals, each by its ends in any order; not positive if they meet.

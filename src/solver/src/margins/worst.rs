@@ -1,15 +1,10 @@
 //! The worst of all margins, made comparable by each constraint's own range.
 
-use super::{Margins, between, cone, det, drops, interference};
+use super::{Margins, between};
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
 use crate::pose::TableAngles;
-use crate::posture::Posture;
 use crate::residual::lesser;
-use crate::rods::Rods;
-
-/// More than a part is off by rounding.
-const ROUNDING: f64 = 1e-12;
 
 /// The rod that stands for each family.
 pub(super) const ROD: [Element; 4] = [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
@@ -27,12 +22,30 @@ pub(super) fn least(margins: &[f64]) -> (usize, f64) {
 }
 
 /// The margin that is worst so far, and its part of its constraint's range.
-struct Worst {
+pub(super) struct Worst {
     margin: Margin,
     part: f64,
 }
 
 impl Worst {
+    /// The worst of crossed rods, strokes and table.
+    #[inline]
+    pub(super) fn of_strokes(
+        machine: &Machine,
+        rod_crossing: f64,
+        rho: [f64; 3],
+        table: Option<TableAngles>,
+    ) -> Margin {
+        let limits = machine.limits();
+        let mut worst = Self::new(rod_crossing, machine.derived.weights.rod_crossing);
+        worst.meet_strokes(machine, &[0, 1, 2].map(|i| between(limits.stroke[i], rho[i])));
+        if let Some(TableAngles { theta1, theta2 }) = table {
+            let (tilt, rotary) = (between(limits.tilt, theta1), between(limits.rotary, theta2));
+            worst.meet_table(machine, Some(tilt), Some(rotary));
+        }
+        worst.margin
+    }
+
     /// Crossed rods first.
     #[inline]
     fn new(rod_crossing: f64, weight: f64) -> Self {
@@ -111,66 +124,5 @@ impl Margins {
         worst.meet(Constraint::RodInterference, Element::Rods(a, b), gap, weights.rod_interference);
         worst.meet_table(machine, self.tilt, self.rotary);
         worst.margin
-    }
-}
-
-/// [`Margins::worst`] of [`Margins::of`], the same to the last bit, at a fraction of the cost: the
-/// strokes are usually the worst, and of the others it is seen at a glance that they are better.
-#[inline]
-pub(crate) fn worst(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Margin {
-    let (g, limits, weights) = (machine.geometry(), machine.limits(), &machine.derived.weights);
-    let rods = Rods::of(machine, &posture.pose, posture.rho);
-    let mut worst = Worst::new(g.R1 * rods.c - g.r1, weights.rod_crossing);
-    worst.meet_strokes(machine, &[0, 1, 2].map(|i| between(limits.stroke[i], posture.rho[i])));
-    worst.meet_drops(machine, posture, &rods);
-    worst.meet_cones(machine, &rods);
-    let det = det(machine, &rods);
-    worst.meet(Constraint::ParallelSingularity, Element::Platform, det, weights.parallel_singularity);
-    worst.meet_interference(machine, posture, &rods);
-    if let Some(TableAngles { theta1, theta2 }) = table {
-        let (tilt, rotary) = (between(limits.tilt, theta1), between(limits.rotary, theta2));
-        worst.meet_table(machine, Some(tilt), Some(rotary));
-    }
-    worst.margin
-}
-
-impl Worst {
-    /// Leg lengths and serial singularities: a drop's part of its leg is its rod's cosine, or the
-    /// mean of its two rods', and the cosine's margin is less.
-    #[inline]
-    fn meet_drops(&mut self, machine: &Machine, posture: &Posture, rods: &Rods) {
-        let [a, b, c, d] = rods.directions.map(|direction| direction[2] - machine.limits().serial_margin);
-        if lesser(lesser(a, b), lesser(c, d)) < self.part + ROUNDING {
-            self.meet_legs(machine, &drops(machine, posture, rods));
-            let weight = machine.derived.weights.serial_singularity;
-            self.meet_rods(Constraint::SerialSingularity, least(&[a, b, c, d]), weight);
-        }
-    }
-
-    #[inline]
-    fn meet_cones(&mut self, machine: &Machine, rods: &Rods) {
-        let (limits, derived) = (machine.limits(), &machine.derived);
-        let (cone, axes) = (limits.slider_cone, &derived.slider_axes);
-        if !cone::within(axes, rods, cone * (1.0 - self.part)) {
-            let margins = cone::margins(cone, axes, &cone::columns(&rods.directions));
-            self.meet_rods(Constraint::SliderJoint, least(&margins), derived.weights.slider_joint);
-        }
-        let (cone, axes) = (limits.platform_cone, &derived.platform_axes);
-        if !cone::within_on_platform(axes, rods, cone * (1.0 - self.part)) {
-            let turned = cone::in_platform(rods, &cone::columns(&rods.directions));
-            let margins = cone::margins(cone, axes, &turned);
-            self.meet_rods(Constraint::PlatformJoint, least(&margins), derived.weights.platform_joint);
-        }
-    }
-
-    #[inline]
-    fn meet_interference(&mut self, machine: &Machine, posture: &Posture, rods: &Rods) {
-        let g = machine.geometry();
-        let free = 2.0 * g.rod_radius;
-        let within = self.part * machine.derived.home_distance + free;
-        if let Some((distance, [a, b])) = interference::nearest_within(g, &posture.pose, rods, within) {
-            let (gap, weight) = (distance - free, machine.derived.weights.rod_interference);
-            self.meet(Constraint::RodInterference, Element::Rods(a, b), gap, weight);
-        }
     }
 }

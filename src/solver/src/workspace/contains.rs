@@ -1,6 +1,5 @@
 //! Membership by the inverse solution and its margins; no mesh.
 
-use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
 use super::observer::{Observer, Pace, go_on};
@@ -8,15 +7,13 @@ use super::request::{Kind, Request, WorkspaceError};
 use crate::inverse::{part_working, platform_working, tool_working};
 use crate::limit::{Margin, Refusal};
 use crate::machine::Machine;
-use crate::margins::worst;
-use crate::pose::{PartPose, Point, TableAngles};
+use crate::margins::together::{TOGETHER, Together};
+use crate::pose::{PartPose, Point};
 use crate::posture::Posture;
 use crate::table::table_angles;
 
 /// Points between two looks at the observer.
 const BATCH: usize = 1024;
-/// Points whose solutions are kept until their margins are looked at.
-const TOGETHER: usize = 32;
 
 /// How a point stands to a workspace.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,17 +33,26 @@ pub fn contains(
     observer: &dyn Observer,
 ) -> Result<Vec<Membership>, WorkspaceError> {
     request.check()?;
+    let part = request.kind == Kind::Part;
     let nothing = Membership { inside: false, margin: None };
     let mut members = Pace::new(observer).filled(&nothing, points.len())?;
     points.par_chunks(BATCH).zip(members.par_chunks_mut(BATCH)).try_for_each(|(points, members)| {
         go_on(observer)?;
+        // All solutions, then all margins: a processor overlaps what is alike and short.
+        let mut solved = Together::new();
         for (points, places) in points.chunks(TOGETHER).zip(members.chunks_mut(TOGETHER)) {
-            // All solutions, then all margins: a processor overlaps what is alike and short.
-            let answers: ArrayVec<_, TOGETHER> =
-                points.iter().map(|&point| solution(machine, request, point)).collect();
-            for (answer, place) in answers.iter().zip(places) {
-                *place = member(machine, answer);
+            solved.clear();
+            for (i, (&point, place)) in points.iter().zip(&mut *places).enumerate() {
+                match solution(machine, request, point) {
+                    Ok(posture) => solved.push(i, &posture),
+                    Err(refusal) => *place = refused(&refusal),
+                }
             }
+            solved.worst(
+                machine,
+                |alpha| part.then(|| table_angles(machine, alpha, request.phi1, request.phi2)),
+                |i, margin| places[i] = Membership { inside: margin.value >= 0.0, margin: Some(margin) },
+            );
         }
         Ok(())
     })?;
@@ -54,32 +60,21 @@ pub fn contains(
     Ok(members)
 }
 
-/// The posture in the working mode at a point in the frame of the request's kind, and the table's
-/// angles where it takes part.
-type Solution = Result<(Posture, Option<TableAngles>), Refusal>;
-
+/// The posture in the working mode at a point in the frame of the request's kind.
 #[inline]
-fn solution(machine: &Machine, request: &Request, point: Point) -> Solution {
-    let length = request.tool_length;
+fn solution(machine: &Machine, request: &Request, point: Point) -> Result<Posture, Refusal> {
+    let Request { tool_length, phi1, phi2, .. } = *request;
     match request.kind {
-        Kind::Platform => platform_working(machine, point).map(|posture| (posture, None)),
-        Kind::Tool => tool_working(machine, point, length).map(|posture| (posture, None)),
+        Kind::Platform => platform_working(machine, point),
+        Kind::Tool => tool_working(machine, point, tool_length),
         Kind::Part => {
-            let ([x, y, z], phi1, phi2) = (point, request.phi1, request.phi2);
-            part_working(machine, &PartPose { x, y, z, phi1, phi2 }, length)
-                .map(|posture| (posture, Some(table_angles(machine, posture.pose.alpha, phi1, phi2))))
+            let [x, y, z] = point;
+            part_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length)
         }
     }
 }
 
-#[inline]
-fn member(machine: &Machine, solution: &Solution) -> Membership {
-    match solution {
-        Ok((posture, table)) => {
-            let margin = worst(machine, posture, *table);
-            Membership { inside: margin.value >= 0.0, margin: Some(margin) }
-        }
-        Err(Refusal::Blocked(margin)) => Membership { inside: false, margin: Some(*margin) },
-        Err(_) => Membership { inside: false, margin: None },
-    }
+fn refused(refusal: &Refusal) -> Membership {
+    let margin = if let Refusal::Blocked(margin) = refusal { Some(*margin) } else { None };
+    Membership { inside: false, margin }
 }
