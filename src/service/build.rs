@@ -13,7 +13,9 @@ const SOURCES: [&str; 6] =
     ["src", "index.html", "package.json", "package-lock.json", "tsconfig.json", "vite.config.ts"];
 
 fn main() -> Result<(), String> {
-    let viewer = Path::new(env!("CARGO_MANIFEST_DIR")).join("../viewer");
+    // Asked when the script runs: a checkout may have moved, with all that was built in it, since the script was compiled.
+    let crate_directory = env::var("CARGO_MANIFEST_DIR").map_err(|error| error.to_string())?;
+    let viewer = Path::new(&crate_directory).join("../viewer");
     for source in SOURCES {
         println!("cargo::rerun-if-changed={}", viewer.join(source).display());
     }
