@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use verne_jobs::State as JobState;
 use verne_jobs::{Claim, Failure, Job};
+use verne_store::Content;
 
 use crate::answers::{Question, TaskFault};
 use crate::error::Error;
@@ -51,8 +52,7 @@ impl State {
         let submission = question.submission(patience.client.clone(), Some(self.limits.job))?;
         let claim = self.jobs.submit(submission).await?;
         if patience.wait.is_zero() {
-            claim.keep();
-            return Ok(Obtained::Pending(claim.job()));
+            return Ok(Obtained::Pending(kept(&claim)));
         }
         tokio::select! {
             job = claim.finished() => self.finished(question.id(), job).await.map(Obtained::Ready),
@@ -62,6 +62,23 @@ impl State {
                 claim.keep();
                 Err(Error::Stopping)
             }
+        }
+    }
+
+    /// A part of a question's answer. It may have left the store before the figures did: then a job computes it again.
+    pub(crate) async fn part(
+        &self,
+        question: &Question,
+        name: &str,
+        patience: &Patience,
+    ) -> Result<Obtained<Content>, Error> {
+        let id = question.id();
+        if let Some(content) = self.results.part(id, name).await {
+            return Ok(Obtained::Ready(content));
+        }
+        match self.compute(question, patience).await? {
+            Obtained::Pending(job) => Ok(Obtained::Pending(job)),
+            Obtained::Ready(_) => self.results.part(id, name).await.map(Obtained::Ready).ok_or(Error::NoRoom),
         }
     }
 

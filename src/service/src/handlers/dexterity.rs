@@ -71,19 +71,15 @@ pub(crate) async fn get_cells(
     if !matches!(question, Question::Dexterity(_)) {
         return Err(Error::NoCells(id.to_string()));
     }
-    let mut cells = state.results.part(id, CELLS).await;
-    if cells.is_none() {
-        if let Obtained::Pending(job) = state.compute(&question, &prefer.patience).await? {
-            return respond(Obtained::Pending(job), |delivery| delivery, prefer, &conditions);
-        }
-        cells = state.results.part(id, CELLS).await;
-    }
-    let delivery = Delivery {
-        content: cells.ok_or(Error::NoRoom)?,
-        media: "application/json",
-        cache_control: Some(FOR_EVER),
-        location: format!("{}/cells", id.path()),
-        file_name: None,
+    let obtained = match state.part(&question, CELLS, &prefer.patience).await? {
+        Obtained::Pending(job) => Obtained::Pending(job),
+        Obtained::Ready(content) => Obtained::Ready(Delivery {
+            content,
+            media: "application/json",
+            cache_control: Some(FOR_EVER),
+            location: format!("{}/cells", id.path()),
+            file_name: None,
+        }),
     };
-    respond(Obtained::Ready(delivery), |delivery| delivery, prefer, &conditions)
+    respond(obtained, |delivery| delivery, prefer, &conditions)
 }

@@ -43,7 +43,7 @@ fn surface(question: &Question, set: Option<SetName>) -> Result<(&'static str, D
     }
 }
 
-/// A mesh in a format. The mesh itself may have left the store before the figures did.
+/// A mesh in a format.
 pub(super) async fn mesh(
     state: &State,
     question: Question,
@@ -67,9 +67,7 @@ pub(super) async fn mesh(
     if let Some(content) = results.part(id, &file).await {
         return Ok(Obtained::Ready(sent(content)));
     }
-    if results.part(id, part).await.is_none()
-        && let Obtained::Pending(job) = state.compute(&question, patience).await?
-    {
+    if let Obtained::Pending(job) = state.part(&question, part, patience).await? {
         return Ok(Obtained::Pending(job));
     }
     let mesh = results.mesh(id, part).await.ok_or(Error::NoRoom)?;
