@@ -26,6 +26,9 @@ pub trait Backend: Send + Sync {
     /// is left as it is. Returns the job as it stands after that.
     async fn cancel(&self, id: JobId) -> Result<Option<Job>, Unavailable>;
 
+    /// Whether what keeps the records answers, as far as is known without asking it.
+    fn reachable(&self) -> Result<(), Unavailable>;
+
     /// Since this back end was opened.
     fn counts(&self) -> Counts;
 

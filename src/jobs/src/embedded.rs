@@ -145,6 +145,11 @@ impl Backend for Embedded {
         }
     }
 
+    /// It is in this process.
+    fn reachable(&self) -> Result<(), Unavailable> {
+        Ok(())
+    }
+
     fn counts(&self) -> Counts {
         let board = self.keeper.board.lock();
         Counts {

@@ -47,6 +47,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
+use async_nats::connection::State;
 use async_trait::async_trait;
 use tokio::sync::{mpsc, watch};
 use tokio::task::JoinSet;
@@ -61,7 +62,7 @@ use client::Client;
 use record::Claimant;
 
 pub use config::{Config, ConnectError, WorkerConfig};
-pub use worker::Worker;
+pub use worker::{Occupancy, Worker};
 
 /// How long the first reading of the records may take.
 const CATCHING_UP: Duration = Duration::from_secs(30);
@@ -138,6 +139,13 @@ impl Backend for JetStream {
     async fn cancel(&self, id: JobId) -> Result<Option<Job>, Unavailable> {
         self.settled().await?;
         self.client.cancel(id).await
+    }
+
+    fn reachable(&self) -> Result<(), Unavailable> {
+        match self.client.bus.client.connection_state() {
+            State::Connected => Ok(()),
+            _ => Err(Unavailable("the broker is not connected".to_owned())),
+        }
     }
 
     fn counts(&self) -> Counts {

@@ -28,6 +28,9 @@ pub enum Stop {
     Cancelled,
     /// For good: the same payload would fail again. The reason is kept as it is.
     Failed(Bytes),
+    /// This process cannot read the payload: another version's, which may run elsewhere. Where there are other processes
+    /// the job is left to them, for a while; else it fails with this reason.
+    Foreign(Bytes),
 }
 
 /// How a run is watched and stopped.

@@ -23,7 +23,7 @@ use crate::feed::Feeder;
 use crate::job::{finish, queued};
 use crate::threads::run::{End, Outcome, Told};
 use crate::threads::turn::Turn;
-use crate::{Claim, Job, JobId, Submission, SubmitError, Work};
+use crate::{Claim, Failure, Job, JobId, Submission, SubmitError, Work};
 use claims::Stake;
 
 pub(super) struct Keeper {
@@ -209,6 +209,8 @@ impl Keeper {
     fn conclude(self: &Arc<Self>, board: &mut Board, id: JobId, life: u64, end: End) {
         match end {
             End::Final(outcome) => self.end(board, id, life, outcome),
+            // There is no other process.
+            End::Foreign(reason) => self.end(board, id, life, Outcome::Failed(Failure::Work(reason))),
             End::Split(_) => {}
             End::Drained if board.entry(id, life).is_some_and(|entry| entry.is_wanted()) => {
                 self.requeue(board, id, life);

@@ -5,7 +5,7 @@ mod delivery;
 mod whole;
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::Duration;
 
 use parking_lot::Mutex;
@@ -46,10 +46,26 @@ struct Desk {
     free: Mutex<Vec<Seat>>,
     /// Notified when a seat is free, or wanted less.
     freed: Notify,
-    /// Who waits for a seat before all that is queued: merges, and jobs in hand.
+    /// Who waits for a seat before all that is queued: merges, and jobs in hand; and who lets other workers go first.
     first: AtomicUsize,
+    seats: usize,
+    begun_again: AtomicU64,
+    handed_back: AtomicU64,
     stage: watch::Sender<Stage>,
     active: watch::Sender<usize>,
+}
+
+/// How busy a worker is, and what has come to it twice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Occupancy {
+    /// Places for jobs, the express lane's among them.
+    pub seats: usize,
+    /// Those in which a job runs.
+    pub busy: usize,
+    /// Attempts at jobs that had been begun before: their workers were lost or handed them back.
+    pub begun_again: u64,
+    /// Jobs that this worker gave back to the queue unfinished.
+    pub handed_back: u64,
 }
 
 /// How far a worker is in its own life.
@@ -69,15 +85,18 @@ impl Worker {
         config: WorkerConfig,
         work: Arc<dyn Work>,
     ) -> Result<Self, ConnectError> {
-        let free =
+        let seats =
             seats(config.threads, config.slots).map_err(|fault| ConnectError::Threads(fault.to_string()))?;
         let desk = Arc::new(Desk {
             client: Arc::clone(&backend.client),
             work,
             turn: Arc::default(),
-            free: Mutex::new(free),
             freed: Notify::new(),
             first: AtomicUsize::new(0),
+            seats: seats.len(),
+            free: Mutex::new(seats),
+            begun_again: AtomicU64::new(0),
+            handed_back: AtomicU64::new(0),
             stage: watch::Sender::new(Stage::Open),
             active: watch::Sender::new(0),
         });
@@ -86,6 +105,17 @@ impl Worker {
             tasks.spawn(serve(Arc::clone(&desk), line));
         }
         Ok(Self { desk, tasks })
+    }
+
+    /// Tells how busy it is whenever it is asked, also after the worker's end.
+    pub fn occupancy(&self) -> impl Fn() -> Occupancy + Send + Sync + 'static {
+        let desk = Arc::clone(&self.desk);
+        move || Occupancy {
+            seats: desk.seats,
+            busy: desk.seats.saturating_sub(desk.free.lock().len()),
+            begun_again: desk.begun_again.load(Ordering::Relaxed),
+            handed_back: desk.handed_back.load(Ordering::Relaxed),
+        }
     }
 
     /// Takes no more jobs, tells those that run to stop and hands them back to the queue. Returns when all have been, at

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
+use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 
 use super::pools::{Lane, Seat};
@@ -41,6 +42,8 @@ pub(crate) enum End {
     /// Its job is to be merged from these.
     Split(Vec<Submission>),
     Drained,
+    /// Its payload is another version's; the reason if nobody can read it.
+    Foreign(Bytes),
 }
 
 impl From<Told> for End {
@@ -107,6 +110,7 @@ impl Run {
             (Ok(Err(_)), Some(told)) => return Err(told.into()),
             (Ok(Err(Stop::Cancelled)), None) => Outcome::Cancelled,
             (Ok(Err(Stop::Failed(reason))), None) => Outcome::Failed(Failure::Work(reason)),
+            (Ok(Err(Stop::Foreign(reason))), None) => return Err(End::Foreign(reason)),
         };
         Err(End::Final(outcome))
     }

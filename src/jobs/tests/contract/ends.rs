@@ -11,6 +11,7 @@ for_each_backend!(
     a_job_succeeds,
     a_job_fails_with_the_works_reason,
     a_panic_fails_its_job_alone,
+    what_nobody_can_read_fails_in_the_end,
     a_queued_job_is_cancelled,
     a_running_job_is_cancelled,
     a_finished_job_is_not_cancelled,
@@ -50,6 +51,12 @@ async fn a_panic_fails_its_job_alone(open: Open) {
         assert_eq!(stand.get(name).await.state, State::Failed);
     }
     assert_eq!(stand.submit(job("ada", "c", "pass")).await.finished().await.state, State::Succeeded);
+}
+
+async fn what_nobody_can_read_fails_in_the_end(open: Open) {
+    let stand = open(10);
+    let end = stand.submit(job("ada", "a", "foreign")).await.finished().await;
+    assert_eq!((end.state, end.failure), (State::Failed, Some(Failure::Work("another version's".into()))));
 }
 
 async fn a_queued_job_is_cancelled(open: Open) {

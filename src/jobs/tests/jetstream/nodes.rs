@@ -172,6 +172,31 @@ async fn a_drained_worker_hands_its_jobs_back() {
     .await;
 }
 
+/// Workers are replaced one after the other, and some are behind.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
+async fn what_an_old_worker_cannot_read_is_left_to_a_new_one() {
+    within_a_minute(async {
+        let broker = Broker::start();
+        let nodes = [broker.connect().await, broker.connect().await];
+        let old = Arc::new(Stage::old());
+        let behind = worker(&nodes[0], &old);
+        let claim = nodes[1].submit(job("ada", "a", "pass")).await.unwrap();
+        let whole = nodes[1].submit(job("ada", "whole", "split b=pass c=pass")).await.unwrap();
+        old.begun(2).await;
+        let new = Arc::new(Stage::default());
+        let _worker = worker(&nodes[1], &new);
+        assert_eq!(claim.finished().await.state, State::Succeeded);
+        assert_eq!(whole.finished().await.state, State::Succeeded);
+        let occupancy = behind.occupancy();
+        assert_eq!(occupancy().seats, 2);
+        assert!(occupancy().handed_back >= 2, "{:?}", occupancy());
+        // Nor does it keep what it has in hand when it is stopped.
+        behind.drain(Duration::from_secs(10)).await;
+    })
+    .await;
+}
+
 #[tokio::test(flavor = "multi_thread")]
 #[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
 async fn a_drained_process_leaves_its_jobs_to_go_on() {

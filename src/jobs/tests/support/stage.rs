@@ -11,6 +11,8 @@ use verne_jobs::{JobId, Stop, Submission, Watch, Work};
 /// Payloads are `name verb`.
 #[derive(Default)]
 pub(crate) struct Stage {
+    /// It can read no payload.
+    old: bool,
     open: Mutex<HashSet<String>>,
     opened: Condvar,
     begun: watch::Sender<Vec<String>>,
@@ -18,6 +20,10 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
+    pub(crate) fn old() -> Self {
+        Self { old: true, ..Self::default() }
+    }
+
     /// The names of the runs in the order in which they began, once there are so many.
     pub(crate) async fn begun(&self, count: usize) -> Vec<String> {
         self.begun.subscribe().wait_for(|names| names.len() >= count).await.unwrap().clone()
@@ -83,8 +89,13 @@ impl Work for Stage {
     /// Of a job that splits: `name=verb` or `name=verb=cost` each. In a part's verb `+` and `:` stand for space and `=`.
     fn parts(&self, _job: &JobId, payload: &[u8]) -> Result<Vec<Submission>, Stop> {
         let text = String::from_utf8(payload.to_vec()).unwrap();
-        let mut words = text.split(' ').skip(1);
+        let mut words = text.split(' ');
+        let name = words.next().unwrap();
         match words.next().unwrap() {
+            verb if self.old || verb == "foreign" => {
+                self.begun.send_modify(|names| names.push(name.to_owned()));
+                Err(Stop::Foreign(Bytes::from("another version's")))
+            }
             "split" | "split-wavering" => Ok(words.map(part).collect()),
             "split-fail" => Err(Stop::Failed(Bytes::from("as told"))),
             "split-panic" => panic!("as told"),

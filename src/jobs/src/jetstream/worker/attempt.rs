@@ -1,18 +1,20 @@
 //! One attempt at a job.
 
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use bytes::Bytes;
 use tokio::sync::{oneshot, watch};
+use tokio::time::timeout;
 
 use super::delivery::Delivery;
-use super::{Active, Desk, Stage, whole};
+use super::{Active, Desk, First, Stage, whole};
 use crate::feed::Feeder;
 use crate::jetstream::listen::write_progress;
 use crate::jetstream::record::Record;
 use crate::threads::pools::Seat;
-use crate::threads::run::{End, Run, Told};
+use crate::threads::run::{End, Outcome, Run, Told};
 use crate::{Failure, JobId, State, Unavailable};
 
 /// Least time between two tellings of how far a job is.
@@ -20,6 +22,9 @@ const PACE: Duration = Duration::from_millis(100);
 
 /// How soon an end that could not be recorded is tried again.
 const RETRY: Duration = Duration::from_secs(1);
+
+/// A job that was handed on so often and can still not be read is given up.
+const MOST_TURNS: u32 = 100;
 
 /// Takes a job over, runs it and records its end.
 pub(super) async fn attempt(active: Active, delivery: Delivery, seat: Seat) {
@@ -35,6 +40,9 @@ pub(super) async fn attempt(active: Active, delivery: Delivery, seat: Seat) {
             return desk.give_seat(seat);
         }
     };
+    if record.job.attempts > 1 {
+        desk.begun_again.fetch_add(1, Ordering::Relaxed);
+    }
     let ended = async {
         let end = carry_out(desk, &record, seat).await;
         conclude(desk, &delivery, record.job.attempts, end).await;
@@ -84,7 +92,17 @@ async fn carry_out(desk: &Arc<Desk>, record: &Record, seat: Seat) -> End {
         told.send_if_modified(|told| told.is_none() && told.replace(Told::Drained).is_none());
         desk.reaches(Stage::Closing).await;
     };
-    let work = whole::run(desk, record, seat, &feeder, told.subscribe());
+    let work = async {
+        let end = whole::run(desk, record, seat, &feeder, told.subscribe()).await;
+        if matches!(end, End::Foreign(_)) {
+            // Others take it meanwhile: this worker asks for nothing, or it might come back again and again.
+            let _others_first = First::new(desk);
+            let mut told = told.subscribe();
+            let stopped = told.wait_for(Option::is_some);
+            drop(timeout(desk.client.bus.config.foreign_pause, stopped).await);
+        }
+        end
+    };
     tokio::select! {
         end = work => end,
         () = heard => End::Drained,
@@ -142,8 +160,7 @@ pub(super) async fn call(
         }
         std::future::pending::<()>().await;
     };
-    let lost =
-        || End::Final(crate::threads::run::Outcome::Failed(Failure::Panicked("no message".to_owned())));
+    let lost = || End::Final(Outcome::Failed(Failure::Panicked("no message".to_owned())));
     let end = tokio::select! {
         end = receiver => end.unwrap_or_else(|_| lost()),
         () = heard => lost(),
@@ -218,8 +235,15 @@ async fn record_end(desk: &Desk, delivery: &Delivery, attempt: u32, end: &End) -
             record.job.progress = progress;
             match end {
                 End::Final(outcome) => record.end(outcome.clone()),
-                End::Drained if record.told.is_none() && record.is_wanted() => record.requeue(),
-                End::Drained | End::Split(_) => record.end_as(record.told.unwrap_or(Told::Cancelled)),
+                End::Foreign(reason) if record.turn >= MOST_TURNS => {
+                    record.end(Outcome::Failed(Failure::Work(reason.clone())));
+                }
+                End::Drained | End::Foreign(_) if record.told.is_none() && record.is_wanted() => {
+                    record.requeue();
+                }
+                End::Drained | End::Foreign(_) | End::Split(_) => {
+                    record.end_as(record.told.unwrap_or(Told::Cancelled));
+                }
             }
         }
         ends
@@ -232,6 +256,7 @@ async fn record_end(desk: &Desk, delivery: &Delivery, attempt: u32, end: &End) -
     }
     if record.life == delivery.life && record.job.state == State::Queued {
         // Into the line again before this message is done with.
+        desk.handed_back.fetch_add(1, Ordering::Relaxed);
         client.bus.publish(&record).await?;
     }
     Ok(Ended::Over)
