@@ -1,15 +1,17 @@
 //! The command line, as its users type it.
 
+use std::ffi::OsString;
+
 use clap::Parser;
 use serde_json::Value;
 use verne_service::cli::Cli;
 
 use crate::http::get;
 
-fn verne(line: &str) -> Result<String, String> {
-    let words = std::iter::once("verne").chain(line.split_whitespace());
+pub(crate) fn verne(line: &str) -> Result<String, String> {
+    let words = std::iter::once("verne").chain(line.split_whitespace()).map(OsString::from);
     let mut out = Vec::new();
-    Cli::try_parse_from(words).map_err(|error| error.to_string())?.run(&mut out, false)?;
+    Cli::read(words).map_err(|error| error.to_string())?.run(&mut out, false)?;
     Ok(String::from_utf8(out).unwrap())
 }
 

@@ -26,6 +26,7 @@ use std::path::PathBuf;
 use axum::Router;
 use axum::body::Body;
 use axum::http::{HeaderMap, HeaderName, Method, Request, StatusCode, header};
+use clap::{Args, Command, FromArgMatches};
 use http_body_util::BodyExt;
 use serde_json::Value;
 use tower::ServiceExt;
@@ -44,21 +45,23 @@ pub(crate) struct Reply {
 /// The default settings, with machines of a directory if there is one.
 pub(crate) fn config(machines: Option<PathBuf>) -> ServeConfig {
     ServeConfig {
-        listen: ([127, 0, 0, 1], 0).into(),
         machines,
         max_body_bytes: 1024 * 1024,
         max_rows: 2_000,
-        data: None,
         memory_only: true,
         cache_bytes: 64 * 1024 * 1024,
         disk_bytes: 64 * 1024 * 1024,
-        job_threads: None,
-        queue: 10_000,
         job_limit: 600,
         wait: 20,
-        timeout: 30,
         drain: 5,
+        ..settings("--listen 127.0.0.1:0")
     }
+}
+
+/// The settings that flags give.
+pub(crate) fn settings(flags: &str) -> ServeConfig {
+    let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
+    ServeConfig::from_arg_matches(&command.get_matches_from(flags.split_whitespace())).unwrap()
 }
 
 /// The service.

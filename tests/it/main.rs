@@ -8,4 +8,5 @@ mod machines;
 mod openapi;
 mod oracle;
 mod reference;
+mod settings;
 mod solver;

@@ -7,13 +7,14 @@ mod workspace;
 use question::Question;
 use workspace::WorkspaceCommand;
 
+use std::ffi::OsString;
 use std::io::{Write, stderr};
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use tracing_subscriber::EnvFilter;
 
 use crate::app;
-use crate::config::ServeConfig;
+use crate::config::{self, ServeConfig};
 
 /// Kinematics and workspaces of the VERNE five-axis hybrid machine's architecture, over HTTP and here.
 ///
@@ -26,6 +27,9 @@ pub struct Cli {
     command: Option<Command>,
     #[command(flatten)]
     serve: ServeConfig,
+    /// The settings in force, where they are to be printed and nothing else.
+    #[arg(skip)]
+    settings: Option<String>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -39,8 +43,19 @@ enum Command {
 }
 
 impl Cli {
+    /// Reads the words of a command line, the first of which names the program, and the file of settings that they or
+    /// the environment name.
+    pub fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        let words: Vec<OsString> = words.into_iter().collect();
+        let read = config::read(Self::command(), &words)?;
+        Ok(Self { settings: read.printed, ..Self::from_arg_matches(&read.matches)? })
+    }
+
     /// Serves, or writes the answer to `out`: with line breaks for people, or without. The error is for people.
     pub fn run(self, out: &mut impl Write, pretty: bool) -> Result<(), String> {
+        if let Some(settings) = self.settings {
+            return write!(out, "{settings}").map_err(|error| format!("cannot print the settings: {error}"));
+        }
         match self.command.unwrap_or(Command::Serve(self.serve)) {
             Command::Serve(config) => serve(&config),
             Command::Workspace(command) => command.run(out, pretty),

@@ -1,17 +1,45 @@
-//! Settings of `verne serve`, from flags and environment.
+//! Settings of `verne serve`, from flags, environment and a file.
+//!
+//! This is the one list of them. What two settings have to do with each other stands in `checks`: to clap, which reads
+//! flags and environment before the file, `requires` and `conflicts_with` would mean less than they say.
+
+mod checks;
+mod effective;
+mod file;
+mod layered;
 
 use std::net::SocketAddr;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::Args;
+use clap::builder::{BoolishValueParser, RangedU64ValueParser};
+use clap::{Args, value_parser};
+
+pub(crate) use layered::read;
 
 use crate::state::RequestLimits;
+
+/// A year, in seconds: more than that is a mistake, and no clock overflows.
+const LONGEST: u64 = 365 * 86_400;
+
+/// Where settings come from beside flags and environment.
+#[derive(Clone, Debug, Default, Args)]
+pub struct SettingsFile {
+    /// File of settings, in TOML: the keys are the flags' names with `_` for `-`. Flags and environment go before it.
+    #[arg(long, env = "VERNE_CONFIG", value_name = "FILE")]
+    pub config: Option<PathBuf>,
+    /// Print the settings in force and where each comes from, as a file for --config; then end.
+    #[arg(long)]
+    pub print_config: bool,
+}
 
 /// Where and what to serve.
 #[derive(Clone, Debug, Args)]
 pub struct ServeConfig {
+    /// The file of settings.
+    #[command(flatten)]
+    pub file: SettingsFile,
     /// Address to listen on.
     #[arg(long, env = "VERNE_LISTEN", default_value = "127.0.0.1:8080")]
     pub listen: SocketAddr,
@@ -19,40 +47,49 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_MACHINES", value_name = "DIR")]
     pub machines: Option<PathBuf>,
     /// Most bytes in the body of a batch.
-    #[arg(long, env = "VERNE_MAX_BODY_BYTES", default_value_t = 16 * 1024 * 1024)]
+    #[arg(long, env = "VERNE_MAX_BODY_BYTES", default_value_t = 16 * 1024 * 1024,
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_body_bytes: usize,
     /// Most rows in a batch.
-    #[arg(long, env = "VERNE_MAX_ROWS", default_value_t = 100_000)]
+    #[arg(long, env = "VERNE_MAX_ROWS", default_value_t = 100_000,
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_rows: usize,
     /// Directory in which jobs and results outlive the process; by default the user's own directory for data.
-    #[arg(long, env = "VERNE_DATA", value_name = "DIR", conflicts_with = "memory_only")]
+    #[arg(long, env = "VERNE_DATA", value_name = "DIR")]
     pub data: Option<PathBuf>,
     /// Keep jobs and results in memory, for as long as the process lives.
-    #[arg(long, env = "VERNE_MEMORY_ONLY")]
+    #[arg(long, env = "VERNE_MEMORY_ONLY", value_parser = BoolishValueParser::new())]
     pub memory_only: bool,
     /// Most bytes of results that are kept in memory.
-    #[arg(long, env = "VERNE_CACHE_BYTES", default_value_t = 256 * 1024 * 1024)]
+    #[arg(long, env = "VERNE_CACHE_BYTES", default_value_t = 256 * 1024 * 1024,
+        value_parser = value_parser!(u64).range(1..))]
     pub cache_bytes: u64,
     /// Most bytes of results that are kept in the data directory; the longest unused leave first.
-    #[arg(long, env = "VERNE_DISK_BYTES", default_value_t = 4 * 1024 * 1024 * 1024)]
+    #[arg(long, env = "VERNE_DISK_BYTES", default_value_t = 4 * 1024 * 1024 * 1024,
+        value_parser = value_parser!(u64).range(1..))]
     pub disk_bytes: u64,
     /// Cores that jobs keep busy; by default all but one, at least one.
     #[arg(long, env = "VERNE_JOB_THREADS", value_name = "CORES")]
     pub job_threads: Option<NonZeroUsize>,
     /// Most jobs that wait for their turn.
-    #[arg(long, env = "VERNE_QUEUE", default_value_t = 10_000, value_name = "JOBS")]
+    #[arg(long, env = "VERNE_QUEUE", default_value_t = 10_000, value_name = "JOBS",
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub queue: usize,
     /// Seconds after which a job is given up, its time in the queue included.
-    #[arg(long, env = "VERNE_JOB_LIMIT", default_value_t = 86_400, value_name = "SECONDS")]
+    #[arg(long, env = "VERNE_JOB_LIMIT", default_value_t = 86_400, value_name = "SECONDS",
+        value_parser = value_parser!(u64).range(1..=LONGEST))]
     pub job_limit: u64,
     /// Seconds for which an answer is waited for before the address of its job is answered.
-    #[arg(long, env = "VERNE_WAIT", default_value_t = 10, value_name = "SECONDS")]
+    #[arg(long, env = "VERNE_WAIT", default_value_t = 10, value_name = "SECONDS",
+        value_parser = value_parser!(u64).range(0..=LONGEST))]
     pub wait: u64,
     /// Seconds after which a request is given up.
-    #[arg(long, env = "VERNE_TIMEOUT", default_value_t = 30, value_name = "SECONDS")]
+    #[arg(long, env = "VERNE_TIMEOUT", default_value_t = 30, value_name = "SECONDS",
+        value_parser = value_parser!(u64).range(1..=LONGEST))]
     pub timeout: u64,
     /// Seconds that requests under way and jobs have to come to an end when the service is told to stop.
-    #[arg(long, env = "VERNE_DRAIN", default_value_t = 10, value_name = "SECONDS")]
+    #[arg(long, env = "VERNE_DRAIN", default_value_t = 10, value_name = "SECONDS",
+        value_parser = value_parser!(u64).range(0..=LONGEST))]
     pub drain: u64,
 }
 

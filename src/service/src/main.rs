@@ -3,11 +3,11 @@
 use std::io::{IsTerminal, Write, stderr, stdout};
 use std::process::ExitCode;
 
-use clap::Parser;
 use verne_service::cli::Cli;
 
 fn main() -> ExitCode {
-    match Cli::parse().run(&mut stdout(), stdout().is_terminal()) {
+    let cli = Cli::read(std::env::args_os()).unwrap_or_else(|message| message.exit());
+    match cli.run(&mut stdout(), stdout().is_terminal()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             // Nothing is left to tell where not even this can be written.

@@ -54,6 +54,9 @@ impl Storage {
     /// do, loudly.
     pub(crate) async fn open(config: &ServeConfig) -> Result<Self, StorageError> {
         if config.memory_only {
+            if let Some(directory) = &config.data {
+                tracing::warn!(data = %directory.display(), "not used: memory_only is set");
+            }
             return Self::open_in(config, None).await;
         }
         if let Some(directory) = &config.data {

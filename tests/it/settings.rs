@@ -1,0 +1,68 @@
+//! Settings of `verne serve`: from a file, and as they are printed.
+
+use std::fs;
+use std::path::PathBuf;
+
+use tempfile::TempDir;
+
+use crate::cli::verne;
+
+/// A file of settings; the directory lives as long as it is wanted.
+fn file(text: &str) -> (TempDir, PathBuf) {
+    let place = TempDir::new().unwrap();
+    let path = place.path().join("verne.toml");
+    fs::write(&path, text).unwrap();
+    (place, path)
+}
+
+#[test]
+fn a_file_gives_what_flags_do_not() {
+    let (_place, path) = file("queue = 7\nwait = 3\nmemory_only = true\n");
+    for command in ["serve", ""] {
+        let printed =
+            verne(&format!("{command} --config {} --wait 4 --print-config", path.display())).unwrap();
+        for line in [
+            "queue = 7 # file ",
+            "wait = 4 # flag --wait",
+            "memory_only = true # file ",
+            "drain = 10 # default",
+        ] {
+            assert!(printed.lines().any(|found| found.starts_with(line)), "{line}: {printed}");
+        }
+    }
+}
+
+#[test]
+fn what_is_printed_can_be_used_as_a_file() {
+    let printed = verne("serve --queue 3 --data /somewhere --print-config").unwrap();
+    let (_place, path) = file(&printed);
+    let again = verne(&format!("serve --config {} --print-config", path.display())).unwrap();
+    let values = |text: &str| {
+        let lines = text.lines().filter(|line| !line.starts_with('#'));
+        lines.map(|line| line.split(" # ").next().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(values(&printed), values(&again));
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_at_once() {
+    for (setting, expected) in [
+        ("queue = 0", "queue: invalid value '0'"),
+        ("queue = 'many'", "queue: invalid value 'many'"),
+        ("max_rows = 0", "max_rows: invalid value '0'"),
+        ("max_body_bytes = 0", "max_body_bytes: invalid value '0'"),
+        ("cache_bytes = 0", "cache_bytes: invalid value '0'"),
+        ("disk_bytes = -1", "disk_bytes: invalid value '-1'"),
+        ("timeout = 0", "timeout: invalid value '0'"),
+        ("job_limit = 0", "job_limit: invalid value '0'"),
+        ("job_threads = 0", "job_threads: invalid value '0'"),
+        ("drain = 99999999999", "drain: invalid value '99999999999'"),
+        ("listen = 'nowhere'", "listen: invalid value 'nowhere'"),
+        ("listening = '127.0.0.1:80'", "listening: no setting has this name; did you mean listen?"),
+        ("memory_only = true\ndata = '/somewhere'", "data and memory_only exclude each other"),
+    ] {
+        let (_place, path) = file(setting);
+        let error = verne(&format!("serve --config {} --print-config", path.display())).unwrap_err();
+        assert!(error.contains(expected), "{setting}: {error}");
+    }
+}
