@@ -5,7 +5,7 @@ use std::fmt;
 use bytes::Bytes;
 
 /// Up to here hashing takes less time than handing the bytes to another thread and waiting.
-const HASHED_IN_PLACE: usize = 64 << 10;
+pub(crate) const HASHED_IN_PLACE: usize = 64 << 10;
 
 /// Bytes that never change, with their BLAKE3 hash. Its clones share one buffer.
 #[derive(Clone, PartialEq, Eq)]

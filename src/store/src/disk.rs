@@ -7,26 +7,23 @@ use std::fs::File;
 use std::mem;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
-
-use bytes::Bytes;
-use object_store::{ObjectStore, ObjectStoreExt};
-use tokio::time::Instant;
 
 use crate::fault::DiskFault;
+use crate::health::Health;
 use crate::index::Index;
-use crate::object::{self, Damage};
+use crate::object;
+use crate::objects::{Objects, Seen};
 use crate::stats::Counts;
 use crate::{Content, Key};
+
+/// The name under which it is tried whether an object can be written.
+const PROBE: &str = "probe";
 
 /// So many uses are noted in one transaction.
 const USES: usize = 256;
 
-/// How long what was learned of the disk's health is believed.
-const HEALTH: Duration = Duration::from_secs(5);
-
 pub(crate) struct Disk {
-    objects: Arc<dyn ObjectStore>,
+    objects: Objects,
     index: Arc<Mutex<Index>>,
     /// Bytes of all objects are not more than this.
     bound: u64,
@@ -38,29 +35,16 @@ pub(crate) struct Disk {
     uses: Mutex<HashMap<Key, u64>>,
     /// Held by whoever changes what lies on disk: the objects and the index change one step at a time.
     turn: tokio::sync::Mutex<()>,
-    health: tokio::sync::Mutex<Option<(Instant, Result<(), String>)>>,
+    health: Health,
     counts: Arc<Counts>,
     /// Keeps other processes out until it is closed.
     _lock: File,
 }
 
 impl Disk {
-    /// The content of a key's object, checked. What is damaged is removed; it is as if not there.
-    pub(crate) async fn read(self: &Arc<Self>, key: Key) -> Option<Content> {
-        match self.fetch(key).await {
-            Ok(Some(Ok(content))) => return Some(content),
-            Ok(None) => (),
-            Ok(Some(Err(damage))) => {
-                self.counts.damaged.add(1);
-                tracing::error!(%key, %damage, "a damaged object: removed");
-                self.remove_damaged(key).await;
-            }
-            Err(fault) => {
-                self.counts.read_failures.add(1);
-                tracing::error!(%key, %fault, "an object cannot be read");
-            }
-        }
-        None
+    /// The objects.
+    pub(crate) fn objects(&self) -> &Objects {
+        &self.objects
     }
 
     /// Writes a content's object, making room for it; answers whether it will be there after a restart.
@@ -99,15 +83,7 @@ impl Disk {
 
     /// Whether an object can be written now, or could a few seconds ago.
     pub(crate) async fn healthy(&self) -> Result<(), String> {
-        let mut health = self.health.lock().await;
-        if let Some((when, state)) = health.as_ref()
-            && when.elapsed() < HEALTH
-        {
-            return state.clone();
-        }
-        let state = self.probe().await.map_err(|fault| fault.to_string());
-        *health = Some((Instant::now(), state.clone()));
-        state
+        self.health.ask(async { self.objects.probe(PROBE).await.map_err(|fault| fault.to_string()) }).await
     }
 
     /// Bytes of all objects.
@@ -115,34 +91,12 @@ impl Disk {
         self.total.load(Ordering::Relaxed)
     }
 
-    async fn probe(&self) -> Result<(), object_store::Error> {
-        let location = object_store::path::Path::from("probe");
-        self.objects.put(&location, Bytes::from_static(b"probe").into()).await?;
-        self.objects.delete(&location).await
-    }
-
-    async fn fetch(&self, key: Key) -> Result<Option<Result<Content, Damage>>, DiskFault> {
-        let found = match self.objects.get(&key.location()).await {
-            Err(object_store::Error::NotFound { .. }) => return Ok(None),
-            found => found?,
-        };
-        // Not one of ours, and perhaps more than memory holds.
-        if found.meta.size > self.bound {
-            return Ok(Some(Err(Damage::Foreign)));
-        }
-        let object = found.bytes().await?;
-        Ok(Some(tokio::task::spawn_blocking(move || object::open(&key, &object)).await?))
-    }
-
-    async fn remove_damaged(self: &Arc<Self>, key: Key) {
+    /// Removes a damaged object, unless it has been written anew since it was seen.
+    pub(crate) async fn remove_damaged(self: &Arc<Self>, key: Key, seen: Seen) {
         let disk = Arc::clone(self);
         let removed = tokio::spawn(async move {
             let _turn = disk.turn.lock().await;
-            // It may have been written anew meanwhile.
-            match disk.fetch(key).await? {
-                Some(Err(_)) => disk.remove(&[key]).await,
-                _ => Ok(()),
-            }
+            if disk.objects.is_still(key, &seen).await? { disk.remove(&[key]).await } else { Ok(()) }
         });
         if let Err(fault) = removed.await.map_err(DiskFault::from).flatten() {
             tracing::error!(%key, %fault, "a damaged object cannot be removed");
@@ -153,12 +107,12 @@ impl Disk {
         let _turn = self.turn.lock().await;
         let size = object::size(content);
         self.make_room(Some((key, size))).await?;
-        self.objects.put(&key.location(), object::wrap(&key, content)).await?;
+        self.objects.write(key, content).await?;
         let used = self.next_use.fetch_add(1, Ordering::Relaxed);
         let entered = self.with_index(move |index| index.insert(key, size, used)).await;
         if entered.is_err() {
             // Nothing would count it, nor remove it in its turn.
-            self.objects.delete(&key.location()).await?;
+            self.objects.delete(key).await?;
         }
         entered
     }
@@ -181,8 +135,8 @@ impl Disk {
     async fn remove(&self, keys: &[Key]) -> Result<(), DiskFault> {
         let mut gone = Vec::with_capacity(keys.len());
         for key in keys {
-            match self.objects.delete(&key.location()).await {
-                Ok(()) | Err(object_store::Error::NotFound { .. }) => gone.push(*key),
+            match self.objects.delete(*key).await {
+                Ok(()) => gone.push(*key),
                 Err(fault) => tracing::error!(%key, %fault, "an object cannot be removed"),
             }
         }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::{error, fmt, io};
 
-/// Why a store cannot keep its results in a directory.
+/// Why a store cannot keep its results where it was told to.
 #[derive(Debug)]
 pub enum OpenError {
     /// The directory cannot be made, entered or written to.
@@ -32,6 +32,20 @@ pub enum OpenError {
         /// What the layer of bytes says.
         source: object_store::Error,
     },
+    /// The address of a shared store means nothing.
+    Address {
+        /// The address.
+        address: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A shared store cannot be reached, or takes no objects.
+    Shared {
+        /// Its address.
+        address: String,
+        /// What it says.
+        source: object_store::Error,
+    },
 }
 
 impl fmt::Display for OpenError {
@@ -49,6 +63,8 @@ impl fmt::Display for OpenError {
             Self::Objects { directory, source } => {
                 write!(f, "the objects in {} cannot be listed or written: {source}", directory.display())
             }
+            Self::Address { address, reason } => write!(f, "{address} is no address of results: {reason}"),
+            Self::Shared { address, source } => write!(f, "results cannot be kept in {address}: {source}"),
         }
     }
 }
@@ -57,9 +73,9 @@ impl error::Error for OpenError {
     fn source(&self) -> Option<&(dyn error::Error + 'static)> {
         match self {
             Self::Directory { source, .. } => Some(source),
-            Self::InUse { .. } => None,
+            Self::InUse { .. } | Self::Address { .. } => None,
             Self::Index { source, .. } => Some(source.as_ref()),
-            Self::Objects { source, .. } => Some(source),
+            Self::Objects { source, .. } | Self::Shared { source, .. } => Some(source),
         }
     }
 }

@@ -7,17 +7,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct Stats {
     /// Questions that memory answered, those that waited for another's answer included.
     pub memory_hits: u64,
-    /// Questions that an object on disk answered.
+    /// Questions that an object on disk, or in the shared store, answered.
     pub disk_hits: u64,
     /// Questions that nothing answered.
     pub misses: u64,
     /// Bytes that count against memory's bound.
     pub memory_bytes: u64,
-    /// Bytes of all objects on disk.
-    pub disk_bytes: u64,
+    /// Bytes of all objects on disk. `None` for a shared store: no process counts what the others write.
+    pub disk_bytes: Option<u64>,
     /// Objects removed from disk to make room.
     pub evictions: u64,
-    /// Files found that were not the object that was written.
+    /// Objects found that were not the one that was written.
     pub damaged: u64,
     /// Objects that could not be read for another reason than damage.
     pub read_failures: u64,

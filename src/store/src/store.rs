@@ -1,4 +1,4 @@
-//! The store: memory before disk.
+//! The store: memory before what lies below.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -6,9 +6,13 @@ use std::sync::Arc;
 use bytes::Bytes;
 use object_store::ObjectStore;
 
+use crate::below::{Below, Layer};
 use crate::disk::Disk;
+use crate::found::{Found, WHOLE};
 use crate::held::Held;
 use crate::memory::Memory;
+use crate::objects::Object;
+use crate::shared::Shared;
 use crate::stats::Counts;
 use crate::{Content, Key, OpenError, Stats};
 
@@ -26,10 +30,11 @@ pub struct Config {
 /// How long a content that was put stays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kept {
-    /// It is flushed to disk: a restart does not lose it, only the need for room.
+    /// It is flushed to disk: a restart does not lose it, only the need for room. Or the shared store has it:
+    /// every process finds it there until it expires.
     Durable,
-    /// It is in memory until that needs the room: there is no disk, the disk refused it, or it is larger than the
-    /// disk's bound. What lay on disk under the key before still does.
+    /// It is in memory until that needs the room: there is no disk, the disk or the shared store refused it, or
+    /// it is larger than the disk's bound. What lay there under the key before still does.
     MemoryOnly,
 }
 
@@ -38,7 +43,7 @@ pub enum Kept {
 pub struct Store {
     memory: Memory,
     held: Held,
-    disk: Option<Arc<Disk>>,
+    below: Option<Below>,
     counts: Arc<Counts>,
 }
 
@@ -63,12 +68,33 @@ impl Store {
         Self::build(directory, Some(objects), memory_bytes, disk_bytes).await
     }
 
+    /// Opens the store at an address, which many processes share: `s3://bucket/prefix`, or
+    /// `file:///shared/directory`, which is made if it is not there. The crate's description says what such a
+    /// store holds and what it does not. Endpoint, region and credentials of S3 are those of the environment:
+    /// `AWS_ENDPOINT`, `AWS_REGION`, `AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_ALLOW_HTTP` and the
+    /// others that [`object_store::aws::AmazonS3Builder::from_env`] reads.
+    pub async fn open_shared(address: &str, memory_bytes: u64) -> Result<Self, OpenError> {
+        let store = Self::in_memory(memory_bytes);
+        let shared = Shared::open(address, Arc::clone(&store.counts)).await?;
+        Ok(store.over(Layer::Shared(shared)))
+    }
+
+    /// Opens a shared store whose objects lie where the caller says.
+    pub async fn open_shared_over(
+        objects: Arc<dyn ObjectStore>,
+        memory_bytes: u64,
+    ) -> Result<Self, OpenError> {
+        let store = Self::in_memory(memory_bytes);
+        let shared = Shared::open_over(objects, Arc::clone(&store.counts)).await?;
+        Ok(store.over(Layer::Shared(shared)))
+    }
+
     /// A store of so many bytes that lasts as long as the process.
     pub fn in_memory(memory_bytes: u64) -> Self {
         Self {
             memory: Memory::of_size(memory_bytes),
             held: Held::default(),
-            disk: None,
+            below: None,
             counts: Arc::default(),
         }
     }
@@ -79,9 +105,14 @@ impl Store {
         memory_bytes: u64,
         disk_bytes: u64,
     ) -> Result<Self, OpenError> {
-        let mut store = Self::in_memory(memory_bytes);
-        store.disk = Some(Disk::open(directory, objects, disk_bytes, Arc::clone(&store.counts)).await?);
-        Ok(store)
+        let store = Self::in_memory(memory_bytes);
+        let disk = Disk::open(directory, objects, disk_bytes, Arc::clone(&store.counts)).await?;
+        Ok(store.over(Layer::Disk(disk)))
+    }
+
+    fn over(mut self, layer: Layer) -> Self {
+        self.below = Some(Below::new(layer, Arc::clone(&self.counts)));
+        self
     }
 
     /// The content of a key, if it is kept. An object that is damaged or cannot be read is logged, counted and
@@ -91,13 +122,24 @@ impl Store {
             return Some(content);
         }
         let (content, ran) = self.memory.get_or_find(*key, self.read(*key)).await;
-        let count = match (&content, ran) {
-            (None, _) => &self.counts.misses,
-            (Some(_), true) => &self.counts.disk_hits,
-            (Some(_), false) => &self.counts.memory_hits,
-        };
-        count.add(1);
+        self.count(content.is_some(), ran);
         content
+    }
+
+    /// The content of a key, to be read as far as it is wanted: what is large and not in memory is not brought
+    /// there. Otherwise as [`Store::get`]; damage beyond the header shows when the content is read.
+    pub async fn find(&self, key: &Key) -> Option<Found> {
+        if let Some(content) = self.remembered(key).await {
+            return Some(content.into());
+        }
+        let (small, ran) = self.memory.get_or_make(*key, self.read_small(*key)).await;
+        let found = match (small, &self.below) {
+            (Ok(content), _) => Some(content.into()),
+            (Err(NotRead::Large(object)), Some(below)) => Some(Found::below(object, below.clone())),
+            _ => None,
+        };
+        self.count(found.is_some(), ran);
+        found
     }
 
     /// Keeps bytes under a key, in place of what was there. A disk that fails is logged and counted: the content
@@ -143,7 +185,7 @@ impl Store {
             disk_hits: counts.disk_hits.get(),
             misses: counts.misses.get(),
             memory_bytes: self.memory.size(),
-            disk_bytes: self.disk.as_ref().map_or(0, |disk| disk.total()),
+            disk_bytes: self.below.as_ref().map_or(Some(0), Below::bytes),
             evictions: counts.evictions.get(),
             damaged: counts.damaged.get(),
             read_failures: counts.read_failures.get(),
@@ -151,10 +193,11 @@ impl Store {
         }
     }
 
-    /// Whether the disk, if there is one, takes an object now; asked again after a few seconds at the earliest.
+    /// Whether the disk or the shared store, if there is one, takes an object now; asked again after a few
+    /// seconds at the earliest.
     pub async fn healthy(&self) -> Result<(), String> {
-        match &self.disk {
-            Some(disk) => disk.healthy().await,
+        match &self.below {
+            Some(below) => below.healthy().await,
             None => Ok(()),
         }
     }
@@ -170,23 +213,54 @@ impl Store {
         Some(content)
     }
 
-    /// What lies on disk.
+    /// What lies below.
     async fn read(&self, key: Key) -> Option<Content> {
-        let content = self.disk.as_ref()?.read(key).await?;
-        self.touch(key).await;
+        let below = self.below.as_ref()?;
+        let object = below.open(key).await?;
+        let content = below.content(&object).await?;
+        below.touch(key).await;
         Some(self.held.share(key, content))
     }
 
+    /// What lies below and is small.
+    async fn read_small(&self, key: Key) -> Result<Content, NotRead> {
+        let below = self.below.as_ref().ok_or(NotRead::Missing)?;
+        let object = below.open(key).await.ok_or(NotRead::Missing)?;
+        below.touch(key).await;
+        if object.length() > WHOLE {
+            return Err(NotRead::Large(Arc::new(object)));
+        }
+        let content = below.content(&object).await.ok_or(NotRead::Missing)?;
+        Ok(self.held.share(key, content))
+    }
+
     async fn write(&self, key: Key, content: &Content) -> Kept {
-        match &self.disk {
-            Some(disk) if disk.write(key, content).await => Kept::Durable,
+        match &self.below {
+            Some(below) if below.write(key, content).await => Kept::Durable,
             _ => Kept::MemoryOnly,
         }
     }
 
     async fn touch(&self, key: Key) {
-        if let Some(disk) = &self.disk {
-            disk.touch(key).await;
+        if let Some(below) = &self.below {
+            below.touch(key).await;
         }
     }
+
+    /// Counts a question, and whether its caller had to look below.
+    fn count(&self, found: bool, looked: bool) {
+        let count = match (found, looked) {
+            (false, _) => &self.counts.misses,
+            (true, true) => &self.counts.disk_hits,
+            (true, false) => &self.counts.memory_hits,
+        };
+        count.add(1);
+    }
+}
+
+/// Why a content was not read whole; told to all who wait for it.
+#[derive(Clone)]
+enum NotRead {
+    Missing,
+    Large(Arc<Object>),
 }

@@ -11,13 +11,23 @@ mod disk;
 mod eviction;
 #[path = "store/failures.rs"]
 mod failures;
+#[path = "store/found.rs"]
+mod found;
 #[path = "store/index.rs"]
 mod index;
 #[path = "store/memory.rs"]
 mod memory;
 #[path = "store/objects.rs"]
 mod objects;
+#[path = "store/parts.rs"]
+mod parts;
 #[path = "store/place.rs"]
 mod place;
+#[path = "store/s3.rs"]
+mod s3;
+#[path = "store/shared.rs"]
+mod shared;
 #[path = "store/sharing.rs"]
 mod sharing;
+#[path = "store/watched.rs"]
+mod watched;

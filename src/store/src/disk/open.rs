@@ -7,16 +7,17 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
-use bytes::Bytes;
 use futures_util::{StreamExt, TryStreamExt, future, stream};
 use object_store::local::LocalFileSystem;
-use object_store::{ObjectMeta, ObjectStore, ObjectStoreExt};
+use object_store::{ObjectMeta, ObjectStore};
 
-use super::Disk;
+use super::{Disk, PROBE};
 use crate::Key;
 use crate::fault::{DiskFault, OpenError};
+use crate::health::Health;
 use crate::index::{Found, Index};
 use crate::object::{self, Damage};
+use crate::objects::Objects;
 use crate::stats::Counts;
 
 /// So many headers are read at once.
@@ -42,14 +43,14 @@ impl Disk {
             .flatten()
             .map_err(|source| OpenError::Index { directory: directory.to_path_buf(), source })?;
         let disk = Self {
-            objects,
+            objects: Objects::on_disk(objects),
             index: Arc::new(Mutex::new(index)),
             bound,
             total: Arc::default(),
             next_use: AtomicU64::new(next_use),
             uses: Mutex::default(),
             turn: tokio::sync::Mutex::default(),
-            health: tokio::sync::Mutex::default(),
+            health: Health::default(),
             counts,
             _lock: lock,
         };
@@ -60,7 +61,7 @@ impl Disk {
     /// Makes the index agree with the objects, keeps the bound, and sees that an object can be written.
     async fn settle(&self, mut sizes: HashMap<Key, u64>) -> Result<(), DiskFault> {
         let mut unknown = Vec::new();
-        let mut listing = self.objects.list(None);
+        let mut listing = self.objects.store().list(None);
         while let Some(file) = listing.try_next().await? {
             if let Some(key) = Key::at(&file.location)
                 && sizes.remove(&key) != Some(file.size)
@@ -80,7 +81,7 @@ impl Disk {
             self.with_index(move |index| index.reconcile(&gone, &found, first_use)).await?;
         }
         self.make_room(None).await?;
-        Ok(self.probe().await?)
+        Ok(self.objects.probe(PROBE).await?)
     }
 
     /// Those of the files that are objects, oldest first.
@@ -98,13 +99,8 @@ impl Disk {
     /// Whether a file begins as its key's object and is as long as it says. What is left of a damaged object is
     /// removed; what never was an object is left alone.
     async fn is_object(&self, key: Key, file: &ObjectMeta) -> bool {
-        let start = match file.size.min(object::HEADER as u64) {
-            // An empty range is an error.
-            0 => Ok(Bytes::new()),
-            end => self.objects.get_range(&file.location, 0..end).await,
-        };
-        let damage = match start {
-            Ok(start) => match object::head(&key, &start, file.size) {
+        let damage = match self.objects.start(key, file.size.min(object::FIXED as u64)).await {
+            Ok(start) => match object::claim(&key, &start, file.size) {
                 Ok(_) => return true,
                 Err(damage) => damage,
             },
@@ -119,7 +115,7 @@ impl Disk {
             tracing::warn!(%key, %damage, "a file where objects lie: left alone");
         } else {
             tracing::error!(%key, %damage, "a damaged object: removed");
-            if let Err(fault) = self.objects.delete(&file.location).await {
+            if let Err(fault) = self.objects.delete(key).await {
                 tracing::error!(%key, %fault, "a damaged object cannot be removed");
             }
         }

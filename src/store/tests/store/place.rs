@@ -12,8 +12,11 @@ use verne_store::{Config, Key, Store};
 
 use crate::objects::Objects;
 
-/// What an object is longer than its content.
-pub(crate) const HEADER: u64 = 84;
+/// What the object of a content of one chunk is longer than the content.
+pub(crate) const HEADER: u64 = 148;
+
+/// The same of no content.
+pub(crate) const EMPTY: u64 = 116;
 
 /// Memory for every content of a test that does not ask for less.
 const MEMORY: u64 = 64 << 20;
@@ -85,5 +88,7 @@ pub(crate) fn key(number: u8) -> Key {
 
 /// So many bytes that are not those of another number.
 pub(crate) fn bytes(number: u8, length: usize) -> Bytes {
-    (0_u8..251).map(|byte| byte ^ number).cycle().take(length).collect()
+    let mut all = (0..251).map(|byte| byte ^ number).collect::<Vec<u8>>().repeat(length / 251 + 1);
+    all.truncate(length);
+    all.into()
 }

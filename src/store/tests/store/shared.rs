@@ -1,0 +1,153 @@
+//! A store that several processes have open at once: what one writes the others find.
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use tokio::task::JoinSet;
+use verne_store::{Kept, OpenError, Store};
+
+use crate::place::{bytes, key};
+use crate::watched::Watched;
+
+async fn open(directory: &Path) -> Store {
+    let address = format!("file://{}", directory.display());
+    Store::open_shared(&address, 1 << 20).await.unwrap()
+}
+
+/// Every file in a directory and in those below it.
+fn files(directory: &Path) -> Vec<std::path::PathBuf> {
+    let entries = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
+    entries.flat_map(|entry| if entry.is_dir() { files(&entry) } else { vec![entry] }).collect()
+}
+
+#[tokio::test]
+async fn two_stores_over_one_directory_see_each_others_results() {
+    let root = tempfile::tempdir().unwrap();
+    let directory = root.path().join("made/when it is opened");
+    let (first, second) = (open(&directory).await, open(&directory).await);
+    assert_eq!(second.get(&key(1)).await, None);
+    let (put, kept) = first.put(&key(1), bytes(1, 1000)).await;
+    assert_eq!(kept, Kept::Durable);
+    assert_eq!(second.get(&key(1)).await, Some(put));
+    let made = second.get_or_make(&key(2), async { Ok::<_, String>(bytes(2, 3 << 20)) }).await.unwrap();
+    assert_eq!(first.get(&key(2)).await, Some(made));
+    assert_eq!((second.stats().disk_hits, second.stats().misses, second.stats().disk_bytes), (1, 2, None));
+    drop((first, second));
+    assert_eq!(open(&directory).await.get(&key(1)).await.unwrap().bytes, bytes(1, 1000));
+    assert_eq!(files(&directory).len(), 2, "neither probes nor an index");
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 4)]
+async fn many_may_write_one_key_at_once() {
+    let root = tempfile::tempdir().unwrap();
+    let mut writers = JoinSet::new();
+    for _ in 0..8 {
+        let store = open(root.path()).await;
+        writers.spawn(async move {
+            for _ in 0..5 {
+                assert_eq!(store.put(&key(1), bytes(1, 200_000)).await.1, Kept::Durable);
+                let read = Store::get(&store, &key(1)).await.unwrap();
+                assert_eq!(read.bytes, bytes(1, 200_000));
+            }
+            store.stats().damaged
+        });
+    }
+    assert_eq!(writers.join_all().await.iter().sum::<u64>(), 0);
+    assert_eq!(files(root.path()).len(), 1);
+}
+
+#[tokio::test]
+async fn an_address_that_means_nothing_is_an_error_that_says_so() {
+    for address in [
+        "results",
+        "/shared/directory",
+        "https://host/bucket",
+        "s3://",
+        "s3:///prefix",
+        "s3://bucket:9000/prefix",
+        "s3://key@bucket/prefix",
+        "s3://bucket/prefix?region=here",
+        "file://host/directory",
+    ] {
+        let Err(fault @ OpenError::Address { .. }) = Store::open_shared(address, 0).await else {
+            panic!("opened {address}")
+        };
+        assert!(fault.to_string().contains(address), "{fault}");
+    }
+}
+
+#[tokio::test]
+async fn a_directory_that_cannot_be_made_or_written_to_is_an_error_that_names_it() {
+    let root = tempfile::tempdir().unwrap();
+    let file = root.path().join("a file");
+    fs::write(&file, "").unwrap();
+    let address = format!("file://{}", file.display());
+    let Err(fault @ OpenError::Directory { .. }) = Store::open_shared(&address, 0).await else {
+        panic!("opened a file")
+    };
+    assert!(fault.to_string().contains("a file"), "{fault}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_store_that_takes_nothing_is_an_error_at_the_start() {
+    let objects = Watched::new();
+    objects.record().all_fail.store(true, Ordering::Relaxed);
+    let Err(fault @ OpenError::Shared { .. }) = Store::open_shared_over(objects, 0).await else {
+        panic!("opened")
+    };
+    assert!(fault.to_string().contains("slow down"), "{fault}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_store_that_refuses_a_tenth_of_what_it_is_asked_loses_nothing() {
+    let objects = Watched::new();
+    objects.record().one_in.store(10, Ordering::Relaxed);
+    let (writer, reader) = (objects.open().await, objects.open().await);
+    for number in 0..100 {
+        assert_eq!(writer.put(&key(number), bytes(number, 1000)).await.1, Kept::Durable);
+    }
+    let (_, kept) = writer.put(&key(100), bytes(100, 20 << 20)).await;
+    assert_eq!(kept, Kept::Durable);
+    for number in 0..100 {
+        assert_eq!(reader.get(&key(number)).await.unwrap().bytes, bytes(number, 1000));
+    }
+    assert_eq!(reader.get(&key(100)).await.unwrap().bytes, bytes(100, 20 << 20));
+    assert!(objects.record().refused.load(Ordering::Relaxed) > 20);
+    let stats = (writer.stats().write_failures, reader.stats().read_failures);
+    assert_eq!(stats, (0, 0));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_store_that_refuses_everything_is_given_up_and_memory_answers() {
+    let objects = Watched::new();
+    let store = Store::open_shared_over(Arc::clone(&objects) as _, 1 << 20).await.unwrap();
+    objects.record().all_fail.store(true, Ordering::Relaxed);
+    let (put, kept) = store.put(&key(1), bytes(1, 1000)).await;
+    assert_eq!(kept, Kept::MemoryOnly);
+    assert_eq!(store.get(&key(1)).await, Some(put));
+    assert_eq!(store.get(&key(2)).await, None);
+    assert_eq!((store.stats().write_failures, store.stats().read_failures), (1, 1));
+}
+
+#[tokio::test(start_paused = true)]
+async fn each_process_probes_under_a_name_of_its_own_every_few_seconds() {
+    let objects = Watched::new();
+    let (first, second) = (objects.open().await, objects.open().await);
+    let probes = std::mem::take(&mut *objects.record().put.lock().unwrap());
+    assert_ne!(probes[0], probes[1]);
+    assert_eq!(objects.places().await, []);
+    assert_eq!((first.healthy().await, second.healthy().await), (Ok(()), Ok(())));
+    assert_eq!(*objects.record().put.lock().unwrap(), probes, "the names stay");
+
+    objects.record().all_fail.store(true, Ordering::Relaxed);
+    assert_eq!(first.healthy().await, Ok(()), "believed for a while");
+    tokio::time::advance(Duration::from_secs(6)).await;
+    let fault = first.healthy().await.unwrap_err();
+    assert!(fault.contains("slow down"), "{fault}");
+    objects.record().all_fail.store(false, Ordering::Relaxed);
+    tokio::time::advance(Duration::from_secs(6)).await;
+    assert_eq!(first.healthy().await, Ok(()));
+}
