@@ -1,7 +1,8 @@
-"""A verne process under test, and requests to it. Used by kills.py and load.py."""
+"""verne processes under test, and requests to them. Used by kills.py, load.py and scale.py."""
 
 import http.client
 import json
+import os
 import signal
 import socket
 import subprocess
@@ -14,16 +15,23 @@ def free_port():
         return probe.getsockname()[1]
 
 
-class Served:
-    """The service on a data directory, on the same port at each start."""
+class Process:
+    """A verne process that answers probes on a port, the same at each start."""
 
-    def __init__(self, verne, data, *flags):
-        self.port = free_port()
-        self.command = [verne, "serve", "--listen", f"127.0.0.1:{self.port}", "--data", data, *flags]
+    def __init__(self, port, *command, environment=None):
+        self.port, self.command = port, list(command)
+        self.environment = {**os.environ, **(environment or {})}
         self.process = None
 
+    def launch(self):
+        self.process = subprocess.Popen(self.command, env=self.environment, stderr=subprocess.DEVNULL)
+        return self
+
     def start(self):
-        self.process = subprocess.Popen(self.command, stderr=subprocess.DEVNULL)
+        return self.launch().ready()
+
+    def ready(self):
+        """Returns when it is."""
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline:
             try:
@@ -34,7 +42,7 @@ class Served:
             if self.process.poll() is not None:
                 break
             time.sleep(0.02)
-        raise SystemExit(f"the service does not start: {self.command}")
+        raise SystemExit(f"it does not start: {self.command}")
 
     def kill(self):
         self.process.kill()
@@ -51,6 +59,14 @@ class Served:
         """Resident memory, bytes."""
         with open(f"/proc/{self.process.pid}/status") as status:
             return next(int(line.split()[1]) * 1024 for line in status if line.startswith("VmRSS"))
+
+
+class Served(Process):
+    """The service on a data directory."""
+
+    def __init__(self, verne, data, *flags):
+        port = free_port()
+        super().__init__(port, verne, "serve", "--listen", f"127.0.0.1:{port}", "--data", data, *flags)
 
 
 class Reply:

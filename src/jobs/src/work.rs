@@ -28,9 +28,10 @@ pub enum Stop {
     Cancelled,
     /// For good: the same payload would fail again. The reason is kept as it is.
     Failed(Bytes),
-    /// This process cannot read the payload: another version's, which may run elsewhere. Where there are other processes
-    /// the job is left to them, for a while; else it fails with this reason.
-    Foreign(Bytes),
+    /// This process cannot do it, another may: the payload is another version's, the result cannot be put where it belongs.
+    /// Where there are other processes the job is left to them, and comes back if they cannot either; else, and after a
+    /// hundred times, it fails with this reason.
+    Elsewhere(Bytes),
 }
 
 /// How a run is watched and stopped.

@@ -13,6 +13,7 @@ use utoipa_swagger_ui::{Config, SwaggerUi};
 
 use crate::config::ServeConfig;
 use crate::metrics::Metrics;
+use crate::readiness::Readiness;
 use crate::registry::{BadFile, Registry};
 use crate::state::{Shared, State};
 use crate::storage::{Storage, StorageError};
@@ -23,7 +24,7 @@ use crate::{layers, openapi, router, viewer};
 pub enum StartError {
     /// A machine's file.
     Machine(BadFile),
-    /// The data directory.
+    /// Where jobs and results are kept.
     Storage(StorageError),
     /// The address, or the listener later on.
     Listen(SocketAddr, std::io::Error),
@@ -65,14 +66,17 @@ impl Service {
             machines.publish_directory(directory).map_err(StartError::Machine)?;
         }
         let (routes, _) = router::routes().split_for_parts();
-        let Storage { results, jobs, computed } = Storage::open(config).await.map_err(StartError::Storage)?;
+        let Storage { results, jobs, computations } =
+            Storage::open(config).await.map_err(StartError::Storage)?;
         let stopping = CancellationToken::new();
-        let metrics = Metrics::of(Arc::clone(&jobs), results.store(), computed);
+        let readiness = Readiness::new(results.clone(), Arc::clone(&jobs), stopping.clone());
+        let metrics = Metrics::of(Arc::clone(&jobs), results.store(), &computations);
+        let requests = Arc::clone(&metrics.requests);
         let limits = config.limits();
-        let state = Arc::new(State { machines, limits, results, jobs, metrics, stopping });
+        let state = Arc::new(State { machines, limits, results, jobs, readiness, metrics, stopping });
         let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
         let routes = routes.with_state(Arc::clone(&state)).merge(docs).merge(viewer::routes());
-        let router = layers::wrap(routes, Duration::from_secs(config.timeout));
+        let router = layers::wrap(routes, requests, Duration::from_secs(config.timeout));
         Ok(Self { router, state })
     }
 
@@ -112,7 +116,8 @@ pub async fn serve(config: &ServeConfig) -> Result<(), StartError> {
     served.map_err(failed)
 }
 
-async fn told_to_stop() {
+/// Returns when the process is to end: SIGTERM or ctrl-c.
+pub(crate) async fn told_to_stop() {
     let interrupted = async {
         // Without a handler the default remains: the signal ends the process.
         if tokio::signal::ctrl_c().await.is_err() {

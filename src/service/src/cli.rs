@@ -8,13 +8,15 @@ use question::Question;
 use workspace::WorkspaceCommand;
 
 use std::ffi::OsString;
-use std::io::{Write, stderr};
+use std::io::Write;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use tracing_subscriber::EnvFilter;
 
-use crate::app;
+use crate::app::{self, StartError};
+use crate::config::worker::WorkerConfig;
 use crate::config::{self, ServeConfig};
+use crate::telemetry::TelemetryConfig;
+use crate::worker;
 
 /// Kinematics and workspaces of the VERNE five-axis hybrid machine's architecture, over HTTP and here.
 ///
@@ -36,6 +38,8 @@ pub struct Cli {
 enum Command {
     /// Serve over HTTP.
     Serve(ServeConfig),
+    /// Run the jobs that wait at a broker (--broker), and keep their results in a store that all reach (--store).
+    Worker(WorkerConfig),
     /// A workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
     Workspace(WorkspaceCommand),
     #[command(flatten)]
@@ -57,7 +61,8 @@ impl Cli {
             return write!(out, "{settings}").map_err(|error| format!("cannot print the settings: {error}"));
         }
         match self.command.unwrap_or(Command::Serve(self.serve)) {
-            Command::Serve(config) => serve(&config),
+            Command::Serve(config) => on_runtime(&config.telemetry, app::serve(&config)),
+            Command::Worker(config) => on_runtime(&config.telemetry, worker::work(&config)),
             Command::Workspace(command) => command.run(out, pretty),
             Command::Ask(question) => {
                 let answer = question.answer(pretty)?;
@@ -67,12 +72,14 @@ impl Cli {
     }
 }
 
-fn serve(config: &ServeConfig) -> Result<(), String> {
-    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("info"));
-    tracing_subscriber::fmt().with_env_filter(filter).with_writer(stderr).init();
+fn on_runtime(
+    telemetry: &TelemetryConfig,
+    service: impl Future<Output = Result<(), StartError>>,
+) -> Result<(), String> {
+    let _telemetry = telemetry.begin()?;
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()
         .map_err(|error| format!("cannot start: {error}"))?;
-    runtime.block_on(app::serve(config)).map_err(|error| error.to_string())
+    runtime.block_on(service).map_err(|error| error.to_string())
 }

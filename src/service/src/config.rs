@@ -7,6 +7,8 @@ mod checks;
 mod effective;
 mod file;
 mod layered;
+pub mod sharing;
+pub mod worker;
 
 use std::net::SocketAddr;
 use std::num::NonZeroUsize;
@@ -17,8 +19,10 @@ use clap::builder::{BoolishValueParser, RangedU64ValueParser};
 use clap::{Args, value_parser};
 
 pub(crate) use layered::read;
+use sharing::{BrokerConfig, StoreConfig};
 
 use crate::state::RequestLimits;
+use crate::telemetry::TelemetryConfig;
 
 /// A year, in seconds: more than that is a mistake, and no clock overflows.
 const LONGEST: u64 = 365 * 86_400;
@@ -91,6 +95,15 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_DRAIN", default_value_t = 10, value_name = "SECONDS",
         value_parser = value_parser!(u64).range(0..=LONGEST))]
     pub drain: u64,
+    /// What the process tells of itself.
+    #[command(flatten)]
+    pub telemetry: TelemetryConfig,
+    /// Where jobs wait, if other processes run them.
+    #[command(flatten)]
+    pub broker: BrokerConfig,
+    /// Where results are kept, if other processes read them.
+    #[command(flatten)]
+    pub store: StoreConfig,
 }
 
 impl ServeConfig {

@@ -1,37 +1,58 @@
 //! What is measured, in the text format of Prometheus (OpenMetrics).
 
+mod computations;
+mod requests;
+
 use std::fmt;
 use std::sync::Arc;
 
+use axum::http::header::CONTENT_TYPE;
+use axum::response::IntoResponse;
 use prometheus_client::collector::Collector;
 use prometheus_client::encoding::{DescriptorEncoder, EncodeMetric};
-use prometheus_client::metrics::counter::{ConstCounter, Counter};
+use prometheus_client::metrics::counter::ConstCounter;
 use prometheus_client::metrics::gauge::ConstGauge;
 use prometheus_client::registry::Registry;
 use verne_jobs::Backend;
+use verne_jobs::jetstream::Occupancy;
 use verne_store::Store;
 
+use crate::error::Error;
+
+pub(crate) use computations::Computations;
+pub(crate) use requests::Requests;
+
 /// Media type of the text.
-pub(crate) const OPEN_METRICS: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
+const OPEN_METRICS: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
 /// Every metric of the service. A registry of its own and not one of the process: tests have several services.
-pub(crate) struct Metrics(Registry);
+pub(crate) struct Metrics {
+    registry: Registry,
+    /// To be told of requests.
+    pub requests: Arc<Requests>,
+}
 
 impl Metrics {
     /// What jobs and results say of themselves whenever they are asked.
-    pub(crate) fn of(jobs: Arc<dyn Backend>, store: Store, computed: Counter) -> Self {
+    pub(crate) fn of(jobs: Arc<dyn Backend>, store: Store, computations: &Computations) -> Self {
         let mut registry = Registry::with_prefix("verne");
-        registry.register("computations", "Workspaces and pieces of maps computed", computed);
+        let requests = Requests::registered(&mut registry);
+        computations.register(&mut registry);
         registry.register_collector(Box::new(Jobs(jobs)));
         registry.register_collector(Box::new(Results(store)));
-        Self(registry)
+        Self { registry, requests }
+    }
+
+    /// And what a worker says of itself.
+    pub(crate) fn tell_of_worker(&mut self, occupancy: impl Fn() -> Occupancy + Send + Sync + 'static) {
+        self.registry.register_collector(Box::new(Seats(Box::new(occupancy))));
     }
 
     /// The text.
-    pub(crate) fn text(&self) -> Result<String, fmt::Error> {
+    pub(crate) fn answer(&self) -> Result<impl IntoResponse + use<>, Error> {
         let mut text = String::new();
-        prometheus_client::encoding::text::encode(&mut text, &self.0)?;
-        Ok(text)
+        prometheus_client::encoding::text::encode(&mut text, &self.registry).map_err(|_| Error::Internal)?;
+        Ok(([(CONTENT_TYPE, OPEN_METRICS)], text))
     }
 }
 
@@ -55,6 +76,26 @@ impl Collector for Jobs {
     }
 }
 
+struct Seats(Box<dyn Fn() -> Occupancy + Send + Sync>);
+
+impl fmt::Debug for Seats {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Seats")
+    }
+}
+
+impl Collector for Seats {
+    fn encode(&self, mut encoder: DescriptorEncoder<'_>) -> fmt::Result {
+        let now = (self.0)();
+        gauge(&mut encoder, "worker_seats", "Places for jobs in this worker", number(now.seats))?;
+        gauge(&mut encoder, "worker_seats_busy", "Places in which a job runs", number(now.busy))?;
+        let redelivered = "Jobs begun here that had been begun before";
+        counter(&mut encoder, "worker_redeliveries", redelivered, now.begun_again)?;
+        let handed_back = "Jobs that this worker gave back to the queue";
+        counter(&mut encoder, "worker_handed_back", handed_back, now.handed_back)
+    }
+}
+
 struct Results(Store);
 
 impl fmt::Debug for Results {
@@ -72,7 +113,10 @@ impl Collector for Results {
             "Bytes of results in memory",
             number(stats.memory_bytes),
         )?;
-        gauge(&mut encoder, "results_disk_bytes", "Bytes of results on disk", number(stats.disk_bytes))?;
+        // Of a shared store nobody knows.
+        if let Some(bytes) = stats.disk_bytes {
+            gauge(&mut encoder, "results_disk_bytes", "Bytes of results on disk", number(bytes))?;
+        }
         counter(&mut encoder, "results_memory_hits", "Results found in memory", stats.memory_hits)?;
         counter(&mut encoder, "results_disk_hits", "Results found on disk", stats.disk_hits)?;
         counter(&mut encoder, "results_misses", "Results not found", stats.misses)?;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use verne_mesh::{Mesh, packed};
-use verne_store::{Content, Store};
+use verne_store::{Content, Kept as Durability, Store};
 
 use crate::answers::Question;
 use crate::error::Error;
@@ -40,22 +40,35 @@ pub(crate) const CELLS: &str = "cells";
 
 /// The results that are kept. Its clones are one.
 #[derive(Clone)]
-pub(crate) struct Results(Store);
+pub(crate) struct Results {
+    store: Store,
+    shared: bool,
+}
 
 impl Results {
-    /// The results of a store.
+    /// The results of a store of this process's own.
     pub(crate) fn new(store: Store) -> Self {
-        Self(store)
+        Self { store, shared: false }
+    }
+
+    /// The results of a store in which other processes look for them.
+    pub(crate) fn shared(store: Store) -> Self {
+        Self { store, shared: true }
+    }
+
+    /// Whether other processes look for results here.
+    pub(crate) fn are_shared(&self) -> bool {
+        self.shared
     }
 
     /// Where they are kept.
     pub(crate) fn store(&self) -> Store {
-        self.0.clone()
+        self.store.clone()
     }
 
     /// Whether more can be kept.
     pub(crate) async fn healthy(&self) -> Result<(), Error> {
-        self.0.healthy().await.map_err(|reason| {
+        self.store.healthy().await.map_err(|reason| {
             tracing::error!(reason, "results cannot be kept");
             Error::DiskFailing
         })
@@ -63,7 +76,7 @@ impl Results {
 
     /// The record of an answered question. One that cannot be read is as if not there: another version wrote it.
     pub(crate) async fn record(&self, id: ResultId) -> Option<Record> {
-        let content = self.0.get(&id.key(RECORD)).await?;
+        let content = self.store.get(&id.key(RECORD)).await?;
         read(&content.bytes, id)
     }
 
@@ -77,23 +90,25 @@ impl Results {
     ) -> Result<(), Error> {
         let id = question.id();
         for (name, bytes) in parts {
-            self.keep_part(id, name, bytes).await;
+            self.keep_part(id, name, bytes).await?;
         }
         let (question, summary) = (raw(&question.written()?)?, raw(summary)?);
         let kept = Kept { question: &question, summary: &summary, inclination };
         let bytes = serde_json::to_vec(&kept).map_err(|_| Error::Internal)?;
-        self.keep_part(id, RECORD, bytes).await;
-        Ok(())
+        self.keep_part(id, RECORD, bytes).await.map(drop)
     }
 
-    /// Keeps a part of a result.
-    pub(crate) async fn keep_part(&self, id: ResultId, name: &str, bytes: Vec<u8>) -> Content {
-        self.0.put(&id.key(name), bytes.into()).await.0
+    /// Keeps a part of a result. Where other processes look for it, memory is not enough.
+    pub(crate) async fn keep_part(&self, id: ResultId, name: &str, bytes: Vec<u8>) -> Result<Content, Error> {
+        match self.store.put(&id.key(name), bytes.into()).await {
+            (_, Durability::MemoryOnly) if self.shared => Err(Error::DiskFailing),
+            (content, _) => Ok(content),
+        }
     }
 
     /// A part of a result.
     pub(crate) async fn part(&self, id: ResultId, name: &str) -> Option<Content> {
-        self.0.get(&id.key(name)).await
+        self.store.get(&id.key(name)).await
     }
 
     /// A part of a result, made if it is not there.
@@ -104,7 +119,7 @@ impl Results {
         make: impl Future<Output = Result<Vec<u8>, Error>> + Send,
     ) -> Result<Content, Error> {
         let make = async { make.await.map(Into::into) };
-        self.0.get_or_make(&id.key(name), make).await
+        self.store.get_or_make(&id.key(name), make).await
     }
 
     /// A mesh that is part of a result.

@@ -7,6 +7,7 @@ use tokio_util::sync::CancellationToken;
 use verne_jobs::Backend;
 
 use crate::metrics::Metrics;
+use crate::readiness::Readiness;
 use crate::registry::Registry;
 use crate::results::Results;
 
@@ -35,6 +36,8 @@ pub(crate) struct State {
     pub results: Results,
     /// What is being computed.
     pub jobs: Arc<dyn Backend>,
+    /// Whether all of it works.
+    pub readiness: Readiness,
     /// What is measured.
     pub metrics: Metrics,
     /// Cancelled when the service is told to stop.

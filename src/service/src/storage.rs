@@ -1,22 +1,28 @@
 //! Opens what outlives requests: the results and the queue of jobs.
 
+mod shared;
+
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
-use prometheus_client::metrics::counter::Counter;
 use tokio::runtime::Handle;
+use verne_jobs::jetstream::ConnectError;
 use verne_jobs::{Backend, Embedded, embedded};
 use verne_store::Store;
 
 use crate::config::ServeConfig;
+use crate::metrics::Computations;
 use crate::results::Results;
 use crate::tasks::Tasks;
 
 /// A job that was running when the process died so often is likely the cause.
 const ATTEMPTS: u32 = 10;
 
-/// Why a directory cannot hold jobs and results.
+pub(crate) use shared::{connect, open_store};
+
+/// Why jobs and results cannot be kept.
 #[derive(Debug)]
 pub enum StorageError {
     /// The results.
@@ -25,6 +31,14 @@ pub enum StorageError {
     Jobs(embedded::OpenError),
     /// The thread that opened them was lost.
     Lost,
+    /// There are other processes, and no store that they reach.
+    NoStore,
+    /// There is no broker to take jobs from.
+    NoBroker,
+    /// The broker cannot be used.
+    Broker(ConnectError),
+    /// The broker did not come within so long.
+    BrokerMissing(Duration),
 }
 
 impl fmt::Display for StorageError {
@@ -33,6 +47,12 @@ impl fmt::Display for StorageError {
             Self::Results(error) => error.fmt(f),
             Self::Jobs(error) => write!(f, "jobs cannot be kept: {error}"),
             Self::Lost => write!(f, "jobs cannot be kept: opening them failed"),
+            Self::NoStore => write!(f, "store: with a broker a store is needed that all processes reach"),
+            Self::NoBroker => write!(f, "broker: jobs come from a broker; none is named"),
+            Self::Broker(error) => error.fmt(f),
+            Self::BrokerMissing(waited) => {
+                write!(f, "broker: it did not answer for {} s", waited.as_secs())
+            }
         }
     }
 }
@@ -46,13 +66,18 @@ pub(crate) struct Storage {
     /// What is being computed.
     pub jobs: Arc<dyn Backend>,
     /// How much was computed.
-    pub computed: Counter,
+    pub computations: Computations,
 }
 
 impl Storage {
     /// Opens them where the settings say. A directory that was asked for must be usable; where it was not, memory will
     /// do, loudly.
     pub(crate) async fn open(config: &ServeConfig) -> Result<Self, StorageError> {
+        if config.broker.broker.is_some() {
+            let results = open_store(&config.store, config.cache_bytes).await?;
+            let jobs = connect(&config.broker, config.queue).await?;
+            return Ok(Self { results, jobs, computations: Computations::default() });
+        }
         if config.memory_only {
             if let Some(directory) = &config.data {
                 tracing::warn!(data = %directory.display(), "not used: memory_only is set");
@@ -77,22 +102,26 @@ impl Storage {
 
     async fn open_in(config: &ServeConfig, directory: Option<&Path>) -> Result<Self, StorageError> {
         let below = |name| directory.map(|directory| directory.join(name));
-        let kept = verne_store::Config {
-            directory: below("results"),
-            memory_bytes: config.cache_bytes,
-            disk_bytes: config.disk_bytes,
+        let results = if config.store.store.is_some() {
+            open_store(&config.store, config.cache_bytes).await?
+        } else {
+            let kept = verne_store::Config {
+                directory: below("results"),
+                memory_bytes: config.cache_bytes,
+                disk_bytes: config.disk_bytes,
+            };
+            Results::new(Store::open(&kept).await.map_err(StorageError::Results)?)
         };
-        let results = Results::new(Store::open(&kept).await.map_err(StorageError::Results)?);
-        let computed = Counter::default();
-        let tasks = Tasks::new(results.clone(), computed.clone(), Handle::current());
+        let computations = Computations::default();
+        let tasks = Tasks::new(results.clone(), computations.clone(), Handle::current());
         let jobs = open_jobs(config, below("jobs"), tasks).await?;
         if let Some(damaged) = jobs.set_aside() {
             tracing::error!(path = %damaged.display(), "the records of jobs were damaged: set aside, begun anew");
         }
         if let Some(directory) = directory {
-            tracing::info!("jobs and results are kept in {}", directory.display());
+            tracing::info!("jobs, and results unless they have a store, are kept in {}", directory.display());
         }
-        Ok(Self { results, jobs: Arc::new(jobs), computed })
+        Ok(Self { results, jobs: Arc::new(jobs), computations })
     }
 }
 

@@ -1,8 +1,10 @@
 //! What jobs compute: the answer to a written question, kept among the results.
 
+use std::time::Instant;
+
 use axum::body::Bytes;
-use prometheus_client::metrics::counter::Counter;
 use tokio::runtime::Handle;
+use tracing::info_span;
 use verne_jobs::{JobId, Stop, Submission, Watch, Work};
 use verne_solver::workspace::Observer;
 
@@ -11,6 +13,7 @@ use crate::answers::{
     compute_slab, compute_volumes, compute_workspace, merge_dexterity, part_of,
 };
 use crate::error::Error;
+use crate::metrics::Computations;
 use crate::result_id::ResultId;
 use crate::results::{CELLS, MESH, Record, Results, packed_mesh};
 use crate::wire::dexterity::SetName;
@@ -28,16 +31,15 @@ const FAULT_BYTES: usize = 256;
 /// Answers questions on the threads of the queue.
 pub(crate) struct Tasks {
     results: Results,
-    /// What was really computed: a job whose result is there already computes nothing.
-    computed: Counter,
+    computations: Computations,
     /// The store is asked on the runtime; the queue's threads are none of its own and may wait for it.
     runtime: Handle,
 }
 
 impl Tasks {
     /// Keeps what it computes among these results, and counts it.
-    pub(crate) fn new(results: Results, computed: Counter, runtime: Handle) -> Self {
-        Self { results, computed, runtime }
+    pub(crate) fn new(results: Results, computations: Computations, runtime: Handle) -> Self {
+        Self { results, computations, runtime }
     }
 
     fn answer(&self, question: &Question, observer: &dyn Observer) -> Result<(), Error> {
@@ -54,7 +56,7 @@ impl Tasks {
         if let Some(record) = self.known(asked.id, &[MESH]) {
             return Ok(record.summary.bytes.to_vec());
         }
-        self.computed.inc();
+        self.computations.count();
         let computed = compute_workspace(asked, observer)?;
         let parts = vec![(MESH, packed_mesh(&computed.mesh)?)];
         let question = Question::Workspace(asked.clone());
@@ -81,7 +83,7 @@ impl Tasks {
         match self.workspace(member, observer) {
             Err(Error::Fields(faults)) => {
                 let fault = write_json(&TaskFault::Fields(faults.clone()), FAULT_BYTES)?;
-                self.keep(piece, fault);
+                self.keep(piece, fault)?;
                 Ok(Err(Error::Fields(faults)))
             }
             summary => summary.map(Ok),
@@ -110,8 +112,8 @@ impl Tasks {
             Piece::Slab { of, number, count } => compute_slab(of, [*number, *count], observer)?,
             Piece::Volumes(map) => compute_volumes(map, observer)?,
         };
-        self.computed.inc();
-        Ok(self.keep(piece.id(), made))
+        self.computations.count();
+        self.keep(piece.id(), made)
     }
 
     /// Merges a map from its pieces; one that has made room for others is made again.
@@ -138,8 +140,8 @@ impl Tasks {
         self.runtime.block_on(self.results.part(piece, PIECE)).map(|content| content.bytes)
     }
 
-    fn keep(&self, piece: ResultId, bytes: Vec<u8>) -> Bytes {
-        self.runtime.block_on(self.results.keep_part(piece, PIECE, bytes)).bytes
+    fn keep(&self, piece: ResultId, bytes: Vec<u8>) -> Result<Bytes, Error> {
+        self.runtime.block_on(self.results.keep_part(piece, PIECE, bytes)).map(|content| content.bytes)
     }
 
     /// What a question's answer is merged from, unless the answer is there.
@@ -174,20 +176,32 @@ impl Work for Tasks {
     }
 
     fn run(&self, job: &JobId, payload: &[u8], watch: &dyn Watch) -> Result<(), Stop> {
-        Question::read(payload, ResultId::from(*job))
-            .and_then(|question| self.answer(&question, &Watched(watch)))
-            .map_err(stop)
+        let question = Question::read(payload, ResultId::from(*job)).map_err(stop)?;
+        let _span = info_span!("job", %job, kind = question.kind()).entered();
+        let began = Instant::now();
+        let answered = self.answer(&question, &Watched(watch)).map_err(stop);
+        let outcome = match &answered {
+            Ok(()) => "succeeded",
+            Err(Stop::Cancelled) => "stopped",
+            Err(Stop::Failed(_)) => "failed",
+            Err(Stop::Elsewhere(_)) => "handed_on",
+        };
+        self.computations.ran(question.kind(), outcome, began.elapsed());
+        answered
     }
 }
 
 fn stop(error: Error) -> Stop {
     match error {
         Error::Cancelled => Stop::Cancelled,
-        error => {
-            let fault = write_json(&TaskFault::from(error), FAULT_BYTES);
-            Stop::Failed(fault.unwrap_or_default().into())
-        }
+        // A worker of that version can, or one that reaches the store.
+        error @ (Error::OtherVersion | Error::DiskFailing) => Stop::Elsewhere(written(error)),
+        error => Stop::Failed(written(error)),
     }
+}
+
+fn written(error: Error) -> Bytes {
+    write_json(&TaskFault::from(error), FAULT_BYTES).unwrap_or_default().into()
 }
 
 /// The queue's view of a run as the solver's.

@@ -210,7 +210,7 @@ impl Keeper {
         match end {
             End::Final(outcome) => self.end(board, id, life, outcome),
             // There is no other process.
-            End::Foreign(reason) => self.end(board, id, life, Outcome::Failed(Failure::Work(reason))),
+            End::Elsewhere(reason) => self.end(board, id, life, Outcome::Failed(Failure::Work(reason))),
             End::Split(_) => {}
             End::Drained if board.entry(id, life).is_some_and(|entry| entry.is_wanted()) => {
                 self.requeue(board, id, life);

@@ -36,9 +36,8 @@ pub struct Config {
     pub max_attempts: u32,
     /// A process that has not been heard of for so long waits for nothing any more. Shared.
     pub lease: Duration,
-    /// How long a worker keeps a job that it cannot read ([`Stop::Foreign`](crate::Stop::Foreign)) before it hands it on; after
-    /// a hundred times it is given up.
-    pub foreign_pause: Duration,
+    /// How long a worker keeps a job that it cannot do ([`Stop::Elsewhere`](crate::Stop::Elsewhere)) before it hands it on.
+    pub handing_on: Duration,
     /// How long a job may be recorded before its absence from the queue is mended.
     pub mend_after: Duration,
     /// What is kept of finished jobs. Shared.
@@ -62,7 +61,7 @@ impl Config {
             ack_wait: Duration::from_secs(30),
             max_attempts: 5,
             lease: Duration::from_secs(20),
-            foreign_pause: Duration::from_secs(3),
+            handing_on: Duration::from_secs(3),
             mend_after: Duration::from_secs(10),
             retention: Retention { count: 10_000, age: Duration::from_hours(7 * 24) },
         }

@@ -42,8 +42,8 @@ pub(crate) enum End {
     /// Its job is to be merged from these.
     Split(Vec<Submission>),
     Drained,
-    /// Its payload is another version's; the reason if nobody can read it.
-    Foreign(Bytes),
+    /// It is left to others; the reason if nobody can do it.
+    Elsewhere(Bytes),
 }
 
 impl From<Told> for End {
@@ -110,7 +110,7 @@ impl Run {
             (Ok(Err(_)), Some(told)) => return Err(told.into()),
             (Ok(Err(Stop::Cancelled)), None) => Outcome::Cancelled,
             (Ok(Err(Stop::Failed(reason))), None) => Outcome::Failed(Failure::Work(reason)),
-            (Ok(Err(Stop::Foreign(reason))), None) => return Err(End::Foreign(reason)),
+            (Ok(Err(Stop::Elsewhere(reason))), None) => return Err(End::Elsewhere(reason)),
         };
         Err(End::Final(outcome))
     }

@@ -54,7 +54,7 @@ impl Broker {
             lease: Duration::from_secs(2),
             mend_after: Duration::from_secs(1),
             max_attempts: 3,
-            foreign_pause: Duration::from_millis(10),
+            handing_on: Duration::from_millis(10),
             ..Config::at(format!("nats://127.0.0.1:{}", self.port))
         }
     }

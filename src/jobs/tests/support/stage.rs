@@ -94,7 +94,7 @@ impl Work for Stage {
         match words.next().unwrap() {
             verb if self.old || verb == "foreign" => {
                 self.begun.send_modify(|names| names.push(name.to_owned()));
-                Err(Stop::Foreign(Bytes::from("another version's")))
+                Err(Stop::Elsewhere(Bytes::from("another version's")))
             }
             "split" | "split-wavering" => Ok(words.map(part).collect()),
             "split-fail" => Err(Stop::Failed(Bytes::from("as told"))),

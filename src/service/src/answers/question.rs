@@ -59,6 +59,16 @@ impl Question {
         }
     }
 
+    /// What it asks for, in a word.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Workspace(_) => "workspace",
+            Self::Family(_) => "family",
+            Self::Dexterity(_) => "dexterity",
+            Self::Piece(_) => "piece",
+        }
+    }
+
     fn published(&self) -> &Published {
         match self {
             Self::Workspace(question) => &question.published,
@@ -162,6 +172,8 @@ pub(crate) enum TaskFault {
     Fields(Vec<Fault>),
     /// Another version asked.
     OtherVersion,
+    /// The store took nothing.
+    NotKept,
     /// A defect.
     Internal,
 }
@@ -171,6 +183,7 @@ impl From<Error> for TaskFault {
         match error {
             Error::Fields(faults) => Self::Fields(faults),
             Error::OtherVersion => Self::OtherVersion,
+            Error::DiskFailing => Self::NotKept,
             _ => Self::Internal,
         }
     }
@@ -181,6 +194,7 @@ impl From<TaskFault> for Error {
         match fault {
             TaskFault::Fields(faults) => Self::Fields(faults),
             TaskFault::OtherVersion => Self::OtherVersion,
+            TaskFault::NotKept => Self::DiskFailing,
             TaskFault::Internal => Self::Internal,
         }
     }

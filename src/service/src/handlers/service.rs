@@ -7,11 +7,10 @@ use axum::response::IntoResponse;
 
 use crate::app::DOCUMENT;
 use crate::error::Error;
-use crate::metrics::OPEN_METRICS;
 use crate::openapi::binary::Text;
 use crate::openapi::problems::{ReadyProblems, ServiceProblems};
 use crate::state::Shared;
-use crate::wire::catalogue::Health;
+use crate::wire::catalogue::{Health, Status};
 
 /// This document
 ///
@@ -32,23 +31,20 @@ pub(crate) async fn get_openapi() -> ([(HeaderName, &'static str); 1], &'static 
     responses((status = 200, description = "It lives.", body = Health), ServiceProblems)
 )]
 pub(crate) async fn get_livez() -> Json<Health> {
-    Json(Health { status: "ok" })
+    Json(Health { status: Status::Ok, failing: Vec::new() })
 }
 
 /// Readiness
 ///
-/// Questions are answered, jobs are taken and results are kept. Not while the service is stopping, nor while the disk
-/// takes nothing.
+/// Questions are answered, jobs are taken and results are kept. Not while the service is stopping, nor while its disk
+/// takes nothing. A broker or a store that many processes share and that does not answer is named; the questions that need
+/// neither are answered all the same.
 #[utoipa::path(
     get, path = "/readyz", operation_id = "readyz", tag = "service",
     responses((status = 200, description = "It is ready.", body = Health), ReadyProblems)
 )]
 pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Health>, Error> {
-    if state.stopping.is_cancelled() {
-        return Err(Error::Stopping);
-    }
-    state.results.healthy().await?;
-    Ok(Json(Health { status: "ok" }))
+    state.readiness.told().await
 }
 
 /// Metrics
@@ -60,8 +56,7 @@ pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Healt
         ServiceProblems)
 )]
 pub(crate) async fn get_metrics(State(state): State<Shared>) -> Result<impl IntoResponse, Error> {
-    let text = state.metrics.text().map_err(|_| Error::Internal)?;
-    Ok(([(CONTENT_TYPE, OPEN_METRICS)], text))
+    state.metrics.answer()
 }
 
 /// What is asked for where nothing lives.

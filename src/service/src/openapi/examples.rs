@@ -13,7 +13,7 @@ use crate::handlers::machines;
 use crate::openapi::machine_schema::machine_schema;
 use crate::registry::Registry;
 use crate::wire::alphas::Alphas;
-use crate::wire::catalogue::Health;
+use crate::wire::catalogue::{Health, Status};
 use crate::wire::family::WorkspaceBody;
 use crate::wire::format::SliceFormat;
 use crate::wire::parse::{parse_body, parse_query};
@@ -77,7 +77,7 @@ fn of_the_service(registry: &Registry) -> Vec<Example> {
         asked: Asked::Parameters(asked),
         answer: Some(answer),
     };
-    let health = json!(Health { status: "ok" });
+    let health = json!(Health { status: Status::Ok, failing: Vec::new() });
     vec![
         Example { method: "get", path: "/metrics", asked: Asked::Parameters(json!({})), answer: None },
         get("/livez", json!({}), health.clone()),

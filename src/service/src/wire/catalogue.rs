@@ -35,7 +35,30 @@ pub(crate) struct MachineAnswer {
 /// The state of the service.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct Health {
-    /// Always `ok`: a service that is not answers nothing.
-    #[schema(value_type = String, example = "ok")]
-    pub status: &'static str,
+    /// Whether all of it works.
+    pub status: Status,
+    /// What does not, of what the processes of a service share.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schema(required = false)]
+    pub failing: Vec<Part>,
+}
+
+/// Whether a service works.
+#[derive(Clone, Copy, Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Status {
+    /// Altogether.
+    Ok,
+    /// Some of it.
+    Degraded,
+}
+
+/// What the processes of a service share.
+#[derive(Clone, Copy, Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Part {
+    /// The broker of jobs.
+    Broker,
+    /// The store of results.
+    Store,
 }

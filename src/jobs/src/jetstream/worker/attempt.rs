@@ -23,7 +23,7 @@ const PACE: Duration = Duration::from_millis(100);
 /// How soon an end that could not be recorded is tried again.
 const RETRY: Duration = Duration::from_secs(1);
 
-/// A job that was handed on so often and can still not be read is given up.
+/// A job that was handed on so often and can still not be done is given up.
 const MOST_TURNS: u32 = 100;
 
 /// Takes a job over, runs it and records its end.
@@ -94,12 +94,12 @@ async fn carry_out(desk: &Arc<Desk>, record: &Record, seat: Seat) -> End {
     };
     let work = async {
         let end = whole::run(desk, record, seat, &feeder, told.subscribe()).await;
-        if matches!(end, End::Foreign(_)) {
+        if matches!(end, End::Elsewhere(_)) {
             // Others take it meanwhile: this worker asks for nothing, or it might come back again and again.
             let _others_first = First::new(desk);
             let mut told = told.subscribe();
             let stopped = told.wait_for(Option::is_some);
-            drop(timeout(desk.client.bus.config.foreign_pause, stopped).await);
+            drop(timeout(desk.client.bus.config.handing_on, stopped).await);
         }
         end
     };
@@ -235,13 +235,13 @@ async fn record_end(desk: &Desk, delivery: &Delivery, attempt: u32, end: &End) -
             record.job.progress = progress;
             match end {
                 End::Final(outcome) => record.end(outcome.clone()),
-                End::Foreign(reason) if record.turn >= MOST_TURNS => {
+                End::Elsewhere(reason) if record.turn >= MOST_TURNS => {
                     record.end(Outcome::Failed(Failure::Work(reason.clone())));
                 }
-                End::Drained | End::Foreign(_) if record.told.is_none() && record.is_wanted() => {
+                End::Drained | End::Elsewhere(_) if record.told.is_none() && record.is_wanted() => {
                     record.requeue();
                 }
-                End::Drained | End::Foreign(_) | End::Split(_) => {
+                End::Drained | End::Elsewhere(_) | End::Split(_) => {
                     record.end_as(record.told.unwrap_or(Told::Cancelled));
                 }
             }

@@ -1,0 +1,53 @@
+//! Computations: how many, of what, and how long.
+
+use std::time::Duration;
+
+use prometheus_client::encoding::EncodeLabelSet;
+use prometheus_client::metrics::counter::Counter;
+use prometheus_client::metrics::family::Family;
+use prometheus_client::metrics::histogram::Histogram;
+use prometheus_client::registry::{Registry, Unit};
+
+/// Upper bounds of the histogram, seconds: from a small workspace to a large map.
+const BOUNDS: [f64; 14] =
+    [0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 60.0, 600.0, 3_600.0];
+
+/// Counts what is computed. Its clones are one.
+#[derive(Clone)]
+pub(crate) struct Computations {
+    computed: Counter,
+    seconds: Family<Run, Histogram, fn() -> Histogram>,
+}
+
+/// A run of a job or of a part of one.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct Run {
+    kind: &'static str,
+    outcome: &'static str,
+}
+
+impl Default for Computations {
+    fn default() -> Self {
+        let histogram: fn() -> Histogram = || Histogram::new(BOUNDS);
+        Self { computed: Counter::default(), seconds: Family::new_with_constructor(histogram) }
+    }
+}
+
+impl Computations {
+    /// Told of in a registry.
+    pub(crate) fn register(&self, registry: &mut Registry) {
+        registry.register("computations", "Workspaces and pieces of maps computed", self.computed.clone());
+        let seconds = "Time of the runs of jobs and of their parts, those that find their result among them";
+        registry.register_with_unit("job_run", seconds, Unit::Seconds, self.seconds.clone());
+    }
+
+    /// Something was really computed: a job whose result is there already computes nothing.
+    pub(crate) fn count(&self) {
+        self.computed.inc();
+    }
+
+    /// A run of this kind has ended so.
+    pub(crate) fn ran(&self, kind: &'static str, outcome: &'static str, time: Duration) {
+        self.seconds.get_or_create(&Run { kind, outcome }).observe(time.as_secs_f64());
+    }
+}

@@ -1,0 +1,74 @@
+//! What the process tells of itself while it runs: a log, and traces for those who collect them.
+
+use std::io::stderr;
+
+use clap::{Args, ValueEnum};
+use opentelemetry::global;
+use opentelemetry::trace::TracerProvider;
+use opentelemetry_otlp::{SpanExporter, WithExportConfig};
+use opentelemetry_sdk::Resource;
+use opentelemetry_sdk::propagation::TraceContextPropagator;
+use opentelemetry_sdk::trace::SdkTracerProvider;
+use tracing_subscriber::layer::SubscriberExt;
+use tracing_subscriber::util::SubscriberInitExt;
+use tracing_subscriber::{EnvFilter, Layer};
+
+/// How the log is written, and where traces go.
+#[derive(Clone, Debug, Default, Args)]
+pub struct TelemetryConfig {
+    /// How the log is written to standard error; `RUST_LOG` says how much of it.
+    #[arg(long, env = "VERNE_LOG_FORMAT", value_enum, default_value_t)]
+    pub log_format: LogFormat,
+    /// Collector of traces, by OTLP over HTTP: <http://HOST:4318>. By default there are none.
+    #[arg(long, env = "VERNE_OTLP", value_name = "URL")]
+    pub otlp: Option<String>,
+}
+
+/// A form of the log.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum LogFormat {
+    /// Lines for people.
+    #[default]
+    Text,
+    /// An object a line, for programs.
+    Json,
+}
+
+/// The telemetry of the process; at its end traces are sent that have not been.
+#[must_use = "traces are sent to the end"]
+pub(crate) struct Telemetry(Option<SdkTracerProvider>);
+
+impl TelemetryConfig {
+    /// Sets up the log and the traces of the process; once, before its runtime.
+    pub(crate) fn begin(&self) -> Result<Telemetry, String> {
+        let filter = || EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("info"));
+        let log = tracing_subscriber::fmt::layer().with_writer(stderr);
+        let log = match self.log_format {
+            LogFormat::Text => log.with_filter(filter()).boxed(),
+            LogFormat::Json => log.json().flatten_event(true).with_filter(filter()).boxed(),
+        };
+        let provider = self.otlp.as_deref().map(exporting_to).transpose()?;
+        let traces = provider.as_ref().map(|provider| {
+            global::set_text_map_propagator(TraceContextPropagator::new());
+            tracing_opentelemetry::layer().with_tracer(provider.tracer("verne")).with_filter(filter())
+        });
+        tracing_subscriber::registry().with(log).with(traces).init();
+        Ok(Telemetry(provider))
+    }
+}
+
+fn exporting_to(url: &str) -> Result<SdkTracerProvider, String> {
+    let endpoint = format!("{}/v1/traces", url.trim_end_matches('/'));
+    let exporter = SpanExporter::builder().with_http().with_endpoint(endpoint).build();
+    let exporter = exporter.map_err(|error| format!("otlp: {error}"))?;
+    let resource = Resource::builder().with_service_name("verne").build();
+    Ok(SdkTracerProvider::builder().with_batch_exporter(exporter).with_resource(resource).build())
+}
+
+impl Drop for Telemetry {
+    fn drop(&mut self) {
+        if let Some(Err(error)) = self.0.take().map(|provider| provider.shutdown()) {
+            tracing::warn!(%error, "the last traces are lost");
+        }
+    }
+}

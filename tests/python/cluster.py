@@ -1,0 +1,123 @@
+"""A broker, a store, API nodes and workers of verne on this machine. Used by scale.py."""
+
+import http.client
+import os
+import random
+import socket
+import subprocess
+import sys
+import time
+
+from served import Process, free_port
+
+BUCKET = "verne"
+CREDENTIALS = {"AWS_ACCESS_KEY_ID": "key", "AWS_SECRET_ACCESS_KEY": "secret", "AWS_REGION": "us-east-1",
+               "AWS_ALLOW_HTTP": "true"}
+
+
+def answers(port, path="/"):
+    """What is at a port answers there, in the end."""
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        try:
+            connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+            connection.request("GET", path)
+            return connection.getresponse().read()
+        except OSError:
+            time.sleep(0.05)
+    raise SystemExit(f"nothing answers on port {port}")
+
+
+class Broker:
+    """A NATS server that flushes what it acknowledges."""
+
+    def __init__(self, program, directory):
+        self.port = free_port()
+        self.url = f"nats://127.0.0.1:{self.port}"
+        self.file = os.path.join(directory, "nats.conf")
+        with open(self.file, "w") as file:
+            file.write(f'listen: "127.0.0.1:{self.port}"\n')
+            file.write(f'jetstream {{ store_dir: "{directory}/nats", sync_interval: always }}\n')
+        self.program = program
+        self.start()
+
+    def start(self):
+        self.process = subprocess.Popen([self.program, "-c", self.file], stderr=subprocess.DEVNULL)
+        while True:
+            try:
+                return socket.create_connection(("127.0.0.1", self.port)).close()
+            except OSError:
+                time.sleep(0.02)
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+
+class Objects:
+    """An S3 store that refuses a part of all writes."""
+
+    def __init__(self, share):
+        self.port = free_port()
+        script = os.path.join(os.path.dirname(__file__), "refusing_s3.py")
+        self.process = subprocess.Popen([sys.executable, script, str(self.port), str(share)])
+        answers(self.port, "/refused")
+        status = 503
+        while status == 503:
+            connection = http.client.HTTPConnection("127.0.0.1", self.port)
+            connection.request("PUT", f"/{BUCKET}")
+            status = connection.getresponse().status
+
+    def refused(self):
+        return int(answers(self.port, "/refused"))
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+
+class Cluster:
+    """API nodes and workers at one broker and one store."""
+
+    def __init__(self, verne, nats, directory, nodes, workers, share=0.0):
+        self.verne = verne
+        self.broker, self.objects = Broker(nats, directory), Objects(share)
+        self.environment = {**CREDENTIALS, "AWS_ENDPOINT": f"http://127.0.0.1:{self.objects.port}"}
+        self.nodes = [self.node().launch() for _ in range(nodes)]
+        self.workers = [self.worker().launch() for _ in range(workers)]
+        for process in self.nodes + self.workers:
+            process.ready()
+
+    def shared(self):
+        return ["--broker", self.broker.url, "--store", f"s3://{BUCKET}/results"]
+
+    def node(self):
+        port = free_port()
+        return Process(port, self.verne, "serve", "--listen", f"127.0.0.1:{port}", *self.shared(),
+                       environment=self.environment)
+
+    def worker(self):
+        port = free_port()
+        return Process(port, self.verne, "worker", "--listen", f"127.0.0.1:{port}", "--job-threads", "1",
+                       *self.shared(), environment=self.environment)
+
+    def lose_a_worker(self):
+        """One dies, another comes."""
+        i = random.randrange(len(self.workers))
+        self.workers[i].kill()
+        self.workers[i] = self.worker().launch()
+
+    def ports(self):
+        return [node.port for node in self.nodes]
+
+    def end(self):
+        for process in self.nodes + self.workers:
+            process.kill()
+        self.broker.kill()
+        self.objects.kill()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.end()
