@@ -25,7 +25,9 @@ class Asking:
         self.left = queue.SimpleQueue()
         for i in random.sample(range(jobs), jobs):
             self.left.put(i)
-        self.threads = [threading.Thread(target=self.client, args=(seed,)) for seed in range(clients)]
+        # Daemons: a fault elsewhere ends the program.
+        self.threads = [
+            threading.Thread(target=self.client, args=(seed,), daemon=True) for seed in range(clients)]
 
     def client(self, seed):
         chance, client = random.Random(seed), Client(self.ports[seed % len(self.ports)])

@@ -1,5 +1,6 @@
 """A broker, a store, API nodes and workers of verne on this machine. Used by scale.py."""
 
+import atexit
 import http.client
 import os
 import random
@@ -77,14 +78,18 @@ class Objects:
 
 
 class Cluster:
-    """API nodes and workers at one broker and one store."""
+    """API nodes and workers at one broker and one store; gone with this program."""
 
     def __init__(self, verne, nats, directory, nodes, workers, share=0.0):
-        self.verne = verne
-        self.broker, self.objects = Broker(nats, directory), Objects(share)
+        self.verne, self.nodes, self.workers = verne, [], []
+        self.broker = Broker(nats, directory)
+        atexit.register(self.broker.kill)
+        self.objects = Objects(share)
+        atexit.register(self.objects.kill)
         self.environment = {**CREDENTIALS, "AWS_ENDPOINT": f"http://127.0.0.1:{self.objects.port}"}
-        self.nodes = [self.node().launch() for _ in range(nodes)]
-        self.workers = [self.worker().launch() for _ in range(workers)]
+        self.nodes += [self.node().launch() for _ in range(nodes)]
+        self.workers += [self.worker().launch() for _ in range(workers)]
+        atexit.register(self.kill_all)
         for process in self.nodes + self.workers:
             process.ready()
 
@@ -110,14 +115,6 @@ class Cluster:
     def ports(self):
         return [node.port for node in self.nodes]
 
-    def end(self):
+    def kill_all(self):
         for process in self.nodes + self.workers:
             process.kill()
-        self.broker.kill()
-        self.objects.kill()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.end()

@@ -40,7 +40,7 @@ class Quiet(WSGIRequestHandler):
 
 def main():
     port, share = int(sys.argv[1]), float(sys.argv[2])
-    application = Refusing(DomainDispatcherApplication(create_backend_app, service="s3"), share)
+    application = Refusing(DomainDispatcherApplication(create_backend_app), share)
     make_server("127.0.0.1", port, application, threaded=True, request_handler=Quiet).serve_forever()
 
 

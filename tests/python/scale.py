@@ -23,7 +23,7 @@ def run(ports, jobs, clients, disturb=None):
     """All answers, and those to the questions that are cut into parts."""
     asking = Asking(ports, jobs, clients)
     over = threading.Event()
-    disturbing = threading.Thread(target=disturb, args=(asking, over)) if disturb else None
+    disturbing = threading.Thread(target=disturb, args=(asking, over), daemon=True) if disturb else None
     for thread in [*asking.threads, *([disturbing] if disturbing else [])]:
         thread.start()
     client = Client(ports[0])
@@ -123,23 +123,23 @@ def main():
         alone = Served(options.verne, os.path.join(place, "alone")).start()
         undisturbed, wholes = run([alone.port], options.jobs, options.clients)
         alone.kill()
-        with Cluster(options.verne, options.nats_server, place, 2, options.workers, SHARE) as cluster:
-            disturbance = Disturbance(cluster, options.jobs, options.every)
-            began = time.monotonic()
-            asked, same_wholes = run(cluster.ports(), options.jobs, options.clients, disturbance)
-            print(f"{options.jobs} jobs on {options.workers} workers in {time.monotonic() - began:.1f} s: "
-                  f"{disturbance.lost} workers and 2 brokers lost, {cluster.objects.refused()} writes refused")
-            check(not undisturbed.faults + asked.faults, f"faults: {undisturbed.faults[:3]} {asked.faults[:3]}")
-            check(asked.answers == undisturbed.answers, "answers differ from those of one process")
-            check(same_wholes == wholes, "what was merged differs from what one process makes")
-            for worker in cluster.workers:
-                worker.ready()
-            jobs = listed(Client(cluster.nodes[1].port))
-            check(all(job["state"] == "succeeded" for job in jobs), "a job has not ended well")
-            missing = {id for id, _ in asked.answers.values()} - {job["id"] for job in jobs}
-            check(not missing, f"{len(missing)} jobs are lost")
-            print(f"DELETE: ended, and the workers idle, after {cancelled_after(cluster):.2f} s")
-            print(f"SIGTERM in the midst of a job: a worker exits after {stopped(cluster):.1f} s, the job goes on")
+        cluster = Cluster(options.verne, options.nats_server, place, 2, options.workers, SHARE)
+        disturbance = Disturbance(cluster, options.jobs, options.every)
+        began = time.monotonic()
+        asked, same_wholes = run(cluster.ports(), options.jobs, options.clients, disturbance)
+        print(f"{options.jobs} jobs on {options.workers} workers in {time.monotonic() - began:.1f} s: "
+              f"{disturbance.lost} workers and 2 brokers lost, {cluster.objects.refused()} writes refused")
+        check(not undisturbed.faults + asked.faults, f"faults: {undisturbed.faults[:3]} {asked.faults[:3]}")
+        check(asked.answers == undisturbed.answers, "answers differ from those of one process")
+        check(same_wholes == wholes, "what was merged differs from what one process makes")
+        for worker in cluster.workers:
+            worker.ready()
+        jobs = listed(Client(cluster.nodes[1].port))
+        check(all(job["state"] == "succeeded" for job in jobs), "a job has not ended well")
+        missing = {id for id, _ in asked.answers.values()} - {job["id"] for job in jobs}
+        check(not missing, f"{len(missing)} jobs are lost")
+        print(f"DELETE: ended, and the workers idle, after {cancelled_after(cluster):.2f} s")
+        print(f"SIGTERM in the midst of a job: a worker exits after {stopped(cluster):.1f} s, the job goes on")
     print(f"{len(asked.answers)} answers, all the same")
 
 

@@ -8,6 +8,8 @@ import socket
 import subprocess
 import time
 
+LOGS = os.environ.get("VERNE_LOGS")  # A directory for what the processes log.
+
 
 def free_port():
     with socket.socket() as probe:
@@ -24,7 +26,8 @@ class Process:
         self.process = None
 
     def launch(self):
-        self.process = subprocess.Popen(self.command, env=self.environment, stderr=subprocess.DEVNULL)
+        log = open(os.path.join(LOGS, f"{self.port}.log"), "ab") if LOGS else subprocess.DEVNULL
+        self.process = subprocess.Popen(self.command, env=self.environment, stderr=log)
         return self
 
     def start(self):

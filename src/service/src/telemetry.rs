@@ -1,6 +1,6 @@
 //! What the process tells of itself while it runs: a log, and traces for those who collect them.
 
-use std::io::stderr;
+use std::io::{IsTerminal, stderr};
 
 use clap::{Args, ValueEnum};
 use opentelemetry::global;
@@ -42,7 +42,7 @@ impl TelemetryConfig {
     /// Sets up the log and the traces of the process; once, before its runtime.
     pub(crate) fn begin(&self) -> Result<Telemetry, String> {
         let filter = || EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("info"));
-        let log = tracing_subscriber::fmt::layer().with_writer(stderr);
+        let log = tracing_subscriber::fmt::layer().with_writer(stderr).with_ansi(stderr().is_terminal());
         let log = match self.log_format {
             LogFormat::Text => log.with_filter(filter()).boxed(),
             LogFormat::Json => log.json().flatten_event(true).with_filter(filter()).boxed(),

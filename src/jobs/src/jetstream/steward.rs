@@ -5,16 +5,20 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use futures_util::StreamExt;
+use futures_util::{StreamExt, stream};
 
 use super::client::Client;
 use super::mirror::Board;
 use super::record::{Claimant, Record};
+use crate::State;
 use crate::moment::now;
 use crate::threads::run::Told;
 
 /// How often it looks.
 const TICK: Duration = Duration::from_millis(250);
+
+/// Records that are written at the same time.
+const AT_ONCE: usize = 32;
 
 /// Who has been heard of.
 struct Heard {
@@ -91,7 +95,10 @@ async fn release(client: &Client, missed: impl Fn(u64) -> bool) {
         let board = client.mirror.lock();
         board.live(|record| record.claimants.iter().any(|claimant| gone(&board, claimant)))
     };
-    for record in released {
+    // Those that run first: their cores are waited for.
+    let (running, queued): (Vec<_>, Vec<_>) =
+        released.into_iter().partition(|record| record.job.state == State::Running);
+    let released = stream::iter(running.into_iter().chain(queued)).map(|record| async move {
         tidy(client, &record, |record| {
             let board = client.mirror.lock();
             record.claimants.retain(|claimant| !gone(&board, claimant));
@@ -100,7 +107,8 @@ async fn release(client: &Client, missed: impl Fn(u64) -> bool) {
             }
         })
         .await;
-    }
+    });
+    released.buffer_unordered(AT_ONCE).collect::<()>().await;
 }
 
 /// Changes a record if it is still that life of the job.
