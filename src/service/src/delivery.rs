@@ -1,19 +1,19 @@
 //! Sends content that never changes: entity tags, 304, byte ranges.
 
 use std::convert::Infallible;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
-use axum::body::{Body, Bytes};
+use axum::body::Body;
 use axum::extract::FromRequestParts;
 use axum::http::header::{
-    ACCEPT_RANGES, CACHE_CONTROL, CONTENT_DISPOSITION, CONTENT_LOCATION, CONTENT_RANGE, CONTENT_TYPE, ETAG,
-    VARY,
+    ACCEPT_RANGES, CACHE_CONTROL, CONTENT_DISPOSITION, CONTENT_LENGTH, CONTENT_LOCATION, CONTENT_RANGE,
+    CONTENT_TYPE, ETAG, VARY,
 };
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode};
 use axum::response::{IntoResponse, Response};
 use headers::{ETag, HeaderMapExt, IfNoneMatch, IfRange};
-use verne_store::Content;
+use verne_store::Found;
 
 use crate::error::Error;
 
@@ -48,8 +48,8 @@ impl<S: Sync> FromRequestParts<S> for Conditions {
 /// Content with what is said about it.
 #[derive(Debug)]
 pub(crate) struct Delivery {
-    /// The bytes.
-    pub content: Content,
+    /// The bytes, sent as they are read.
+    pub content: Found,
     /// Their media type.
     pub media: &'static str,
     /// How long they may be kept; nothing for answers to POST.
@@ -63,20 +63,20 @@ pub(crate) struct Delivery {
 impl Delivery {
     /// The answer to a request with these conditions.
     pub(crate) fn answer(self, conditions: &Conditions) -> Result<Response, Error> {
-        let tag = format!("\"{}\"", &self.content.hash.to_hex()[..32]);
+        let tag = format!("\"{}\"", &self.content.hash().to_hex()[..32]);
         let headers = self.headers(&tag);
         let Ok(etag) = tag.parse::<ETag>() else { return Err(Error::Internal) };
         if conditions.if_none_match.as_ref().is_some_and(|condition| !condition.precondition_passes(&etag)) {
             return Ok((StatusCode::NOT_MODIFIED, headers).into_response());
         }
-        let bytes = self.content.bytes;
+        let length = self.content.len();
         let outdated =
             conditions.if_range.as_ref().is_some_and(|condition| condition.is_modified(Some(&etag), None));
         let range = conditions.range.as_deref().filter(|_| !outdated);
-        match range.and_then(|range| wanted(range, bytes.len())) {
-            None => Ok((headers, Body::from(bytes)).into_response()),
+        match range.and_then(|range| wanted(range, length)) {
+            None => Ok(sent(StatusCode::OK, headers, &self.content, 0..length)),
             Some(Err(error)) => Err(error),
-            Some(Ok(range)) => Ok(partial(headers, &bytes, range)),
+            Some(Ok(range)) => Ok(partial(headers, &self.content, range)),
         }
     }
 
@@ -98,23 +98,28 @@ fn header(name: HeaderName, value: &str) -> Option<(HeaderName, HeaderValue)> {
     HeaderValue::from_str(value).ok().map(|value| (name, value))
 }
 
-fn partial(mut headers: HeaderMap, bytes: &Bytes, range: RangeInclusive<usize>) -> Response {
-    let (first, last) = (range.start(), range.end());
-    headers.extend(header(CONTENT_RANGE, &format!("bytes {first}-{last}/{}", bytes.len())));
-    (StatusCode::PARTIAL_CONTENT, headers, Body::from(bytes.slice(range))).into_response()
+fn partial(mut headers: HeaderMap, content: &Found, range: RangeInclusive<u64>) -> Response {
+    let (first, last) = (*range.start(), *range.end());
+    headers.extend(header(CONTENT_RANGE, &format!("bytes {first}-{last}/{}", content.len())));
+    sent(StatusCode::PARTIAL_CONTENT, headers, content, first..last + 1)
+}
+
+/// What cannot be read to its end breaks the connection off: the length was promised.
+fn sent(status: StatusCode, mut headers: HeaderMap, content: &Found, range: Range<u64>) -> Response {
+    headers.insert(CONTENT_LENGTH, (range.end - range.start).into());
+    (status, headers, Body::from_stream(content.stream(range))).into_response()
 }
 
 /// The bytes that a header Range asks for. Nothing, so that all are sent, if it is none of `bytes=a-b`, `bytes=a-` and
 /// `bytes=-n`: several ranges at once included, which a server may answer in full.
-fn wanted(header: &str, length: usize) -> Option<Result<RangeInclusive<usize>, Error>> {
+fn wanted(header: &str, length: u64) -> Option<Result<RangeInclusive<u64>, Error>> {
     let (unit, range) = header.split_once('=')?;
     let (first, last) = range.trim().split_once('-')?;
     if !unit.trim().eq_ignore_ascii_case("bytes") {
         return None;
     }
-    let number = |text: &str| {
-        text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().unwrap_or(usize::MAX))
-    };
+    let number =
+        |text: &str| text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().unwrap_or(u64::MAX));
     let end = length.saturating_sub(1);
     let (first, last) = match (first, last) {
         ("", "") => return None,
@@ -131,11 +136,7 @@ fn wanted(header: &str, length: usize) -> Option<Result<RangeInclusive<usize>, E
             (first, last.min(end))
         }
     };
-    Some(if first < length {
-        Ok(first..=last)
-    } else {
-        Err(Error::RangeNotSatisfiable(u64::try_from(length).unwrap_or(u64::MAX)))
-    })
+    Some(if first < length { Ok(first..=last) } else { Err(Error::RangeNotSatisfiable(length)) })
 }
 
 #[cfg(test)]

@@ -4,7 +4,6 @@ use std::time::Duration;
 
 use verne_jobs::State as JobState;
 use verne_jobs::{Claim, Failure, Job};
-use verne_store::Content;
 
 use crate::answers::{Question, TaskFault};
 use crate::error::Error;
@@ -65,20 +64,20 @@ impl State {
         }
     }
 
-    /// A part of a question's answer. It may have left the store before the figures did: then a job computes it again.
-    pub(crate) async fn part(
+    /// What a look at a part of a question's answer finds. It may have left the store before the figures did: then a
+    /// job computes it again.
+    pub(crate) async fn part<T, F: Future<Output = Option<T>>>(
         &self,
         question: &Question,
-        name: &str,
         patience: &Patience,
-    ) -> Result<Obtained<Content>, Error> {
-        let id = question.id();
-        if let Some(content) = self.results.part(id, name).await {
-            return Ok(Obtained::Ready(content));
+        look: impl Fn() -> F,
+    ) -> Result<Obtained<T>, Error> {
+        if let Some(part) = look().await {
+            return Ok(Obtained::Ready(part));
         }
         match self.compute(question, patience).await? {
             Obtained::Pending(job) => Ok(Obtained::Pending(job)),
-            Obtained::Ready(_) => self.results.part(id, name).await.map(Obtained::Ready).ok_or(Error::NoRoom),
+            Obtained::Ready(_) => look().await.map(Obtained::Ready).ok_or(Error::NoRoom),
         }
     }
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use verne_mesh::{Mesh, packed};
-use verne_store::{Content, Kept as Durability, Store};
+use verne_store::{Content, Found, Kept as Durability, Store};
 
 use crate::answers::Question;
 use crate::error::Error;
@@ -106,7 +106,12 @@ impl Results {
         }
     }
 
-    /// A part of a result.
+    /// A part of a result, to be sent.
+    pub(crate) async fn found(&self, id: ResultId, name: &str) -> Option<Found> {
+        self.store.find(&id.key(name)).await
+    }
+
+    /// A part of a result, whole.
     pub(crate) async fn part(&self, id: ResultId, name: &str) -> Option<Content> {
         self.store.get(&id.key(name)).await
     }

@@ -10,8 +10,7 @@
 //!
 //! [`Store::get`] answers a content whole. [`Store::find`] answers one that is read as far as it is wanted: what
 //! is in memory as a slice of it, what is of a mebibyte or less by way of memory, what is larger chunk by chunk
-//! from below, two at a time, so that two hundred slow readers hold as many times two mebibytes and not as many
-//! contents.
+//! from below: a slow reader holds two chunks and not the content.
 //!
 //! # On disk
 //!

@@ -7,9 +7,10 @@ use axum::http::header::{
 use axum::http::{Request, StatusCode};
 use axum::{Router, body::Body};
 use serde_json::json;
+use verne_service::config::ServeConfig;
 
 use super::workspace::ask;
-use super::{get, get_from, send_to, service};
+use super::{config, get, get_from, opened, send_to, service};
 
 async fn computed() -> (Router, String) {
     let service = service().await;
@@ -91,6 +92,32 @@ async fn parts_are_sent_on_request() {
     assert_eq!(beyond.headers[CONTENT_RANGE], format!("bytes */{length}"));
     let several = get_from(&service, &mesh, &[(RANGE, "bytes=0-1,4-5")]).await;
     assert_eq!((several.status, several.bytes.len()), (StatusCode::OK, length));
+}
+
+#[tokio::test]
+async fn what_is_larger_than_memory_is_sent_from_disk_whole_and_in_parts() {
+    let data = tempfile::tempdir().unwrap();
+    let directory = Some(data.path().to_path_buf());
+    let on_disk = ServeConfig { memory_only: false, data: directory, cache_bytes: 0, ..config(None) };
+    let disk = opened(&on_disk).await;
+    let question = json!({"kind": "part", "tool_length": 50, "tolerance": 0.1});
+    let summary = ask(&disk, question.clone()).await.json;
+    let mesh = format!("{}?format=stl", summary["links"]["mesh"].as_str().unwrap());
+    get_from(&disk, &mesh, &[]).await;
+    let whole = get_from(&disk, &mesh, &[]).await;
+    let length = whole.bytes.len();
+    assert!(length > 3 << 19, "{length} bytes: of several chunks");
+    assert_eq!(whole.headers[CONTENT_LENGTH], length.to_string());
+    let part = get_from(&disk, &mesh, &[(RANGE, "bytes=1048570-1048580")]).await;
+    assert_eq!(
+        (part.status, part.bytes.as_slice()),
+        (StatusCode::PARTIAL_CONTENT, &whole.bytes[1_048_570..=1_048_580])
+    );
+
+    let memory = service().await;
+    ask(&memory, question).await;
+    let same = get_from(&memory, &mesh, &[]).await;
+    assert!(same.bytes == whole.bytes && same.headers[ETAG] == whole.headers[ETAG]);
 }
 
 #[tokio::test]

@@ -71,7 +71,8 @@ pub(crate) async fn get_cells(
     if !matches!(question, Question::Dexterity(_)) {
         return Err(Error::NoCells(id.to_string()));
     }
-    let obtained = match state.part(&question, CELLS, &prefer.patience).await? {
+    let cells = || state.results.found(id, CELLS);
+    let obtained = match state.part(&question, &prefer.patience, cells).await? {
         Obtained::Pending(job) => Obtained::Pending(job),
         Obtained::Ready(content) => Obtained::Ready(Delivery {
             content,

@@ -1,7 +1,7 @@
 //! Sends results: figures and meshes, or the address of the job that will have them.
 
 use axum::response::Response;
-use verne_store::Content;
+use verne_store::Found;
 
 use super::jobs::accepted;
 use crate::answers::{Described, Question, write_mesh};
@@ -53,7 +53,7 @@ pub(super) async fn mesh(
 ) -> Result<Obtained<Delivery>, Error> {
     let (id, (part, described)) = (question.id(), surface(&question, set)?);
     let (results, name) = (&state.results, format.name());
-    let sent = |content: Content| {
+    let sent = |content: Found| {
         let set = set.map(|set| format!("&set={}", set.name())).unwrap_or_default();
         Delivery {
             content,
@@ -64,16 +64,17 @@ pub(super) async fn mesh(
         }
     };
     let file = format!("{part}.{name}");
-    if let Some(content) = results.part(id, &file).await {
+    if let Some(content) = results.found(id, &file).await {
         return Ok(Obtained::Ready(sent(content)));
     }
-    if let Obtained::Pending(job) = state.part(&question, part, patience).await? {
-        return Ok(Obtained::Pending(job));
-    }
-    let mesh = results.mesh(id, part).await.ok_or(Error::NoRoom)?;
+    let look = || results.mesh(id, part);
+    let mesh = match state.part(&question, patience, look).await? {
+        Obtained::Ready(mesh) => mesh,
+        Obtained::Pending(job) => return Ok(Obtained::Pending(job)),
+    };
     drop(described);
     let write = on_workers(move || write_mesh(&surface(&question, set)?.1, &mesh, format));
-    Ok(Obtained::Ready(sent(results.part_or(id, &file, write).await?)))
+    Ok(Obtained::Ready(sent(results.part_or(id, &file, write).await?.into())))
 }
 
 /// The answer, or the address of the job that will have it.
@@ -95,7 +96,7 @@ pub(super) fn respond(
 pub(super) fn summary(record: Record) -> Delivery {
     Delivery {
         location: record.question.id().path(),
-        content: record.summary,
+        content: record.summary.into(),
         media: "application/json",
         cache_control: None,
         file_name: None,

@@ -124,7 +124,7 @@ pub(crate) async fn get_slice(
         answer_slice(&question, inclination, z, &alpha, format, observer).map(content)
     });
     let delivery = Delivery {
-        content: cut.await.map_err(point_into_query)?,
+        content: cut.await.map_err(point_into_query)?.into(),
         media,
         cache_control: Some(FOR_EVER),
         location: format!("{}/slice?z={z}&format={}", id.path(), format.name()),

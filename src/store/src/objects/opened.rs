@@ -212,8 +212,14 @@ async fn begin(objects: &Objects, key: Key) -> Result<Begun, Error> {
     let seen = Seen::from(&meta);
     Ok(match payload {
         GetResultPayload::File(file, _) => Begun::File(file, range, seen),
-        GetResultPayload::Stream(stream) => {
-            Begun::Bytes(stream.try_collect::<BytesMut>().await?.freeze(), seen)
+        GetResultPayload::Stream(mut stream) => {
+            // No larger than what comes: memory counts bytes, not capacity.
+            let length = usize::try_from(range.end - range.start).unwrap_or_default();
+            let mut start = BytesMut::with_capacity(length);
+            while let Some(piece) = stream.try_next().await? {
+                start.extend_from_slice(&piece);
+            }
+            Begun::Bytes(start.freeze(), seen)
         }
     })
 }

@@ -188,6 +188,7 @@ async fn a_damaged_object_that_was_written_anew_meanwhile_stays() {
     let (_, kept) = store.put(&key(1), content()).await;
     assert_eq!(kept, verne_store::Kept::Durable);
     assert!(stream.next().await.unwrap().is_err());
+    assert_eq!(objects.places().await, [Watched::place(key(1))]);
     assert_eq!(store.get(&key(1)).await.unwrap().bytes, content());
 }
 
