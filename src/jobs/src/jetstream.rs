@@ -92,6 +92,7 @@ impl JetStream {
         let read = timeout(CATCHING_UP, caught_up.wait_for(|done| *done)).await.map_err(|_| late())?;
         drop(read.map_err(|_| late())?);
         tasks.spawn(steward::keep_house(Arc::clone(&client)));
+        tasks.spawn(steward::show_life(Arc::clone(&client)));
         tasks.spawn(poison::give_up(Arc::clone(&client)));
         Ok(Self { client, tasks: parking_lot::Mutex::new(tasks) })
     }

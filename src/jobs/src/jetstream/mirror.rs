@@ -32,6 +32,16 @@ const MOST_LOOKS: u32 = 6;
 /// Most jobs that are looked for at once.
 const LOOKS_AT_ONCE: usize = 64;
 
+/// What has become of a life of a job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fate {
+    GoesOn,
+    Ended,
+    /// There is no such job, or it is still to be heard of. A record leaves the broker when the next is written in its place,
+    /// so that who lags behind hears of a part before he hears of its whole.
+    Unheard,
+}
+
 #[derive(Default)]
 pub(super) struct Board {
     pub(super) entries: HashMap<JobId, Entry>,
@@ -228,10 +238,15 @@ impl Board {
         records.filter(|record| record.told.is_none() && holds(record)).cloned().collect()
     }
 
-    /// Whether a life of a job is not under way any more.
-    pub(super) fn has_ended(&self, id: JobId, life: u64) -> bool {
-        let entry = self.entries.get(&id).filter(|entry| entry.record.life == life);
-        entry.is_none_or(|entry| entry.record.job.state.is_final())
+    /// What has become of a life of a job.
+    pub(super) fn fate(&self, id: JobId, life: u64) -> Fate {
+        match self.entries.get(&id).map(|entry| &entry.record) {
+            None => Fate::Unheard,
+            // What was written in between is not heard by who comes late: its end, but neither its beginning.
+            Some(record) if record.life < life => Fate::GoesOn,
+            Some(record) if record.life == life && !record.job.state.is_final() => Fate::GoesOn,
+            Some(_) => Fate::Ended,
+        }
     }
 
     /// Some unfinished jobs that have not been written, or looked for, since `age`; they are looked for now, and
@@ -276,5 +291,39 @@ impl Entry {
         self.signal.send_replace((record.life, record.job.attempts, record.told));
         (self.record, self.revision) = (record, revision);
         (self.seen, self.looks) = (Instant::now(), 0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fate, Mirror};
+    use crate::jetstream::record::{Claimant, Record};
+    use crate::threads::run::Outcome;
+    use crate::{JobId, Submission};
+
+    fn record(life: u64) -> Record {
+        let submission = Submission {
+            id: JobId::from_bytes([1; 32]),
+            client: String::new(),
+            cost: 1.0,
+            payload: bytes::Bytes::new(),
+            deadline: None,
+        };
+        Record::new(life, submission, Claimant::Process(1), false)
+    }
+
+    #[test]
+    fn what_is_not_heard_of_has_not_ended() {
+        let mirror = Mirror::default();
+        let fate = |life| mirror.lock().fate(JobId::from_bytes([1; 32]), life);
+        assert_eq!(fate(2), Fate::Unheard);
+        mirror.apply(record(1), 1);
+        assert_eq!(fate(2), Fate::GoesOn, "its record is still to come");
+        mirror.apply(record(2), 2);
+        assert_eq!((fate(1), fate(2)), (Fate::Ended, Fate::GoesOn));
+        let mut ended = record(2);
+        ended.end(Outcome::Succeeded);
+        mirror.apply(ended, 3);
+        assert_eq!(fate(2), Fate::Ended);
     }
 }

@@ -1,18 +1,18 @@
 //! What any process does for all: ends what nobody wants any more or comes too late, mends what a crash has left
 //! half done, and forgets what is old.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use futures_util::{StreamExt, stream};
 
 use super::client::Client;
-use super::mirror::Board;
+use super::mirror::{Board, Fate};
 use super::record::{Claimant, Record};
-use crate::State;
 use crate::moment::now;
 use crate::threads::run::Told;
+use crate::{JobId, State};
 
 /// How often it looks.
 const TICK: Duration = Duration::from_millis(250);
@@ -32,7 +32,6 @@ pub(super) async fn keep_house(client: Arc<Client>) {
     let mut heard = Heard { processes: HashMap::new(), since: Instant::now() };
     let mut tick = tokio::time::interval(TICK);
     tick.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
-    let mut beat = tokio::time::interval(lease / 4);
     let subject = format!("{}.alive", client.bus.config.name);
     let Ok(mut alive) = client.bus.client.subscribe(subject).await else {
         return;
@@ -41,7 +40,6 @@ pub(super) async fn keep_house(client: Arc<Client>) {
         tokio::select! {
             _ = tick.tick() => look(&client, &mut heard).await,
             () = client.mirror.ended.notified() => release(&client, |_| false).await,
-            _ = beat.tick() => client.bus.tell("alive", client.process.to_be_bytes().to_vec()).await,
             Some(message) = alive.next() => {
                 if let Some(process) = message.payload.first_chunk() {
                     heard.hear(u64::from_be_bytes(*process), client.process, lease);
@@ -51,12 +49,28 @@ pub(super) async fn keep_house(client: Arc<Client>) {
     }
 }
 
+/// Tells the others that this process is there, whatever else it waits for.
+pub(super) async fn show_life(client: Arc<Client>) {
+    let mut beat = tokio::time::interval(client.bus.config.lease / 4);
+    beat.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+    loop {
+        beat.tick().await;
+        client.bus.tell("alive", client.process.to_be_bytes().to_vec()).await;
+    }
+}
+
 impl Heard {
     fn hear(&mut self, process: u64, own: u64, lease: Duration) {
         let last = self.processes.insert(process, Instant::now());
         if process == own && last.is_none_or(|last| last.elapsed() > lease / 2) {
             self.since = Instant::now();
         }
+    }
+
+    /// Whether this process is the first of those that are there, as far as it has heard. Two may think so for a moment.
+    fn is_first(&self, own: u64, lease: Duration) -> bool {
+        let mut there = self.processes.iter().filter(|(_, last)| last.elapsed() < lease);
+        there.all(|(process, _)| own <= *process)
     }
 
     /// Whether a process would have been heard of if it were there.
@@ -78,7 +92,7 @@ async fn look(client: &Client, heard: &mut Heard) {
     release(client, missed).await;
     heard.processes.retain(|_, last| last.elapsed() < 2 * lease);
     mend(client).await;
-    forget(client).await;
+    forget(client, heard.is_first(client.process, lease)).await;
 }
 
 fn is_late(record: &Record) -> bool {
@@ -87,9 +101,14 @@ fn is_late(record: &Record) -> bool {
 
 /// Ends claims of those that are gone: processes, and wholes that have ended.
 async fn release(client: &Client, missed: impl Fn(u64) -> bool) {
+    let absent = absent_wholes(client).await;
     let gone = |board: &Board, claimant: &Claimant| match claimant {
         Claimant::Process(process) => missed(*process),
-        Claimant::Whole(id, life) => board.has_ended(*id, *life),
+        Claimant::Whole(id, life) => match board.fate(*id, *life) {
+            Fate::GoesOn => false,
+            Fate::Ended => true,
+            Fate::Unheard => absent.contains(id),
+        },
     };
     let released = {
         let board = client.mirror.lock();
@@ -103,12 +122,33 @@ async fn release(client: &Client, missed: impl Fn(u64) -> bool) {
             let board = client.mirror.lock();
             record.claimants.retain(|claimant| !gone(&board, claimant));
             if !record.is_wanted() {
+                tracing::debug!(job = %record.job.id, "who wanted it is gone: cancelled");
                 record.stop(Told::Cancelled);
             }
         })
         .await;
     });
     released.buffer_unordered(AT_ONCE).collect::<()>().await;
+}
+
+/// The wholes of live parts that the broker does not have.
+async fn absent_wholes(client: &Client) -> HashSet<JobId> {
+    let unheard: HashSet<JobId> = {
+        let board = client.mirror.lock();
+        let unheard = |claimant: &Claimant| match claimant {
+            Claimant::Whole(id, life) => (board.fate(*id, *life) == Fate::Unheard).then_some(*id),
+            Claimant::Process(_) => None,
+        };
+        let parts = board.live(|record| record.claimants.iter().any(|claimant| unheard(claimant).is_some()));
+        parts.iter().flat_map(|record| &record.claimants).filter_map(unheard).collect()
+    };
+    let mut absent = HashSet::new();
+    for id in unheard {
+        if matches!(client.refresh(id).await, Ok(None)) {
+            absent.insert(id);
+        }
+    }
+    absent
 }
 
 /// Changes a record if it is still that life of the job.
@@ -141,10 +181,10 @@ async fn mend(client: &Client) {
     }
 }
 
-/// Each process forgets by the same rule.
-async fn forget(client: &Client) {
+/// Each process forgets by the same rule; one has the broker forget.
+async fn forget(client: &Client, is_first: bool) {
     let forgotten = client.mirror.lock().forget(client.bus.config.retention);
-    for (id, revision) in forgotten {
+    for (id, revision) in forgotten.into_iter().filter(|_| is_first) {
         client.bus.forget(id, revision).await;
     }
 }

@@ -95,7 +95,10 @@ fn succeeded(part: &Job) -> Result<(), Outcome> {
     match (part.state, &part.failure) {
         (State::Succeeded, _) => Ok(()),
         (State::Failed, Some(failure)) => Err(Outcome::Failed(failure.clone())),
-        _ => Err(Outcome::Cancelled),
+        (state, _) => {
+            tracing::info!(part = %part.id, ?state, "a part was cancelled, and its whole with it");
+            Err(Outcome::Cancelled)
+        }
     }
 }
 
