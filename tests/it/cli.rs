@@ -1,6 +1,9 @@
 //! The command line, as its users type it.
 
 use std::ffi::OsString;
+use std::io::{Read, Write};
+use std::net::{SocketAddr, TcpListener};
+use std::thread::{self, JoinHandle};
 
 use clap::Parser;
 use serde_json::Value;
@@ -66,4 +69,33 @@ fn serving_is_the_default() {
     assert!(without_command.is_ok());
     assert!(Cli::try_parse_from(["verne", "serve", "--machines", "somewhere"]).is_ok());
     assert!(Cli::try_parse_from(["verne", "serve", "--listen", "nowhere"]).is_err());
+}
+
+/// Answers one question with these bytes; where it listens.
+fn answering(bytes: &'static [u8]) -> (SocketAddr, JoinHandle<String>) {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap();
+    let answered = thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let mut question = [0; 1024];
+        let length = stream.read(&mut question).unwrap();
+        stream.write_all(bytes).unwrap();
+        String::from_utf8_lossy(&question[..length]).into_owned()
+    });
+    (address, answered)
+}
+
+#[test]
+fn health_is_what_readyz_says() {
+    let (address, question) = answering(b"HTTP/1.1 200 OK\r\ncontent-length: 0\r\n\r\n");
+    assert_eq!(verne(&format!("health --url http://{address}/readyz")), Ok(String::new()));
+    assert!(question.join().unwrap().starts_with("GET /readyz HTTP/1.1\r\n"));
+    for refusal in [&b"HTTP/1.1 503 Service Unavailable\r\n\r\n"[..], b"200 by no protocol", b""] {
+        let (address, _) = answering(refusal);
+        let error = verne(&format!("health --url http://{address}/readyz")).unwrap_err();
+        assert!(error.starts_with(&format!("http://{address}/readyz: ")), "{error}");
+    }
+    let nobody = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+    assert!(verne(&format!("health --url http://{nobody}/readyz")).is_err());
+    assert!(verne("health --url https://127.0.0.1/readyz").unwrap_err().contains("http://"));
 }

@@ -1,9 +1,11 @@
 //! The command line.
 
+mod health;
 mod progress;
 mod question;
 mod workspace;
 
+use health::HealthCommand;
 use question::Question;
 use workspace::WorkspaceCommand;
 
@@ -40,6 +42,8 @@ enum Command {
     Serve(ServeConfig),
     /// Run the jobs that wait at a broker (--broker), and keep their results in a store that all reach (--store).
     Worker(WorkerConfig),
+    /// Ask a service whether it is ready: ends with 0 where it is, with 1 otherwise.
+    Health(HealthCommand),
     /// A workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
     Workspace(WorkspaceCommand),
     #[command(flatten)]
@@ -63,6 +67,7 @@ impl Cli {
         match self.command.unwrap_or(Command::Serve(self.serve)) {
             Command::Serve(config) => on_runtime(&config.telemetry, app::serve(&config)),
             Command::Worker(config) => on_runtime(&config.telemetry, worker::work(&config)),
+            Command::Health(command) => command.run(),
             Command::Workspace(command) => command.run(out, pretty),
             Command::Ask(question) => {
                 let answer = question.answer(pretty)?;
