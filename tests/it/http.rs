@@ -10,6 +10,8 @@ mod jobs_kept;
 mod jobs_listed;
 mod jobs_refused;
 mod jobs_stopped;
+mod keys;
+mod keys_files;
 mod kinematics;
 mod machines;
 mod part_frame;

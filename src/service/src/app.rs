@@ -11,6 +11,7 @@ use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
+use crate::access::{BadKeys, Gate};
 use crate::config::ServeConfig;
 use crate::metrics::Metrics;
 use crate::readiness::Readiness;
@@ -24,6 +25,8 @@ use crate::{layers, openapi, router, viewer};
 pub enum StartError {
     /// A machine's file.
     Machine(BadFile),
+    /// The file of keys.
+    Keys(BadKeys),
     /// Where jobs and results are kept.
     Storage(StorageError),
     /// The address, or the listener later on.
@@ -34,6 +37,7 @@ impl fmt::Display for StartError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Machine(bad) => bad.fmt(f),
+            Self::Keys(bad) => bad.fmt(f),
             Self::Storage(error) => error.fmt(f),
             Self::Listen(address, error) => write!(f, "cannot serve on {address}: {error}"),
         }
@@ -44,7 +48,7 @@ impl std::error::Error for StartError {}
 
 /// The OpenAPI document, generated from the handlers.
 pub fn document() -> Value {
-    openapi::complete(router::routes().get_openapi())
+    openapi::complete(router::routes(&Gate::default()).get_openapi())
 }
 
 /// The document as it is sent: the committed copy, which the tests hold equal to [`document`]. Its examples are the
@@ -56,6 +60,7 @@ pub struct Service {
     /// Ready for requests.
     pub router: Router,
     state: Shared,
+    gate: Gate,
 }
 
 impl Service {
@@ -65,7 +70,8 @@ impl Service {
         if let Some(directory) = &config.machines {
             machines.publish_directory(directory).map_err(StartError::Machine)?;
         }
-        let (routes, _) = router::routes().split_for_parts();
+        let gate = Gate::open(config).await.map_err(StartError::Keys)?;
+        let (routes, _) = router::routes(&gate).split_for_parts();
         let Storage { results, jobs, computations } =
             Storage::open(config).await.map_err(StartError::Storage)?;
         let stopping = CancellationToken::new();
@@ -77,7 +83,12 @@ impl Service {
         let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
         let routes = routes.with_state(Arc::clone(&state)).merge(docs).merge(viewer::routes());
         let router = layers::wrap(routes, requests, Duration::from_secs(config.timeout));
-        Ok(Self { router, state })
+        Ok(Self { router, state, gate })
+    }
+
+    /// Reads the keys again, as at SIGHUP; if the file cannot be used, they stay as they are.
+    pub async fn reload_keys(&self) -> Result<(), StartError> {
+        self.gate.reload().await.map_err(StartError::Keys)
     }
 
     /// Stops: whoever waits for a job is told so, and jobs go back to the queue. Returns within about `limit`.

@@ -1,9 +1,11 @@
 //! The command line.
 
+mod key;
 mod progress;
 mod question;
 mod workspace;
 
+use key::KeyCommand;
 use question::Question;
 use workspace::WorkspaceCommand;
 
@@ -40,6 +42,8 @@ enum Command {
     Serve(ServeConfig),
     /// Run the jobs that wait at a broker (--broker), and keep their results in a store that all reach (--store).
     Worker(WorkerConfig),
+    /// Keys for the file of --keys.
+    Key(KeyCommand),
     /// A workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
     Workspace(WorkspaceCommand),
     #[command(flatten)]
@@ -63,6 +67,7 @@ impl Cli {
         match self.command.unwrap_or(Command::Serve(self.serve)) {
             Command::Serve(config) => on_runtime(&config.telemetry, app::serve(&config)),
             Command::Worker(config) => on_runtime(&config.telemetry, worker::work(&config)),
+            Command::Key(command) => command.run(out),
             Command::Workspace(command) => command.run(out, pretty),
             Command::Ask(question) => {
                 let answer = question.answer(pretty)?;

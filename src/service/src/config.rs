@@ -91,6 +91,10 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_TIMEOUT", default_value_t = 30, value_name = "SECONDS",
         value_parser = value_parser!(u64).range(1..=LONGEST))]
     pub timeout: u64,
+    /// TOML file of the API keys that requests need, made by `verne key new`; without it anybody may ask for anything.
+    /// Read again at SIGHUP.
+    #[arg(long, env = "VERNE_KEYS", value_name = "FILE")]
+    pub keys: Option<PathBuf>,
     /// Seconds that requests under way and jobs have to come to an end when the service is told to stop.
     #[arg(long, env = "VERNE_DRAIN", default_value_t = 10, value_name = "SECONDS",
         value_parser = value_parser!(u64).range(0..=LONGEST))]

@@ -2,6 +2,7 @@
 //!
 //! Dependencies point one way: main → cli → app → router → handlers → answers → wire, state, error.
 
+mod access;
 mod answers;
 pub mod app;
 pub mod cli;

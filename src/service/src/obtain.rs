@@ -5,6 +5,7 @@ use std::time::Duration;
 use verne_jobs::State as JobState;
 use verne_jobs::{Claim, Failure, Job};
 
+use crate::access::{Caller, Role};
 use crate::answers::{Question, TaskFault};
 use crate::error::Error;
 use crate::result_id::ResultId;
@@ -22,8 +23,8 @@ pub(crate) enum Obtained<T> {
 /// Who waits, and how long.
 #[derive(Clone, Debug)]
 pub(crate) struct Patience {
-    /// Whose share of the cores a job is charged to.
-    pub client: String,
+    /// Who waits.
+    pub caller: Caller,
     /// How long the answer is waited for before the job's address is answered.
     pub wait: Duration,
 }
@@ -48,7 +49,8 @@ impl State {
         question: &Question,
         patience: &Patience,
     ) -> Result<Obtained<Record>, Error> {
-        let submission = question.submission(patience.client.clone(), Some(self.limits.job))?;
+        patience.caller.must_be(Role::Compute)?;
+        let submission = question.submission(patience.caller.client.clone(), Some(self.limits.job))?;
         let claim = self.jobs.submit(submission).await?;
         if patience.wait.is_zero() {
             return Ok(Obtained::Pending(kept(&claim)));

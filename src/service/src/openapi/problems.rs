@@ -6,6 +6,7 @@ use serde_json::json;
 use utoipa::IntoResponses;
 use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder};
 
+use crate::access::Role;
 use crate::error::{Error, Fault};
 use crate::problem::{PROBLEM_JSON, Problem};
 
@@ -17,6 +18,12 @@ type Responses = BTreeMap<String, RefOr<Response>>;
 
 /// Failures of every operation.
 pub(crate) struct ServiceProblems;
+
+/// Failures of what takes a key.
+pub(crate) struct KeyProblems;
+
+/// Failures of what not every key may.
+pub(crate) struct ForbiddenProblem;
 
 /// Failures of a question in the query string.
 pub(crate) struct QueryProblems;
@@ -58,6 +65,20 @@ impl IntoResponses for ServiceProblems {
             documented("The answer took too long (`timed_out`).", Error::TimedOut),
         ]
         .into()
+    }
+}
+
+impl IntoResponses for KeyProblems {
+    fn responses() -> Responses {
+        let words = "The service has keys, and none that it knows was sent (`unauthorized`).";
+        [documented(words, Error::Unauthorized)].into()
+    }
+}
+
+impl IntoResponses for ForbiddenProblem {
+    fn responses() -> Responses {
+        [documented("The role of the key does not suffice (`forbidden`).", Error::Forbidden(Role::Compute))]
+            .into()
     }
 }
 
@@ -120,7 +141,7 @@ impl IntoResponses for KeptQueryProblems {
 
 impl IntoResponses for MeshProblems {
     fn responses() -> Responses {
-        with(KeptQueryProblems::responses(), of_jobs())
+        with(with(KeptQueryProblems::responses(), of_jobs()), ForbiddenProblem::responses())
     }
 }
 
