@@ -17,7 +17,7 @@ pub(crate) enum Obtained<T> {
     /// The answer.
     Ready(T),
     /// A job that will have it.
-    Pending(Job),
+    Pending(Box<Job>),
 }
 
 /// Who waits, and how long.
@@ -94,9 +94,9 @@ impl State {
     }
 }
 
-fn kept(claim: &Claim) -> Job {
+fn kept(claim: &Claim) -> Box<Job> {
     claim.keep();
-    claim.job()
+    Box::new(claim.job())
 }
 
 /// Why a job failed.

@@ -191,6 +191,34 @@ async fn a_keys_jobs_are_its_own() {
 }
 
 #[tokio::test]
+async fn a_job_is_every_keys_that_asked_for_it() {
+    let keys = Keys::new([("cam", "compute"), ("cad", "compute"), ("chief", "admin")]);
+    let service = opened(&keys.asked_for_by(one_core())).await;
+    let id = keys.start(&service, 0, &long(0)).await;
+    let uri = format!("/jobs/{id}");
+    assert_eq!(keys.start(&service, 1, &long(0)).await, id);
+    for number in [0, 1] {
+        assert_eq!(keys.get(&service, number, &uri).await.status, StatusCode::OK);
+        assert_eq!(keys.get(&service, number, "/jobs").await.json["jobs"][0]["id"], id);
+    }
+    let left = keys.delete(&service, 0, &uri).await;
+    assert_eq!(left.status, StatusCode::OK);
+    assert_ne!(left.json["state"], "cancelled");
+    keys.get(&service, 0, &uri).await.assert_problem(404, "job_not_found");
+    assert_ne!(keys.get(&service, 1, &uri).await.json["state"], "cancelled");
+    keys.delete(&service, 1, &uri).await;
+    let last = keys.get(&service, 1, &format!("{uri}/events")).await;
+    assert!(String::from_utf8(last.bytes).unwrap().contains("\"state\":\"cancelled\""));
+    // An administrator's word holds for all.
+    for number in [0, 1] {
+        keys.start(&service, number, &long(0)).await;
+    }
+    keys.delete(&service, 2, &uri).await;
+    let last = keys.get(&service, 0, &format!("{uri}/events")).await;
+    assert!(String::from_utf8(last.bytes).unwrap().contains("\"state\":\"cancelled\""));
+}
+
+#[tokio::test]
 async fn a_read_key_does_not_have_what_made_room_computed_again() {
     // No room for a mesh: only the figures stay.
     let keys = Keys::new([("reader", "read"), ("cam", "compute")]);

@@ -22,7 +22,7 @@ async fn what_is_wrong_is_named() {
     for (text, place) in [
         (String::new(), "has no entry [[key]]"),
         ("\n\n[[key]".to_owned(), "line 3: "),
-        (format!("{good}\n[[keys]]\nname = \"cad\""), "line 5: unknown field `keys`"),
+        (format!("{good}\n[[keys]]\nname = \"cad\""), "line 6: unknown field `keys`"),
         (second.replace("compute", "write"), "key 1 (cad): role: unknown variant `write`"),
         (format!("{good}\n{}", second.replace("cad", "10.0.0.1")), "key 2: name: must be"),
         (format!("{good}\n{}", second.replace(hash, "")), "key 2 (cad): missing field `hash`"),

@@ -33,7 +33,7 @@ impl Caller {
 
     /// Whether the job is there for it.
     pub(crate) fn sees(&self, job: &Job) -> bool {
-        self.sees_only().is_none_or(|client| client == job.client)
+        self.sees_only().is_none_or(|client| job.clients.contains(client))
     }
 }
 

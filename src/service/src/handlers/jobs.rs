@@ -31,7 +31,7 @@ const SILENCE: Duration = Duration::from_secs(15);
 
 /// Jobs
 ///
-/// What is being computed and what was, newest first. Finished jobs are forgotten after a while; their results are
+/// What is being computed and what was, newest first; of a key that is no administrator's, what it has asked for. Finished jobs are forgotten after a while; their results are
 /// kept apart from them.
 #[utoipa::path(
     get, path = "/jobs", operation_id = "jobs", tag = "jobs", params(JobsQuery),
@@ -106,7 +106,8 @@ fn event(job: &Job) -> Option<Event> {
 
 /// Cancel a job
 ///
-/// Whoever waits for it. A running computation stops within a second; one that is finished stays as it is. The answer is
+/// Whoever waits for it; but where several keys have asked for it, only the caller's interest ends: the job goes on for
+/// the others and is no longer among the caller's, unless the key is an administrator's. A running computation stops within a second; one that is finished stays as it is. The answer is
 /// the job as it stands then.
 #[utoipa::path(
     delete, path = "/jobs/{id}", operation_id = "job_cancel", tag = "jobs",
@@ -119,7 +120,11 @@ pub(crate) async fn delete_job(
     id: Id,
 ) -> Result<impl IntoResponse, Error> {
     let Job { id, .. } = visible(&state, &caller, id).await?;
-    let job = state.jobs.cancel(id).await?.ok_or_else(|| Error::NoSuchJob(id.to_string()))?;
+    let ended = match caller.sees_only() {
+        Some(client) => state.jobs.leave(id, client).await?,
+        None => state.jobs.cancel(id).await?,
+    };
+    let job = ended.ok_or_else(|| Error::NoSuchJob(id.to_string()))?;
     Ok(([LIVE], Json(JobObject::new(&job)?)))
 }
 
