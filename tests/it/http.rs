@@ -1,5 +1,6 @@
 //! The service through HTTP: requests go through the whole router, layers included.
 
+mod admission;
 mod bad_input;
 mod batch;
 mod dexterity;
@@ -15,6 +16,7 @@ mod keys_files;
 mod kinematics;
 mod machines;
 mod part_frame;
+mod rates;
 mod transport;
 mod viewer;
 mod workspace;

@@ -5,6 +5,7 @@ mod gate;
 mod key;
 mod keys;
 mod keys_file;
+mod rate;
 mod role;
 
 pub(crate) use caller::Caller;

@@ -30,6 +30,10 @@ pub(crate) enum Error {
     Unauthorized,
     /// The key does not suffice; this role would.
     Forbidden(Role),
+    /// The client asks too fast; after so many seconds it may again.
+    TooManyRequests(u64),
+    /// As much is worked on as may be.
+    Overloaded,
     /// The body is not JSON; the parser's words.
     Syntax(String),
     /// Well-formed, but these fields cannot be used.
@@ -98,6 +102,10 @@ impl fmt::Display for Error {
                 write!(f, "Send a key that is known here: the header Authorization: Bearer KEY.")
             }
             Self::Forbidden(role) => write!(f, "This takes a key whose role is {role}."),
+            Self::TooManyRequests(seconds) => {
+                write!(f, "More requests came than this client may send; the next in {seconds} s.")
+            }
+            Self::Overloaded => write!(f, "As many requests are worked on as may be; try again in a second."),
             Self::Syntax(reason) => write!(f, "The body is not JSON: {reason}."),
             Self::Fields(faults) if faults.len() == 1 => write!(f, "One field cannot be used; see errors."),
             Self::Fields(faults) => write!(f, "{} fields cannot be used; see errors.", faults.len()),

@@ -3,6 +3,7 @@
 //! Dependencies point one way: main → cli → app → router → handlers → answers → wire, state, error.
 
 mod access;
+mod admission;
 mod answers;
 pub mod app;
 pub mod cli;

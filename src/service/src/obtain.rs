@@ -1,11 +1,13 @@
 //! From a question to its answer: what is kept, or what a job makes while somebody waits.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use verne_jobs::State as JobState;
 use verne_jobs::{Claim, Failure, Job};
 
 use crate::access::{Caller, Role};
+use crate::admission::Place;
 use crate::answers::{Question, TaskFault};
 use crate::error::Error;
 use crate::result_id::ResultId;
@@ -25,6 +27,8 @@ pub(crate) enum Obtained<T> {
 pub(crate) struct Patience {
     /// Who waits.
     pub caller: Caller,
+    /// Given back while it waits.
+    pub place: Arc<Place>,
     /// How long the answer is waited for before the job's address is answered.
     pub wait: Duration,
 }
@@ -55,14 +59,20 @@ impl State {
         if patience.wait.is_zero() {
             return Ok(Obtained::Pending(kept(&claim)));
         }
-        tokio::select! {
-            job = claim.finished() => self.finished(question.id(), job).await.map(Obtained::Ready),
-            () = tokio::time::sleep(patience.wait) => Ok(Obtained::Pending(kept(&claim))),
-            () = self.stopping.cancelled() => {
-                // The client is told that it goes on.
-                claim.keep();
-                Err(Error::Stopping)
+        let wait = async {
+            tokio::select! {
+                job = claim.finished() => Ok(Some(job)),
+                () = tokio::time::sleep(patience.wait) => Ok(None),
+                () = self.stopping.cancelled() => {
+                    // The client is told that it goes on.
+                    claim.keep();
+                    Err(Error::Stopping)
+                }
             }
+        };
+        match patience.place.aside(wait).await.unwrap_or(Ok(None))? {
+            Some(job) => self.finished(question.id(), job).await.map(Obtained::Ready),
+            None => Ok(Obtained::Pending(kept(&claim))),
         }
     }
 

@@ -1,5 +1,6 @@
 //! How long a client is willing to wait: the header Prefer (RFC 7240).
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use axum::extract::FromRequestParts;
@@ -7,6 +8,7 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Response};
 
 use crate::access::Caller;
+use crate::admission::Place;
 use crate::error::Error;
 use crate::obtain::Patience;
 use crate::state::Shared;
@@ -27,13 +29,15 @@ impl FromRequestParts<Shared> for Prefer {
 
     async fn from_request_parts(parts: &mut Parts, state: &Shared) -> Result<Self, Error> {
         let caller = Caller::from_request_parts(parts, state).await?;
+        // The gate has put it there.
+        let place = parts.extensions.get::<Arc<Place>>().cloned().ok_or(Error::Internal)?;
         let preferred = preferred(&parts.headers);
         let wait = preferred.unwrap_or(state.limits.wait).min(state.limits.longest_wait);
         let applied = preferred.map(|_| match wait.as_secs() {
             0 => "respond-async".to_owned(),
             seconds => format!("wait={seconds}"),
         });
-        Ok(Self { patience: Patience { caller, wait }, applied })
+        Ok(Self { patience: Patience { caller, place, wait }, applied })
     }
 }
 

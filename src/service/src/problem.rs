@@ -59,6 +59,8 @@ fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
         Error::Fields(_) => (StatusCode::UNPROCESSABLE_ENTITY, "invalid_request"),
         Error::Unauthorized => (StatusCode::UNAUTHORIZED, "unauthorized"),
         Error::Forbidden(_) => (StatusCode::FORBIDDEN, "forbidden"),
+        Error::TooManyRequests(_) => (StatusCode::TOO_MANY_REQUESTS, "too_many_requests"),
+        Error::Overloaded => (StatusCode::SERVICE_UNAVAILABLE, "overloaded"),
         Error::NotJson(_) => (StatusCode::UNSUPPORTED_MEDIA_TYPE, "unsupported_media_type"),
         Error::BodyTooLarge(_) => (StatusCode::PAYLOAD_TOO_LARGE, "body_too_large"),
         Error::TooManyRows { .. } => (StatusCode::PAYLOAD_TOO_LARGE, "too_many_rows"),
@@ -129,7 +131,8 @@ impl IntoResponse for Error {
         let keyless = self == Self::Unauthorized;
         let length = if let Self::RangeNotSatisfiable(length) = self { Some(length) } else { None };
         let pause = match self {
-            Self::QueueFull(seconds) => Some(seconds),
+            Self::QueueFull(seconds) | Self::TooManyRequests(seconds) => Some(seconds),
+            Self::Overloaded => Some(1),
             Self::Stopping | Self::JobsUnavailable | Self::DiskFailing => Some(PAUSE),
             _ => None,
         };

@@ -7,34 +7,35 @@ use utoipa_axum::routes;
 use crate::access::Access::{self, For, Open};
 use crate::access::Gate;
 use crate::access::Role::{Compute, Read};
+use crate::admission::Load::{Question, Watch, Work};
 use crate::handlers::{
     batch, contains, dexterity, jobs, kinematics, machines, service, workspace, workspace_results,
 };
 use crate::openapi::{Document, access};
 use crate::state::Shared;
 
-/// Every route with who may use it.
+/// Every route with who may use it, and what it is to the service.
 fn list() -> [(Access, UtoipaMethodRouter<Shared>); 22] {
     [
-        (For(Read), routes!(kinematics::get_fk, kinematics::post_fk)),
-        (For(Read), routes!(kinematics::get_ik, kinematics::post_ik)),
-        (For(Read), routes!(batch::fk_batch)),
-        (For(Read), routes!(batch::ik_batch)),
-        (For(Compute), routes!(workspace::get_workspace, workspace::post_workspace)),
-        (For(Read), routes!(contains::post_contains)),
-        (For(Compute), routes!(dexterity::post_dexterity)),
-        (For(Read), routes!(workspace_results::get_summary)),
-        (For(Read), routes!(workspace_results::get_mesh)),
-        (For(Read), routes!(workspace_results::get_slice)),
-        (For(Read), routes!(dexterity::get_cells)),
-        (For(Read), routes!(jobs::get_jobs)),
-        (For(Read), routes!(jobs::get_job)),
-        (For(Compute), routes!(jobs::delete_job)),
-        (For(Read), routes!(jobs::get_events)),
-        (For(Read), routes!(machines::get_machines)),
-        (For(Read), routes!(machines::get_machine_schema)),
-        (For(Read), routes!(machines::get_machine)),
-        (For(Read), routes!(service::get_metrics)),
+        (For(Read, Question), routes!(kinematics::get_fk, kinematics::post_fk)),
+        (For(Read, Question), routes!(kinematics::get_ik, kinematics::post_ik)),
+        (For(Read, Work), routes!(batch::fk_batch)),
+        (For(Read, Work), routes!(batch::ik_batch)),
+        (For(Compute, Work), routes!(workspace::get_workspace, workspace::post_workspace)),
+        (For(Read, Work), routes!(contains::post_contains)),
+        (For(Compute, Work), routes!(dexterity::post_dexterity)),
+        (For(Read, Work), routes!(workspace_results::get_summary)),
+        (For(Read, Work), routes!(workspace_results::get_mesh)),
+        (For(Read, Work), routes!(workspace_results::get_slice)),
+        (For(Read, Work), routes!(dexterity::get_cells)),
+        (For(Read, Work), routes!(jobs::get_jobs)),
+        (For(Read, Work), routes!(jobs::get_job)),
+        (For(Compute, Work), routes!(jobs::delete_job)),
+        (For(Read, Work), routes!(jobs::get_events)),
+        (For(Read, Question), routes!(machines::get_machines)),
+        (For(Read, Question), routes!(machines::get_machine_schema)),
+        (For(Read, Question), routes!(machines::get_machine)),
+        (For(Read, Watch), routes!(service::get_metrics)),
         (Open, routes!(service::get_openapi)),
         (Open, routes!(service::get_livez)),
         (Open, routes!(service::get_readyz)),

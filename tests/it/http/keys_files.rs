@@ -27,6 +27,9 @@ async fn what_is_wrong_is_named() {
         (format!("{good}\n{}", second.replace("cad", "10.0.0.1")), "key 2: name: must be"),
         (format!("{good}\n{}", second.replace(hash, "")), "key 2 (cad): missing field `hash`"),
         (second.replace(hash, &format!("hash = \"{key}\"")), "key 1 (cad): hash: must be the 64 hexa"),
+        (format!("{second}rate = -1"), "key 1 (cad): rate: "),
+        (format!("{second}rate_burst = 5"), "key 1 (cad): rate_burst: needs a rate"),
+        (format!("{second}rate = 5\nrate_burst = 0"), "key 1 (cad): rate_burst: "),
         (format!("{second}extra = 1"), "key 1 (cad): extra: unknown field `extra`"),
         (format!("{second}\n{second}"), "key 2 (cad): the hash of an earlier entry"),
     ] {

@@ -13,35 +13,48 @@ use headers::authorization::{Authorization, Bearer};
 use super::caller::{Caller, address};
 use super::keys::Keys;
 use super::keys_file::BadKeys;
+use super::rate::{Addresses, Bucket, Rate};
 use super::role::Role;
+use crate::admission::{Admission, Load};
 use crate::config::ServeConfig;
 use crate::error::Error;
 use crate::state::Shared;
 
-/// Who may use a route, where the service has keys.
+/// Who may use a route where the service has keys, and what it is to the service.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Access {
     /// Anybody.
     Open,
-    /// Keys of this role, and of those above.
-    For(Role),
+    /// Keys of this role, and of those above, for what is this to the service.
+    For(Role, Load),
 }
 
 /// Stands before the routes.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub(crate) struct Gate {
     /// Without them everybody may everything.
     keys: Option<Arc<Keys>>,
+    /// Limits who has no key.
+    addresses: Option<Addresses>,
+    admission: Arc<Admission>,
 }
 
 impl Gate {
+    /// For all, without a limit but that of places.
+    pub(crate) fn for_all(admission: Arc<Admission>) -> Self {
+        Self { keys: None, addresses: None, admission }
+    }
+
     /// As the settings have it.
-    pub(crate) async fn open(config: &ServeConfig) -> Result<Self, BadKeys> {
-        let keys = match &config.keys {
-            Some(path) => Some(Keys::open(path.clone()).await?),
-            None => None,
-        };
-        Ok(Self { keys })
+    pub(crate) async fn open(config: &ServeConfig, admission: Arc<Admission>) -> Result<Self, BadKeys> {
+        let rate = Rate::new(config.rate, config.rate_burst);
+        match &config.keys {
+            Some(path) => {
+                let keys = Some(Keys::open(path.clone(), rate).await?);
+                Ok(Self { keys, ..Self::for_all(admission) })
+            }
+            None => Ok(Self { addresses: rate.map(Addresses::new), ..Self::for_all(admission) }),
+        }
     }
 
     /// Reads the keys again; if that fails, they stay as they are.
@@ -56,29 +69,37 @@ impl Gate {
     pub(crate) fn before(&self, route: MethodRouter<Shared>, access: Access) -> MethodRouter<Shared> {
         match access {
             Access::Open => route,
-            Access::For(role) => route.layer(from_fn_with_state((self.clone(), role), pass)),
+            Access::For(role, load) => route.layer(from_fn_with_state((self.clone(), role, load), pass)),
         }
     }
 
-    fn caller(&self, headers: &HeaderMap, extensions: &Extensions) -> Result<Caller, Error> {
+    /// Who asks; fails for who is not known, or asks too fast for what has a limit.
+    fn caller(&self, headers: &HeaderMap, extensions: &Extensions, load: Load) -> Result<Caller, Error> {
+        let limited = load != Load::Watch;
         let Some(keys) = &self.keys else {
-            return Ok(Caller { client: address(extensions), role: Role::Admin });
+            let client = address(extensions);
+            self.addresses.iter().filter(|_| limited).try_for_each(|addresses| addresses.take(&client))?;
+            return Ok(Caller { client, role: Role::Admin });
         };
         let sent = headers.typed_get::<Authorization<Bearer>>().ok_or(Error::Unauthorized)?;
         let holder = keys.holder(sent.token()).ok_or(Error::Unauthorized)?;
+        holder.bucket.iter().filter(|_| limited).try_for_each(Bucket::take)?;
         Ok(Caller { client: holder.name.clone(), role: holder.role })
     }
 }
 
 async fn pass(
-    State((gate, needed)): State<(Gate, Role)>,
+    State((gate, needed, load)): State<(Gate, Role, Load)>,
     mut request: Request,
     next: Next,
 ) -> Result<Response<axum::body::Body>, Error> {
-    let caller = gate.caller(request.headers(), request.extensions())?;
+    let caller = gate.caller(request.headers(), request.extensions(), load)?;
     caller.must_be(needed)?;
+    let place = gate.admission.enter(load)?;
     request.extensions_mut().insert(caller);
+    request.extensions_mut().insert(Arc::clone(&place));
     let mut response = next.run(request).await;
+    drop(place);
     if gate.keys.is_some() {
         keep_from_others(response.headers_mut());
     }

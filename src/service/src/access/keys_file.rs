@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::fmt;
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,6 +10,7 @@ use blake3::Hash;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
+use super::rate::{Bucket, Rate};
 use super::role::Role;
 
 /// Most characters in a name.
@@ -16,11 +18,13 @@ const NAME_LENGTH: usize = 64;
 
 /// Whose key it is, and what it is good for.
 #[derive(Debug)]
-pub(crate) struct Holder {
+pub(super) struct Holder {
     /// The client of the queue. Two keys of one name are one client: so a key is replaced without a gap.
     pub name: String,
     /// What it may.
     pub role: Role,
+    /// How fast it may ask. Full again when the file is read again.
+    pub bucket: Option<Bucket>,
 }
 
 /// Holders by the hashes of their keys.
@@ -69,10 +73,19 @@ struct Entry {
     role: Role,
     #[serde(deserialize_with = "hash")]
     hash: Hash,
+    rate: Option<u32>,
+    rate_burst: Option<NonZeroU32>,
 }
 
-/// The keys of a file.
-pub(super) fn read(path: &Path) -> Result<Table, BadKeys> {
+impl Entry {
+    /// The key's own, or that of all.
+    fn rate(&self, default: Option<Rate>) -> Option<Rate> {
+        self.rate.map_or(default, |second| Rate::new(second, self.rate_burst))
+    }
+}
+
+/// The keys of a file; `default` limits those that have no rate of their own.
+pub(super) fn read(path: &Path, default: Option<Rate>) -> Result<Table, BadKeys> {
     let bad = |place, reason| BadKeys { path: path.to_owned(), place, reason };
     let text = std::fs::read_to_string(path).map_err(|error| bad(None, error.to_string()))?;
     let Document { key } = toml::from_str(&text).map_err(|error| {
@@ -90,7 +103,11 @@ pub(super) fn read(path: &Path) -> Result<Table, BadKeys> {
             let place = if field == "." { place.clone() } else { format!("{place}: {field}") };
             bad(Some(place), error.inner().message().to_owned())
         })?;
-        let holder = Arc::new(Holder { name: entry.name, role: entry.role });
+        if entry.rate.is_none() && entry.rate_burst.is_some() {
+            return Err(bad(Some(format!("{place}: rate_burst")), "needs a rate beside it".to_owned()));
+        }
+        let bucket = entry.rate(default).map(Bucket::new);
+        let holder = Arc::new(Holder { name: entry.name, role: entry.role, bucket });
         if keys.insert(entry.hash, holder).is_some() {
             return Err(bad(Some(place), "the hash of an earlier entry".to_owned()));
         }

@@ -92,7 +92,12 @@ pub(crate) async fn get_events(
     let Job { id, .. } = visible(&state, &caller, id).await?;
     let watcher = state.jobs.watch(id).await?.ok_or_else(|| Error::NoSuchJob(id.to_string()))?;
     let stopping = state.stopping.clone().cancelled_owned();
-    let events = watcher.take_until(stopping).filter_map(|job| async move { event(&job) });
+    let stream = state.admission.stream()?;
+    let events = watcher.take_until(stopping).filter_map(move |job| {
+        // Counted until it is dropped.
+        let _stream = &stream;
+        std::future::ready(event(&job))
+    });
     Ok(([LIVE], Sse::new(endless(events)).keep_alive(KeepAlive::new().interval(SILENCE))).into_response())
 }
 

@@ -11,8 +11,9 @@ use crate::error::{Error, Fault};
 use crate::problem::{PROBLEM_JSON, Problem};
 
 /// Every reason for 503.
-const BUSY: &str = "The queue is full, the service is stopping, jobs cannot be recorded, or the answer took too long \
-                    (`queue_full`, `stopping`, `jobs_unavailable`, `timed_out`, `job_too_long`).";
+const BUSY: &str = "The queue is full, too much is worked on, the service is stopping, jobs cannot be recorded, or the \
+                    answer took too long (`queue_full`, `overloaded`, `stopping`, `jobs_unavailable`, `timed_out`, \
+                    `job_too_long`).";
 
 type Responses = BTreeMap<String, RefOr<Response>>;
 
@@ -21,6 +22,9 @@ pub(crate) struct ServiceProblems;
 
 /// Failures of what takes a key.
 pub(crate) struct KeyProblems;
+
+/// Failures of who asks too fast.
+pub(crate) struct RateProblems;
 
 /// Failures of what not every key may.
 pub(crate) struct ForbiddenProblem;
@@ -62,7 +66,10 @@ impl IntoResponses for ServiceProblems {
     fn responses() -> Responses {
         [
             documented("A defect of the service (`internal`).", Error::Internal),
-            documented("The answer took too long (`timed_out`).", Error::TimedOut),
+            documented(
+                "Too much is worked on, or the answer took too long (`overloaded`, `timed_out`).",
+                Error::Overloaded,
+            ),
         ]
         .into()
     }
@@ -72,6 +79,13 @@ impl IntoResponses for KeyProblems {
     fn responses() -> Responses {
         let words = "The service has keys, and none that it knows was sent (`unauthorized`).";
         [documented(words, Error::Unauthorized)].into()
+    }
+}
+
+impl IntoResponses for RateProblems {
+    fn responses() -> Responses {
+        let words = "The key or address asks faster than it may (`too_many_requests`).";
+        [documented(words, Error::TooManyRequests(1))].into()
     }
 }
 
