@@ -55,6 +55,7 @@ fn errors_name_the_flag() {
         ("fk --rho 1,2,3 --tool-length -5", "--tool-length:"),
         ("ik --x 1 --y 2 --z 3", "--phi1:"),
         ("ik --frame platform --x 1 --y 2 --z 3 --machine nautilus", "--machine:"),
+        ("key new --role read --name 10.0.0.1", "--name"),
         ("fk --rho 1,2,3 --machine ./nowhere.json", "./nowhere.json"),
         ("fk --rho 1,2,3 --near-joints 1,2,3 --near-pose 1,2,3", "--near"),
     ] {

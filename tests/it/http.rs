@@ -1,5 +1,6 @@
 //! The service through HTTP: requests go through the whole router, layers included.
 
+mod admission;
 mod bad_input;
 mod batch;
 mod dexterity;
@@ -10,9 +11,12 @@ mod jobs_kept;
 mod jobs_listed;
 mod jobs_refused;
 mod jobs_stopped;
+mod keys;
+mod keys_files;
 mod kinematics;
 mod machines;
 mod part_frame;
+mod rates;
 mod transport;
 mod viewer;
 mod workspace;

@@ -4,7 +4,7 @@ use axum::Router;
 use axum::body::Body;
 use axum::http::header::CONTENT_TYPE;
 use axum::http::{Method, Request};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::http::{Reply, get, json_request, send_to, service};
 
@@ -89,4 +89,15 @@ fn difference(at: &str, a: &Value, b: &Value) -> Option<String> {
         }
         _ => (a != b).then(|| format!("{at}: {a} and {b}")),
     }
+}
+
+/// Two types of one name would be one schema, the last one's.
+#[tokio::test]
+async fn a_rows_status_and_the_services_are_two_schemas() {
+    let document = get("/openapi.json").await.json;
+    let schemas = &document["components"]["schemas"];
+    let of_health = schemas["Health"]["properties"]["status"]["$ref"].as_str().unwrap();
+    let of_health = document.pointer(of_health.strip_prefix('#').unwrap()).unwrap();
+    assert_eq!(of_health["enum"], json!(["ok", "degraded"]));
+    assert_eq!(schemas["Status"]["enum"], json!(["ok", "unreachable", "infeasible", "invalid"]));
 }

@@ -26,6 +26,11 @@ pub trait Backend: Send + Sync {
     /// is left as it is. Returns the job as it stands after that.
     async fn cancel(&self, id: JobId) -> Result<Option<Job>, Unavailable>;
 
+    /// One of the job's [clients](Job::clients) does not want it any more: it is one of them no longer. The last takes
+    /// the job along: it is cancelled as by its name, unless it is a part of what others want, and the client stays named.
+    /// Of a finished job, or for who is no client of it, all stays as it is. Returns the job as it stands after that.
+    async fn leave(&self, id: JobId, client: &str) -> Result<Option<Job>, Unavailable>;
+
     /// Whether what keeps the records answers, as far as is known without asking it.
     fn reachable(&self) -> Result<(), Unavailable>;
 
@@ -43,7 +48,7 @@ pub trait Backend: Send + Sync {
 pub struct Filter {
     /// Only those in this state.
     pub state: Option<State>,
-    /// Whose first submission it was.
+    /// Only those that this client has submitted.
     pub client: Option<String>,
     /// Only those behind this place of an earlier page.
     pub after: Option<Cursor>,

@@ -95,7 +95,10 @@ impl Embedded {
             Some(entry) => entry.feeder.job(),
             None => job,
         });
-        jobs.filter(|job| filter.state.is_none_or(|state| state == job.state)).collect()
+        let client = filter.client.as_deref();
+        jobs.filter(|job| filter.state.is_none_or(|state| state == job.state))
+            .filter(|job| client.is_none_or(|client| job.clients.contains(client)))
+            .collect()
     }
 }
 
@@ -138,6 +141,17 @@ impl Backend for Embedded {
         match self.keeper.cancel(id) {
             Some(job) => {
                 // Answered after the writes that were asked for before.
+                self.read(|_| Ok(())).await?;
+                Ok(Some(job))
+            }
+            None => self.read(move |records| records.get(id)).await,
+        }
+    }
+
+    async fn leave(&self, id: JobId, client: &str) -> Result<Option<Job>, Unavailable> {
+        match self.keeper.leave(id, client) {
+            Some(job) => {
+                // As with cancel.
                 self.read(|_| Ok(())).await?;
                 Ok(Some(job))
             }

@@ -9,7 +9,7 @@ use futures_util::{StreamExt, stream};
 use tokio::sync::watch;
 use tokio::time::{Instant, sleep_until};
 
-use crate::{Job, State};
+use crate::{Clients, Job, State};
 
 /// Least time between two changes of progress that one watcher sees.
 const PACE: Duration = Duration::from_millis(100);
@@ -52,6 +52,11 @@ impl Feeder {
             change(job);
         });
         self.job.borrow().clone()
+    }
+
+    /// Changes who its clients are; whether that changes anything.
+    pub(crate) fn change_clients(&self, change: impl FnOnce(&mut Clients) -> bool) -> bool {
+        self.job.send_if_modified(|job| change(&mut job.clients))
     }
 
     /// Whether it is further than before.

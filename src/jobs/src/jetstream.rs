@@ -142,6 +142,11 @@ impl Backend for JetStream {
         self.client.cancel(id).await
     }
 
+    async fn leave(&self, id: JobId, client: &str) -> Result<Option<Job>, Unavailable> {
+        self.settled().await?;
+        self.client.leave(id, client).await
+    }
+
     fn reachable(&self) -> Result<(), Unavailable> {
         match self.client.bus.client.connection_state() {
             State::Connected => Ok(()),

@@ -3,9 +3,9 @@ use std::time::{Duration, SystemTime};
 use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 
-use crate::JobId;
 use crate::moment::now;
 use crate::threads::run::Outcome;
+use crate::{Clients, JobId};
 
 /// What is asked for: data, so that any process that knows the [`Work`](crate::Work) can do it.
 #[derive(Clone, Debug)]
@@ -81,8 +81,10 @@ pub enum Failure {
 pub struct Job {
     /// Hash of what it makes.
     pub id: JobId,
-    /// The first to submit it.
+    /// To whom it was charged first.
     pub client: String,
+    /// Who has submitted this life of it; nobody, as long as it has only been asked for as a part.
+    pub clients: Clients,
     /// Seconds of one core, estimated.
     pub cost: f64,
     /// The question, in the work's own terms.
@@ -104,9 +106,10 @@ pub struct Job {
 }
 
 /// As it enters the queue.
-pub(crate) fn queued(submission: Submission) -> Job {
+pub(crate) fn queued(submission: Submission, as_part: bool) -> Job {
     Job {
         id: submission.id,
+        clients: if as_part { Clients::default() } else { Clients::of(&submission.client) },
         client: submission.client,
         cost: told_apart(submission.cost),
         payload: submission.payload,

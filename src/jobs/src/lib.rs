@@ -42,6 +42,7 @@
 
 mod backend;
 mod claim;
+mod clients;
 pub mod embedded;
 mod feed;
 mod id;
@@ -53,6 +54,7 @@ mod work;
 
 pub use backend::{Backend, Counts, Cursor, Filter, NotACursor, Page, SubmitError, Unavailable};
 pub use claim::Claim;
+pub use clients::Clients;
 pub use embedded::Embedded;
 pub use feed::Watcher;
 pub use id::{JobId, NotAJobId};

@@ -11,12 +11,15 @@ use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
+use crate::access::{BadKeys, Gate};
+use crate::admission::Admission;
 use crate::config::ServeConfig;
 use crate::metrics::Metrics;
 use crate::readiness::Readiness;
 use crate::registry::{BadFile, Registry};
 use crate::state::{Shared, State};
 use crate::storage::{Storage, StorageError};
+use crate::workers::spare_a_core;
 use crate::{layers, openapi, router, viewer};
 
 /// Why the service cannot run.
@@ -24,6 +27,8 @@ use crate::{layers, openapi, router, viewer};
 pub enum StartError {
     /// A machine's file.
     Machine(BadFile),
+    /// The file of keys.
+    Keys(BadKeys),
     /// Where jobs and results are kept.
     Storage(StorageError),
     /// The address, or the listener later on.
@@ -34,6 +39,7 @@ impl fmt::Display for StartError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Machine(bad) => bad.fmt(f),
+            Self::Keys(bad) => bad.fmt(f),
             Self::Storage(error) => error.fmt(f),
             Self::Listen(address, error) => write!(f, "cannot serve on {address}: {error}"),
         }
@@ -44,7 +50,7 @@ impl std::error::Error for StartError {}
 
 /// The OpenAPI document, generated from the handlers.
 pub fn document() -> Value {
-    openapi::complete(router::routes().get_openapi())
+    openapi::complete(router::routes(&Gate::for_all(Admission::new(1))).get_openapi())
 }
 
 /// The document as it is sent: the committed copy, which the tests hold equal to [`document`]. Its examples are the
@@ -56,6 +62,7 @@ pub struct Service {
     /// Ready for requests.
     pub router: Router,
     state: Shared,
+    gate: Gate,
 }
 
 impl Service {
@@ -65,7 +72,9 @@ impl Service {
         if let Some(directory) = &config.machines {
             machines.publish_directory(directory).map_err(StartError::Machine)?;
         }
-        let (routes, _) = router::routes().split_for_parts();
+        let admission = Admission::new(config.max_requests);
+        let gate = Gate::open(config, Arc::clone(&admission)).await.map_err(StartError::Keys)?;
+        let (routes, _) = router::routes(&gate).split_for_parts();
         let Storage { results, jobs, computations } =
             Storage::open(config).await.map_err(StartError::Storage)?;
         let stopping = CancellationToken::new();
@@ -73,11 +82,17 @@ impl Service {
         let metrics = Metrics::of(Arc::clone(&jobs), results.store(), &computations);
         let requests = Arc::clone(&metrics.requests);
         let limits = config.limits();
-        let state = Arc::new(State { machines, limits, results, jobs, readiness, metrics, stopping });
+        let state =
+            Arc::new(State { machines, limits, admission, results, jobs, readiness, metrics, stopping });
         let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
         let routes = routes.with_state(Arc::clone(&state)).merge(docs).merge(viewer::routes());
         let router = layers::wrap(routes, requests, Duration::from_secs(config.timeout));
-        Ok(Self { router, state })
+        Ok(Self { router, state, gate })
+    }
+
+    /// Reads the keys again, as at SIGHUP; if the file cannot be used, they stay as they are.
+    pub async fn reload_keys(&self) -> Result<(), StartError> {
+        self.gate.reload().await.map_err(StartError::Keys)
     }
 
     /// Stops: whoever waits for a job is told so, and jobs go back to the queue. Returns within about `limit`.
@@ -92,6 +107,7 @@ impl Service {
 pub async fn serve(config: &ServeConfig) -> Result<(), StartError> {
     let failed = |error| StartError::Listen(config.listen, error);
     let listener = TcpListener::bind(config.listen).await.map_err(failed)?;
+    spare_a_core();
     let service = Service::open(config).await?;
     tracing::info!("listening on http://{}", listener.local_addr().map_err(failed)?);
     let stopping = service.state.stopping.clone();

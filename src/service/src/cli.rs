@@ -1,11 +1,13 @@
 //! The command line.
 
 mod health;
+mod key;
 mod progress;
 mod question;
 mod workspace;
 
 use health::HealthCommand;
+use key::KeyCommand;
 use question::Question;
 use workspace::WorkspaceCommand;
 
@@ -44,6 +46,8 @@ enum Command {
     Worker(WorkerConfig),
     /// Ask a service whether it is ready: ends with 0 where it is, with 1 otherwise.
     Health(HealthCommand),
+    /// Keys for the file of --keys.
+    Key(KeyCommand),
     /// A workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
     Workspace(WorkspaceCommand),
     #[command(flatten)]
@@ -68,6 +72,7 @@ impl Cli {
             Command::Serve(config) => on_runtime(&config.telemetry, app::serve(&config)),
             Command::Worker(config) => on_runtime(&config.telemetry, worker::work(&config)),
             Command::Health(command) => command.run(),
+            Command::Key(command) => command.run(out),
             Command::Workspace(command) => command.run(out, pretty),
             Command::Ask(question) => {
                 let answer = question.answer(pretty)?;

@@ -11,7 +11,7 @@ pub mod sharing;
 pub mod worker;
 
 use std::net::SocketAddr;
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -91,6 +91,21 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_TIMEOUT", default_value_t = 30, value_name = "SECONDS",
         value_parser = value_parser!(u64).range(1..=LONGEST))]
     pub timeout: u64,
+    /// TOML file of the API keys that requests need, made by `verne key new`; without it anybody may ask for anything.
+    /// Read again at SIGHUP.
+    #[arg(long, env = "VERNE_KEYS", value_name = "FILE")]
+    pub keys: Option<PathBuf>,
+    /// Requests a second that a key, or without --keys an address, may send; 0 for any number. Behind a proxy all come from
+    /// the proxy's address: limit them there, or by keys.
+    #[arg(long, env = "VERNE_RATE", default_value_t = 0, value_name = "REQUESTS")]
+    pub rate: u32,
+    /// Requests that may come at once where --rate limits them; by default a second's.
+    #[arg(long, env = "VERNE_RATE_BURST", value_name = "REQUESTS")]
+    pub rate_burst: Option<NonZeroU32>,
+    /// Most requests that are worked on at once, those that wait for a job not counted; the next are answered 503.
+    #[arg(long, env = "VERNE_MAX_REQUESTS", default_value_t = 4096, value_name = "REQUESTS",
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
+    pub max_requests: usize,
     /// Seconds that requests under way and jobs have to come to an end when the service is told to stop.
     #[arg(long, env = "VERNE_DRAIN", default_value_t = 10, value_name = "SECONDS",
         value_parser = value_parser!(u64).range(0..=LONGEST))]

@@ -5,6 +5,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 use verne_jobs::{SubmitError, Unavailable};
 
+use crate::access::Role;
+
 /// One bad field: where it is and what would be accepted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Fault {
@@ -24,6 +26,14 @@ impl Fault {
 /// Why a request gets no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Error {
+    /// No key was sent that is known here.
+    Unauthorized,
+    /// The key does not suffice; this role would.
+    Forbidden(Role),
+    /// The client asks too fast; after so many seconds it may again.
+    TooManyRequests(u64),
+    /// As much is worked on as may be.
+    Overloaded,
     /// The body is not JSON; the parser's words.
     Syntax(String),
     /// Well-formed, but these fields cannot be used.
@@ -88,6 +98,14 @@ pub(crate) enum Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Unauthorized => {
+                write!(f, "Send a key that is known here: the header Authorization: Bearer KEY.")
+            }
+            Self::Forbidden(role) => write!(f, "This takes a key whose role is {role}."),
+            Self::TooManyRequests(seconds) => {
+                write!(f, "More requests came than this client may send; the next in {seconds} s.")
+            }
+            Self::Overloaded => write!(f, "As many requests are worked on as may be; try again in a second."),
             Self::Syntax(reason) => write!(f, "The body is not JSON: {reason}."),
             Self::Fields(faults) if faults.len() == 1 => write!(f, "One field cannot be used; see errors."),
             Self::Fields(faults) => write!(f, "{} fields cannot be used; see errors.", faults.len()),

@@ -6,10 +6,13 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, header};
 use http_body_util::LengthLimitError;
 use serde::de::DeserializeOwned;
+use tokio::sync::OwnedSemaphorePermit;
+use verne_solver::workspace::Observer;
 
 use crate::error::Error;
 use crate::state::Shared;
 use crate::wire::parse::{parse_body, parse_query};
+use crate::workers::on_workers_while_waited_for;
 
 /// Most bytes in the body of a single question: parsing it stays far below half a millisecond.
 pub(crate) const SINGLE_BODY_BYTES: usize = 64 * 1024;
@@ -37,13 +40,34 @@ impl<T: DeserializeOwned> FromRequest<Shared> for Single<T> {
 }
 
 /// The JSON body of a batch, still to be parsed: that is work for the worker threads.
-pub(crate) struct Batch(pub Bytes);
+pub(crate) struct Batch {
+    body: Bytes,
+    share: OwnedSemaphorePermit,
+}
+
+impl Batch {
+    /// The answer, from the worker threads. The batch counts as one until it is computed, whether anybody waits or not.
+    pub(crate) async fn answer(
+        self,
+        work: impl FnOnce(&[u8], &dyn Observer) -> Result<Vec<u8>, Error> + Send + 'static,
+    ) -> Result<Vec<u8>, Error> {
+        let Self { body, share } = self;
+        on_workers_while_waited_for(move |observer| {
+            let answer = work(&body, observer);
+            drop(share);
+            answer
+        })
+        .await
+    }
+}
 
 impl FromRequest<Shared> for Batch {
     type Rejection = Error;
 
     async fn from_request(request: Request, state: &Shared) -> Result<Self, Error> {
-        json_bytes(request, state.limits.body_bytes).await.map(Self)
+        let share = state.admission.batch()?;
+        let body = json_bytes(request, state.limits.body_bytes).await?;
+        Ok(Self { body, share })
     }
 }
 

@@ -2,6 +2,8 @@
 //!
 //! Dependencies point one way: main → cli → app → router → handlers → answers → wire, state, error.
 
+mod access;
+mod admission;
 mod answers;
 pub mod app;
 pub mod cli;

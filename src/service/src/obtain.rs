@@ -1,10 +1,13 @@
 //! From a question to its answer: what is kept, or what a job makes while somebody waits.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use verne_jobs::State as JobState;
 use verne_jobs::{Claim, Failure, Job};
 
+use crate::access::{Caller, Role};
+use crate::admission::Place;
 use crate::answers::{Question, TaskFault};
 use crate::error::Error;
 use crate::result_id::ResultId;
@@ -16,14 +19,16 @@ pub(crate) enum Obtained<T> {
     /// The answer.
     Ready(T),
     /// A job that will have it.
-    Pending(Job),
+    Pending(Box<Job>),
 }
 
 /// Who waits, and how long.
 #[derive(Clone, Debug)]
 pub(crate) struct Patience {
-    /// Whose share of the cores a job is charged to.
-    pub client: String,
+    /// Who waits.
+    pub caller: Caller,
+    /// Given back while it waits.
+    pub place: Arc<Place>,
     /// How long the answer is waited for before the job's address is answered.
     pub wait: Duration,
 }
@@ -48,19 +53,26 @@ impl State {
         question: &Question,
         patience: &Patience,
     ) -> Result<Obtained<Record>, Error> {
-        let submission = question.submission(patience.client.clone(), Some(self.limits.job))?;
+        patience.caller.must_be(Role::Compute)?;
+        let submission = question.submission(patience.caller.client.clone(), Some(self.limits.job))?;
         let claim = self.jobs.submit(submission).await?;
         if patience.wait.is_zero() {
             return Ok(Obtained::Pending(kept(&claim)));
         }
-        tokio::select! {
-            job = claim.finished() => self.finished(question.id(), job).await.map(Obtained::Ready),
-            () = tokio::time::sleep(patience.wait) => Ok(Obtained::Pending(kept(&claim))),
-            () = self.stopping.cancelled() => {
-                // The client is told that it goes on.
-                claim.keep();
-                Err(Error::Stopping)
+        let wait = async {
+            tokio::select! {
+                job = claim.finished() => Ok(Some(job)),
+                () = tokio::time::sleep(patience.wait) => Ok(None),
+                () = self.stopping.cancelled() => {
+                    // The client is told that it goes on.
+                    claim.keep();
+                    Err(Error::Stopping)
+                }
             }
+        };
+        match patience.place.aside(wait).await.unwrap_or(Ok(None))? {
+            Some(job) => self.finished(question.id(), job).await.map(Obtained::Ready),
+            None => Ok(Obtained::Pending(kept(&claim))),
         }
     }
 
@@ -92,9 +104,9 @@ impl State {
     }
 }
 
-fn kept(claim: &Claim) -> Job {
+fn kept(claim: &Claim) -> Box<Job> {
     claim.keep();
-    claim.job()
+    Box::new(claim.job())
 }
 
 /// Why a job failed.

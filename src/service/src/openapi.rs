@@ -1,5 +1,6 @@
 //! The OpenAPI document: what the handlers say, completed with examples that the solver answers.
 
+pub(crate) mod access;
 pub(crate) mod binary;
 mod examples;
 mod inlined;
@@ -31,8 +32,13 @@ use crate::wire::workspace_summary::WorkspaceSummary;
             one.\n\n\
             **Order**: the working solution first, then by alpha, then by rho; with `near`, by distance from it: the \
             root of the sum of squares of lengths in mm and of angles as arcs of radius R1.\n\n\
+            **Keys**: where the service was started with `--keys`, all but the probes and this document takes one, sent as \
+            `Authorization: Bearer KEY`. Its role says what it is good for. `read`: questions that are answered at \
+            once, batches of them, machines, kept results, its own jobs, metrics. `compute`: also what begins jobs, \
+            and the end of its own. `admin`: also the jobs of all. Results go by their ids: who knows the id knows the \
+            question, and any key may read them.\n\n\
             **Failures** are `application/problem+json` (RFC 9457) with a stable `code`, all of them: `bad_json`, \
-            `bad_request`, `invalid_request`, `machine_not_found`, `not_found`, `method_not_allowed`, `body_too_large`, \
+            `bad_request`, `unauthorized`, `forbidden`, `too_many_requests`, `overloaded`, `invalid_request`, `machine_not_found`, `not_found`, `method_not_allowed`, `body_too_large`, \
             `too_many_rows`, `unsupported_media_type`, `workspace_not_found`, `no_mesh`, `no_slice`, `no_cells`, `job_not_found`, \
             `not_acceptable`, `range_not_satisfiable`, `queue_full`, `stopping`, `jobs_unavailable`, `disk_failing`, `job_cancelled`, \
             `job_too_long`, `other_version`, `no_room`, `timed_out`, `internal`. Bad fields are listed in `errors` with \

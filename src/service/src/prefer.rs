@@ -1,13 +1,15 @@
-//! How long a client is willing to wait: the header Prefer (RFC 7240), and who the client is.
+//! How long a client is willing to wait: the header Prefer (RFC 7240).
 
-use std::convert::Infallible;
-use std::net::{IpAddr, SocketAddr};
+use std::sync::Arc;
 use std::time::Duration;
 
-use axum::extract::{ConnectInfo, FromRequestParts};
+use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Response};
 
+use crate::access::Caller;
+use crate::admission::Place;
+use crate::error::Error;
 use crate::obtain::Patience;
 use crate::state::Shared;
 
@@ -23,18 +25,19 @@ pub(crate) struct Prefer {
 }
 
 impl FromRequestParts<Shared> for Prefer {
-    type Rejection = Infallible;
+    type Rejection = Error;
 
-    async fn from_request_parts(parts: &mut Parts, state: &Shared) -> Result<Self, Infallible> {
-        let address = parts.extensions.get::<ConnectInfo<SocketAddr>>();
-        let client = address.map_or_else(|| "local".to_owned(), |ConnectInfo(peer)| network(peer.ip()));
+    async fn from_request_parts(parts: &mut Parts, state: &Shared) -> Result<Self, Error> {
+        let caller = Caller::from_request_parts(parts, state).await?;
+        // The gate has put it there.
+        let place = parts.extensions.get::<Arc<Place>>().cloned().ok_or(Error::Internal)?;
         let preferred = preferred(&parts.headers);
         let wait = preferred.unwrap_or(state.limits.wait).min(state.limits.longest_wait);
         let applied = preferred.map(|_| match wait.as_secs() {
             0 => "respond-async".to_owned(),
             seconds => format!("wait={seconds}"),
         });
-        Ok(Self { patience: Patience { client, wait }, applied })
+        Ok(Self { patience: Patience { caller, place, wait }, applied })
     }
 }
 
@@ -43,17 +46,6 @@ impl Prefer {
     pub(crate) fn tell<B>(self, response: &mut Response<B>) {
         if let Some(value) = self.applied.and_then(|applied| HeaderValue::from_str(&applied).ok()) {
             response.headers_mut().insert(PREFERENCE_APPLIED, value);
-        }
-    }
-}
-
-/// One client of the queue: an address, or the network that an IPv6 subscriber has for himself.
-fn network(address: IpAddr) -> String {
-    match address.to_canonical() {
-        IpAddr::V4(address) => address.to_string(),
-        IpAddr::V6(address) => {
-            let [a, b, c, d, ..] = address.segments();
-            format!("{a:x}:{b:x}:{c:x}:{d:x}::/64")
         }
     }
 }
@@ -85,7 +77,7 @@ mod tests {
 
     use axum::http::{HeaderMap, HeaderValue};
 
-    use super::{PREFER, network, preferred};
+    use super::{PREFER, preferred};
 
     #[test]
     fn preferences_as_rfc_7240_has_them() {
@@ -104,13 +96,5 @@ mod tests {
             let headers = HeaderMap::from_iter([(PREFER, HeaderValue::from_static(header))]);
             assert_eq!(preferred(&headers), seconds.map(Duration::from_secs), "{header}");
         }
-    }
-
-    #[test]
-    fn a_subscriber_is_one_client() {
-        let of = |address: &str| address.parse().map(network);
-        assert_eq!(of("2001:db8:1:2:3::4"), of("2001:db8:1:2:ffff::1"));
-        assert_ne!(of("2001:db8:1:2::1"), of("2001:db8:1:3::1"));
-        assert_eq!(of("::ffff:10.0.0.1"), of("10.0.0.1"));
     }
 }

@@ -57,6 +57,10 @@ fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
         Error::Syntax(_) => (StatusCode::BAD_REQUEST, "bad_json"),
         Error::BodyLost(_) => (StatusCode::BAD_REQUEST, "bad_request"),
         Error::Fields(_) => (StatusCode::UNPROCESSABLE_ENTITY, "invalid_request"),
+        Error::Unauthorized => (StatusCode::UNAUTHORIZED, "unauthorized"),
+        Error::Forbidden(_) => (StatusCode::FORBIDDEN, "forbidden"),
+        Error::TooManyRequests(_) => (StatusCode::TOO_MANY_REQUESTS, "too_many_requests"),
+        Error::Overloaded => (StatusCode::SERVICE_UNAVAILABLE, "overloaded"),
         Error::NotJson(_) => (StatusCode::UNSUPPORTED_MEDIA_TYPE, "unsupported_media_type"),
         Error::BodyTooLarge(_) => (StatusCode::PAYLOAD_TOO_LARGE, "body_too_large"),
         Error::TooManyRows { .. } => (StatusCode::PAYLOAD_TOO_LARGE, "too_many_rows"),
@@ -124,15 +128,20 @@ impl IntoResponse for Problem {
 
 impl IntoResponse for Error {
     fn into_response(self) -> Response {
+        let keyless = self == Self::Unauthorized;
         let length = if let Self::RangeNotSatisfiable(length) = self { Some(length) } else { None };
         let pause = match self {
-            Self::QueueFull(seconds) => Some(seconds),
+            Self::QueueFull(seconds) | Self::TooManyRequests(seconds) => Some(seconds),
+            Self::Overloaded => Some(1),
             Self::Stopping | Self::JobsUnavailable | Self::DiskFailing => Some(PAUSE),
             _ => None,
         };
         let mut response = Problem::from(self).into_response();
         if let Some(length) = length {
             response.headers_mut().typed_insert(ContentRange::unsatisfied_bytes(length));
+        }
+        if keyless {
+            response.headers_mut().insert(header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
         }
         if let Some(pause) = pause {
             response.headers_mut().insert(header::RETRY_AFTER, pause.into());

@@ -1,38 +1,52 @@
 //! The one list of routes: the router and the OpenAPI document are both made from it.
 
 use utoipa::OpenApi;
-use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouter};
 use utoipa_axum::routes;
 
+use crate::access::Access::{self, For, Open};
+use crate::access::Gate;
+use crate::access::Role::{Compute, Read};
+use crate::admission::Load::{Question, Watch, Work};
 use crate::handlers::{
     batch, contains, dexterity, jobs, kinematics, machines, service, workspace, workspace_results,
 };
-use crate::openapi::Document;
+use crate::openapi::{Document, access};
 use crate::state::Shared;
 
-/// Every route with its documentation.
-pub(crate) fn routes() -> OpenApiRouter<Shared> {
-    OpenApiRouter::with_openapi(Document::openapi())
-        .routes(routes!(kinematics::get_fk, kinematics::post_fk))
-        .routes(routes!(kinematics::get_ik, kinematics::post_ik))
-        .routes(routes!(batch::fk_batch))
-        .routes(routes!(batch::ik_batch))
-        .routes(routes!(workspace::get_workspace, workspace::post_workspace))
-        .routes(routes!(contains::post_contains))
-        .routes(routes!(dexterity::post_dexterity))
-        .routes(routes!(workspace_results::get_summary))
-        .routes(routes!(workspace_results::get_mesh))
-        .routes(routes!(workspace_results::get_slice))
-        .routes(routes!(dexterity::get_cells))
-        .routes(routes!(jobs::get_jobs))
-        .routes(routes!(jobs::get_job, jobs::delete_job))
-        .routes(routes!(jobs::get_events))
-        .routes(routes!(machines::get_machines))
-        .routes(routes!(machines::get_machine_schema))
-        .routes(routes!(machines::get_machine))
-        .routes(routes!(service::get_openapi))
-        .routes(routes!(service::get_livez))
-        .routes(routes!(service::get_readyz))
-        .routes(routes!(service::get_metrics))
-        .fallback(service::nothing_here)
+/// Every route with who may use it, and what it is to the service.
+fn list() -> [(Access, UtoipaMethodRouter<Shared>); 22] {
+    [
+        (For(Read, Question), routes!(kinematics::get_fk, kinematics::post_fk)),
+        (For(Read, Question), routes!(kinematics::get_ik, kinematics::post_ik)),
+        (For(Read, Work), routes!(batch::fk_batch)),
+        (For(Read, Work), routes!(batch::ik_batch)),
+        (For(Compute, Work), routes!(workspace::get_workspace, workspace::post_workspace)),
+        (For(Read, Work), routes!(contains::post_contains)),
+        (For(Compute, Work), routes!(dexterity::post_dexterity)),
+        (For(Read, Work), routes!(workspace_results::get_summary)),
+        (For(Read, Work), routes!(workspace_results::get_mesh)),
+        (For(Read, Work), routes!(workspace_results::get_slice)),
+        (For(Read, Work), routes!(dexterity::get_cells)),
+        (For(Read, Work), routes!(jobs::get_jobs)),
+        (For(Read, Work), routes!(jobs::get_job)),
+        (For(Compute, Work), routes!(jobs::delete_job)),
+        (For(Read, Work), routes!(jobs::get_events)),
+        (For(Read, Question), routes!(machines::get_machines)),
+        (For(Read, Question), routes!(machines::get_machine_schema)),
+        (For(Read, Question), routes!(machines::get_machine)),
+        (For(Read, Watch), routes!(service::get_metrics)),
+        (Open, routes!(service::get_openapi)),
+        (Open, routes!(service::get_livez)),
+        (Open, routes!(service::get_readyz)),
+    ]
+}
+
+/// Every route behind the gate, with its documentation.
+pub(crate) fn routes(gate: &Gate) -> OpenApiRouter<Shared> {
+    let document = access::with_scheme(Document::openapi());
+    let router = OpenApiRouter::with_openapi(document).fallback(service::nothing_here);
+    list().into_iter().fold(router, |router, (access, (schemas, paths, route))| {
+        router.routes((schemas, access::documented(paths, access), gate.before(route, access)))
+    })
 }

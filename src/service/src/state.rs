@@ -6,6 +6,7 @@ use std::time::Duration;
 use tokio_util::sync::CancellationToken;
 use verne_jobs::Backend;
 
+use crate::admission::Admission;
 use crate::metrics::Metrics;
 use crate::readiness::Readiness;
 use crate::registry::Registry;
@@ -32,6 +33,8 @@ pub(crate) struct State {
     pub machines: Registry,
     /// The largest requests that are answered.
     pub limits: RequestLimits,
+    /// How much is worked on at once.
+    pub admission: Arc<Admission>,
     /// What has been answered.
     pub results: Results,
     /// What is being computed.

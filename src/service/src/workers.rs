@@ -1,11 +1,22 @@
 //! Long computations run on rayon's threads; the runtime's threads only wait for them.
 
+use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use tokio::sync::oneshot::{self, Sender};
 use verne_solver::workspace::Observer;
 
 use crate::error::Error;
+
+/// Has one worker thread less than cores, at least one: single questions, which the runtime's threads answer, keep one
+/// whatever batches there are. For the process; without effect once a worker thread runs.
+pub(crate) fn spare_a_core() {
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(cores.saturating_sub(1).max(1));
+    if let Err(error) = threads.build_global() {
+        tracing::warn!(%error, "the worker threads are as many as cores");
+    }
+}
 
 /// Runs `work` on the worker threads. A panic in it is an internal error, not the end of the process.
 pub(crate) async fn on_workers<T: Send + 'static>(
@@ -21,6 +32,10 @@ pub(crate) async fn on_workers_while_waited_for<T: Send + 'static>(
     let (sender, receiver) = oneshot::channel();
     rayon::spawn(move || {
         let waiting = Waiting(&sender);
+        // Its turn may come after the caller has gone.
+        if waiting.cancelled() {
+            return;
+        }
         let outcome = catch_unwind(AssertUnwindSafe(|| work(&waiting))).unwrap_or(Err(Error::Internal));
         // Nobody waits any more when the caller has gone; then the answer is of no use.
         drop(sender.send(outcome));

@@ -117,6 +117,9 @@ impl Keeper {
             entry.hidden = false;
             self.recorder.write(Write::Show { life }, Box::new(drop));
         }
+        if after.is_none() {
+            self.change_clients(board, submission.id, life, |clients| clients.join(&submission.client));
+        }
         let Some(deadline) = board.entry(submission.id, life).and_then(|entry| entry.deadline) else {
             return;
         };
@@ -141,7 +144,8 @@ impl Keeper {
         board.last_life += 1;
         let life = board.last_life;
         let hidden = after.is_some();
-        let record = Record { life, deadline: submission.deadline, hidden, job: queued(submission) };
+        let deadline = submission.deadline;
+        let record = Record { life, deadline, hidden, job: queued(submission, hidden) };
         let (sender, recorded) = watch::channel(None);
         let keeper = Arc::clone(self);
         let reply = move |result: Result<(), _>| {

@@ -10,7 +10,7 @@ use std::time::{Duration, SystemTime};
 use rusqlite::{Connection, OptionalExtension, named_params};
 
 use crate::moment::{now, to_micros};
-use crate::{Filter, Job, JobId, State, Unavailable};
+use crate::{Clients, Filter, Job, JobId, State, Unavailable};
 
 pub(super) use open::{Opened, open};
 
@@ -38,6 +38,11 @@ pub(super) enum Write {
     /// A part is asked for by itself.
     Show {
         life: u64,
+    },
+    /// Another asks for it, or one does no longer.
+    Clients {
+        life: u64,
+        clients: Clients,
     },
     /// It waits for its parts.
     Split {

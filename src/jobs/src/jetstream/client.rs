@@ -148,6 +148,13 @@ impl Client {
         Ok(cancelled.await?.and(self.mirror.job(id)))
     }
 
+    /// The job after that.
+    pub(super) async fn leave(&self, id: JobId, client: &str) -> Result<Option<Job>, Unavailable> {
+        let _shard = self.shard(id).await;
+        let left = self.change(id, |record| record.leave(client)).await?;
+        Ok(left.and(self.mirror.job(id)))
+    }
+
     fn check_room(&self, bytes: usize, as_part: bool) -> Result<(), SubmitError> {
         let config = &self.bus.config;
         let board = self.mirror.lock();

@@ -225,7 +225,7 @@ impl Board {
             let Record { job, hidden, .. } = &entry.record;
             !hidden
                 && filter.state.is_none_or(|state| state == job.state)
-                && filter.client.as_ref().is_none_or(|client| *client == job.client)
+                && filter.client.as_ref().is_none_or(|client| job.clients.contains(client))
         });
         let page: Vec<_> = found.by_ref().take(limit).collect();
         let next = found.next().and(page.last()).map(|entry| entry.record.life);

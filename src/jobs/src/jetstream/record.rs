@@ -12,7 +12,7 @@ use crate::threads::run::{Outcome, Told};
 use crate::{Job, JobId, State, Submission};
 
 /// First byte of a record that this code reads.
-const VERSION: u8 = 1;
+const VERSION: u8 = 2;
 
 /// Whose interest keeps a job alive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -43,8 +43,9 @@ pub(super) struct Record {
 
 impl Record {
     pub(super) fn new(life: u64, submission: Submission, claimant: Claimant, hidden: bool) -> Self {
+        let as_part = matches!(claimant, Claimant::Whole(..));
         let deadline = submission.deadline.and_then(|limit| now().checked_add(limit));
-        let mut job = queued(submission);
+        let mut job = queued(submission, as_part);
         job.progress = 0.0;
         let claimants = BTreeSet::from([claimant]);
         Self { life, turn: 0, job, deadline, hidden, kept: false, claimants, told: None, split: false }
@@ -72,6 +73,9 @@ impl Record {
     /// Takes a submission in; whether that changes it.
     pub(super) fn join(&mut self, submission: &Submission, claimant: Claimant, as_part: bool) -> bool {
         let mut changes = self.claimants.insert(claimant);
+        if !as_part {
+            changes |= self.job.clients.join(&submission.client);
+        }
         if self.hidden && !as_part {
             self.hidden = false;
             changes = true;
@@ -82,6 +86,24 @@ impl Record {
             changes = true;
         }
         changes
+    }
+
+    /// A client does not want it any more; whether that changes anything.
+    pub(super) fn leave(&mut self, client: &str) -> bool {
+        if !self.goes_on() || !self.job.clients.contains(client) {
+            return false;
+        }
+        let is_last = self.job.clients.is_only(client);
+        if is_last {
+            self.kept = false;
+            self.claimants.retain(|claimant| matches!(claimant, Claimant::Whole(..)));
+        }
+        if is_last && !self.is_wanted() {
+            self.stop(Told::Cancelled);
+        } else {
+            self.job.clients.leave(client);
+        }
+        true
     }
 
     /// A queued job ends, a running one is told to.

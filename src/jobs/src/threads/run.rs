@@ -173,6 +173,7 @@ mod tests {
         let job = Job {
             id,
             client: String::new(),
+            clients: crate::Clients::default(),
             cost: 1.0,
             payload: bytes::Bytes::new(),
             state: State::Running,

@@ -15,6 +15,8 @@ for_each_backend!(
     a_queued_job_is_cancelled,
     a_running_job_is_cancelled,
     a_finished_job_is_not_cancelled,
+    a_job_goes_on_for_the_clients_that_stay,
+    the_last_client_leaves_a_part_to_its_whole,
     a_deadline_stops_a_running_job,
     a_deadline_ends_a_queued_job,
     the_latest_deadline_holds,
@@ -87,6 +89,37 @@ async fn a_finished_job_is_not_cancelled(open: Open) {
     let end = stand.submit(job("ada", "a", "pass")).await.finished().await;
     assert_eq!(stand.backend.cancel(id("a")).await.unwrap(), Some(end.clone()));
     assert_eq!(stand.get("a").await, end);
+}
+
+async fn a_job_goes_on_for_the_clients_that_stay(open: Open) {
+    let stand = open(10);
+    let leave = async |name, client| stand.backend.leave(id(name), client).await.unwrap().unwrap();
+    for client in ["ada", "bob"] {
+        stand.leave(job(client, "a", "hold")).await;
+    }
+    stand.stage.begun(1).await;
+    let left = leave("a", "ada").await;
+    assert!(left.state == State::Running && !left.clients.contains("ada") && left.clients.contains("bob"));
+    for nobody in ["ada", "eve"] {
+        assert_eq!(leave("a", nobody).await.state, State::Running, "{nobody}");
+    }
+    leave("a", "bob").await;
+    let end = stand.end("a").await;
+    assert!(end.state == State::Cancelled && end.clients.contains("bob"));
+    assert_eq!(leave("a", "bob").await, end);
+    assert_eq!(stand.get("a").await, end);
+    assert_eq!(stand.backend.leave(id("b"), "ada").await.unwrap(), None);
+}
+
+async fn the_last_client_leaves_a_part_to_its_whole(open: Open) {
+    let stand = open(10);
+    stand.leave(job("ada", "whole", "split a=hold")).await;
+    stand.stage.begun(1).await;
+    stand.leave(job("bob", "a", "hold")).await;
+    let left = stand.backend.leave(id("a"), "bob").await.unwrap().unwrap();
+    assert!(left.state == State::Running && !left.clients.contains("bob"));
+    stand.stage.open("a");
+    assert_eq!(stand.end("whole").await.state, State::Succeeded);
 }
 
 async fn a_deadline_stops_a_running_job(open: Open) {

@@ -36,6 +36,11 @@ fn damage(directory: &Path, number: usize) {
             bytes[4096..8192].fill(0xA5);
             bytes
         }
+        // An earlier version's.
+        2 => {
+            Connection::open(&path).unwrap().pragma_update(None, "user_version", 1).unwrap();
+            return;
+        }
         // Another's database.
         _ => {
             fs::remove_file(&path).unwrap();
@@ -50,7 +55,7 @@ fn damage(directory: &Path, number: usize) {
 async fn a_damaged_database_is_set_aside() {
     within_a_minute(async {
         let directory = used().await;
-        for number in 0..3 {
+        for number in 0..4 {
             damage(directory.path(), number);
             let damaged = fs::read(directory.path().join("jobs.sqlite3")).unwrap();
             let backend = open(directory.path()).unwrap();

@@ -35,6 +35,7 @@ async fn jobs_outlive_their_process() {
         let running = before.submit(job("ada", "running", "hold")).await;
         let queued = before.submit(job("bob", "queued", "pass")).await;
         before.stage.begun(2).await;
+        before.leave(job("bob", "running", "hold")).await;
         // Answered after all that was to be written.
         assert_eq!(before.get("done").await, done);
         let copy = killed(directory.path());
@@ -48,6 +49,7 @@ async fn jobs_outlive_their_process() {
         after.stage.open("running");
         let end = after.end("running").await;
         assert_eq!((end.state, end.client.as_str()), (State::Succeeded, "ada"));
+        assert!(["ada", "bob"].iter().all(|client| end.clients.contains(client)), "{:?}", end.clients);
         let end = after.end("queued").await;
         assert_eq!((end.state, end.attempts, end.client.as_str()), (State::Succeeded, 1, "bob"));
         // What is new is the newest.

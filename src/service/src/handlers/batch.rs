@@ -9,7 +9,6 @@ use crate::extract::Batch;
 use crate::openapi::problems::BatchProblems;
 use crate::state::Shared;
 use crate::wire::batch::{FkBatchAnswer, FkBatchRequest, IkBatchAnswer, IkBatchRequest};
-use crate::workers::on_workers;
 
 type JsonBytes = ([(HeaderName, &'static str); 1], Vec<u8>);
 
@@ -26,8 +25,9 @@ fn json(body: Vec<u8>) -> JsonBytes {
     request_body(content = FkBatchRequest, description = "The rows of joints."),
     responses((status = 200, description = "One entry for each row.", body = FkBatchAnswer), BatchProblems)
 )]
-pub(crate) async fn fk_batch(State(state): State<Shared>, Batch(body): Batch) -> Result<JsonBytes, Error> {
-    on_workers(move || answer_fk_batch(&body, &state.machines, state.limits.rows)).await.map(json)
+pub(crate) async fn fk_batch(State(state): State<Shared>, batch: Batch) -> Result<JsonBytes, Error> {
+    let answer = batch.answer(move |body, _| answer_fk_batch(body, &state.machines, state.limits.rows));
+    answer.await.map(json)
 }
 
 /// Inverse kinematics of many rows
@@ -39,6 +39,7 @@ pub(crate) async fn fk_batch(State(state): State<Shared>, Batch(body): Batch) ->
     request_body(content = IkBatchRequest, description = "The rows of poses."),
     responses((status = 200, description = "One entry for each row.", body = IkBatchAnswer), BatchProblems)
 )]
-pub(crate) async fn ik_batch(State(state): State<Shared>, Batch(body): Batch) -> Result<JsonBytes, Error> {
-    on_workers(move || answer_ik_batch(&body, &state.machines, state.limits.rows)).await.map(json)
+pub(crate) async fn ik_batch(State(state): State<Shared>, batch: Batch) -> Result<JsonBytes, Error> {
+    let answer = batch.answer(move |body, _| answer_ik_batch(body, &state.machines, state.limits.rows));
+    answer.await.map(json)
 }

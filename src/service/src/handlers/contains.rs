@@ -9,7 +9,6 @@ use crate::extract::Batch;
 use crate::openapi::problems::BatchProblems;
 use crate::state::Shared;
 use crate::wire::contains::{ContainsAnswer, ContainsRequest};
-use crate::workers::on_workers_while_waited_for;
 
 /// Which points belong to a workspace
 ///
@@ -22,11 +21,9 @@ use crate::workers::on_workers_while_waited_for;
 )]
 pub(crate) async fn post_contains(
     State(state): State<Shared>,
-    Batch(body): Batch,
+    batch: Batch,
 ) -> Result<([(HeaderName, &'static str); 1], Vec<u8>), Error> {
-    let answer = on_workers_while_waited_for(move |observer| {
-        answer_contains(&body, &state.machines, state.limits.rows, observer)
-    })
-    .await?;
-    Ok(([(CONTENT_TYPE, "application/json")], answer))
+    let answer = batch
+        .answer(move |body, observer| answer_contains(body, &state.machines, state.limits.rows, observer));
+    Ok(([(CONTENT_TYPE, "application/json")], answer.await?))
 }

@@ -13,6 +13,7 @@ use axum::response::{IntoResponse, Response, Sse};
 use futures_util::{Stream, StreamExt};
 use verne_jobs::{Filter, Job, JobId};
 
+use crate::access::Caller;
 use crate::error::{Error, Fault};
 use crate::extract::Params;
 use crate::openapi::binary::JobEvent;
@@ -30,7 +31,7 @@ const SILENCE: Duration = Duration::from_secs(15);
 
 /// Jobs
 ///
-/// What is being computed and what was, newest first. Finished jobs are forgotten after a while; their results are
+/// What is being computed and what was, newest first; of a key that is no administrator's, what it has asked for. Finished jobs are forgotten after a while; their results are
 /// kept apart from them.
 #[utoipa::path(
     get, path = "/jobs", operation_id = "jobs", tag = "jobs", params(JobsQuery),
@@ -38,6 +39,7 @@ const SILENCE: Duration = Duration::from_secs(15);
 )]
 pub(crate) async fn get_jobs(
     State(state): State<Shared>,
+    caller: Caller,
     Params(query): Params<JobsQuery>,
 ) -> Result<impl IntoResponse, Error> {
     let fault = |name, detail| Error::Fields(vec![Fault::new(format!("/query/{name}"), detail)]);
@@ -46,7 +48,8 @@ pub(crate) async fn get_jobs(
         return Err(fault("limit", "must be a number from 1 to 100"));
     }
     let after = after.map(|text| text.parse().map_err(|_| fault("after", "must be the `next` of a page")));
-    let filter = Filter { state: wanted.map(Into::into), client: None, after: after.transpose()?, limit };
+    let client = caller.sees_only().map(str::to_owned);
+    let filter = Filter { state: wanted.map(Into::into), client, after: after.transpose()?, limit };
     let page = state.jobs.list(filter).await?;
     let jobs = page.jobs.iter().map(JobObject::new).collect::<Result<_, _>>()?;
     Ok(([LIVE], Json(JobList { jobs, next: page.next.map(|next| next.to_string()) })))
@@ -60,9 +63,12 @@ pub(crate) async fn get_jobs(
     params(("id" = String, Path, description = "The id that /workspace answered.")),
     responses((status = 200, description = "The job.", body = JobObject), JobProblems)
 )]
-pub(crate) async fn get_job(State(state): State<Shared>, id: Id) -> Result<impl IntoResponse, Error> {
-    let (text, id) = known(id)?;
-    let job = state.jobs.get(id).await?.ok_or(Error::NoSuchJob(text))?;
+pub(crate) async fn get_job(
+    State(state): State<Shared>,
+    caller: Caller,
+    id: Id,
+) -> Result<impl IntoResponse, Error> {
+    let job = visible(&state, &caller, id).await?;
     Ok(([LIVE], Json(JobObject::new(&job)?)))
 }
 
@@ -78,11 +84,20 @@ pub(crate) async fn get_job(State(state): State<Shared>, id: Id) -> Result<impl 
         JobProblems
     )
 )]
-pub(crate) async fn get_events(State(state): State<Shared>, id: Id) -> Result<Response, Error> {
-    let (text, id) = known(id)?;
-    let watcher = state.jobs.watch(id).await?.ok_or(Error::NoSuchJob(text))?;
+pub(crate) async fn get_events(
+    State(state): State<Shared>,
+    caller: Caller,
+    id: Id,
+) -> Result<Response, Error> {
+    let Job { id, .. } = visible(&state, &caller, id).await?;
+    let watcher = state.jobs.watch(id).await?.ok_or_else(|| Error::NoSuchJob(id.to_string()))?;
     let stopping = state.stopping.clone().cancelled_owned();
-    let events = watcher.take_until(stopping).filter_map(|job| async move { event(&job) });
+    let stream = state.admission.stream()?;
+    let events = watcher.take_until(stopping).filter_map(move |job| {
+        // Counted until it is dropped.
+        let _stream = &stream;
+        std::future::ready(event(&job))
+    });
     Ok(([LIVE], Sse::new(endless(events)).keep_alive(KeepAlive::new().interval(SILENCE))).into_response())
 }
 
@@ -96,25 +111,34 @@ fn event(job: &Job) -> Option<Event> {
 
 /// Cancel a job
 ///
-/// Whoever waits for it. A running computation stops within a second; one that is finished stays as it is. The answer is
+/// Whoever waits for it; but where several keys have asked for it, only the caller's interest ends: the job goes on for
+/// the others and is no longer among the caller's, unless the key is an administrator's. A running computation stops within a second; one that is finished stays as it is. The answer is
 /// the job as it stands then.
 #[utoipa::path(
     delete, path = "/jobs/{id}", operation_id = "job_cancel", tag = "jobs",
     params(("id" = String, Path, description = "The id that /workspace answered.")),
     responses((status = 200, description = "The job.", body = JobObject), JobProblems)
 )]
-pub(crate) async fn delete_job(State(state): State<Shared>, id: Id) -> Result<impl IntoResponse, Error> {
-    let (text, id) = known(id)?;
-    let job = state.jobs.cancel(id).await?.ok_or(Error::NoSuchJob(text))?;
+pub(crate) async fn delete_job(
+    State(state): State<Shared>,
+    caller: Caller,
+    id: Id,
+) -> Result<impl IntoResponse, Error> {
+    let Job { id, .. } = visible(&state, &caller, id).await?;
+    let ended = match caller.sees_only() {
+        Some(client) => state.jobs.leave(id, client).await?,
+        None => state.jobs.cancel(id).await?,
+    };
+    let job = ended.ok_or_else(|| Error::NoSuchJob(id.to_string()))?;
     Ok(([LIVE], Json(JobObject::new(&job)?)))
 }
 
-fn known(id: Id) -> Result<(String, JobId), Error> {
+/// The job, if it is there for this caller: another's is as one that is not.
+async fn visible(state: &crate::state::State, caller: &Caller, id: Id) -> Result<Job, Error> {
     let Path(text) = id.map_err(|_| Error::NoSuchPath)?;
-    match text.parse() {
-        Ok(id) => Ok((text, id)),
-        Err(_) => Err(Error::NoSuchJob(text)),
-    }
+    let Ok(id) = text.parse::<JobId>() else { return Err(Error::NoSuchJob(text)) };
+    let job = state.jobs.get(id).await?.filter(|job| caller.sees(job));
+    job.ok_or(Error::NoSuchJob(text))
 }
 
 /// 202: a job will have the answer.

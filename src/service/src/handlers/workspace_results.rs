@@ -29,7 +29,8 @@ pub(super) type Id = Result<Path<String>, PathRejection>;
 /// A computed workspace in figures
 ///
 /// What /workspace answered under this id. Results leave when room is needed: asked again, /workspace gives the same
-/// id and the same bytes.
+/// id and the same bytes. The id is a hash of the question: who knows it knows the question, so any key may read what
+/// is kept under it.
 #[utoipa::path(
     get, path = "/workspace/{id}", operation_id = "workspace_summary", tag = "workspace",
     params(("id" = String, Path, description = "The id that /workspace answered.")),

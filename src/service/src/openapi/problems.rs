@@ -6,17 +6,28 @@ use serde_json::json;
 use utoipa::IntoResponses;
 use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder};
 
+use crate::access::Role;
 use crate::error::{Error, Fault};
 use crate::problem::{PROBLEM_JSON, Problem};
 
 /// Every reason for 503.
-const BUSY: &str = "The queue is full, the service is stopping, jobs cannot be recorded, or the answer took too long \
-                    (`queue_full`, `stopping`, `jobs_unavailable`, `timed_out`, `job_too_long`).";
+const BUSY: &str = "The queue is full, too much is worked on, the service is stopping, jobs cannot be recorded, or the \
+                    answer took too long (`queue_full`, `overloaded`, `stopping`, `jobs_unavailable`, `timed_out`, \
+                    `job_too_long`).";
 
 type Responses = BTreeMap<String, RefOr<Response>>;
 
 /// Failures of every operation.
 pub(crate) struct ServiceProblems;
+
+/// Failures of what takes a key.
+pub(crate) struct KeyProblems;
+
+/// Failures of who asks too fast.
+pub(crate) struct RateProblems;
+
+/// Failures of what not every key may.
+pub(crate) struct ForbiddenProblem;
 
 /// Failures of a question in the query string.
 pub(crate) struct QueryProblems;
@@ -55,9 +66,33 @@ impl IntoResponses for ServiceProblems {
     fn responses() -> Responses {
         [
             documented("A defect of the service (`internal`).", Error::Internal),
-            documented("The answer took too long (`timed_out`).", Error::TimedOut),
+            documented(
+                "Too much is worked on, or the answer took too long (`overloaded`, `timed_out`).",
+                Error::Overloaded,
+            ),
         ]
         .into()
+    }
+}
+
+impl IntoResponses for KeyProblems {
+    fn responses() -> Responses {
+        let words = "The service has keys, and none that it knows was sent (`unauthorized`).";
+        [documented(words, Error::Unauthorized)].into()
+    }
+}
+
+impl IntoResponses for RateProblems {
+    fn responses() -> Responses {
+        let words = "The key or address asks faster than it may (`too_many_requests`).";
+        [documented(words, Error::TooManyRequests(1))].into()
+    }
+}
+
+impl IntoResponses for ForbiddenProblem {
+    fn responses() -> Responses {
+        [documented("The role of the key does not suffice (`forbidden`).", Error::Forbidden(Role::Compute))]
+            .into()
     }
 }
 
@@ -120,7 +155,7 @@ impl IntoResponses for KeptQueryProblems {
 
 impl IntoResponses for MeshProblems {
     fn responses() -> Responses {
-        with(KeptQueryProblems::responses(), of_jobs())
+        with(with(KeptQueryProblems::responses(), of_jobs()), ForbiddenProblem::responses())
     }
 }
 

@@ -46,6 +46,8 @@ pub(crate) struct Health {
 /// Whether a service works.
 #[derive(Clone, Copy, Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
+// Named for the document: a batch's rows have a status, too.
+#[schema(as = HealthStatus)]
 pub(crate) enum Status {
     /// Altogether.
     Ok,

@@ -2,6 +2,7 @@
 
 import createClient from "openapi-fetch";
 import type { components, paths } from "../../generated/openapi";
+import { send } from "./key";
 
 export type Schemas = components["schemas"];
 export type Machine = Schemas["Machine"];
@@ -20,7 +21,7 @@ export type Slice = Schemas["Slice"];
 /** Relative to the page, so that it also works behind a prefix. */
 export const BASE = new URL(".", document.baseURI).href.replace(/\/$/, "");
 
-export const client = createClient<paths>({ baseUrl: BASE });
+export const client = createClient<paths>({ baseUrl: BASE, fetch: send });
 
 /** What the service, or the way to it, refused. */
 export class Refused extends Error {

@@ -2,15 +2,14 @@
 
 import { EventSourceParserStream } from "eventsource-parser/stream";
 import { BASE, client, Refused, unwrap, type Schemas } from "./client";
+import { send } from "./key";
 
 export type Job = Schemas["Job"];
 
 /** Follows a job to its end; answers the path of its result. */
 export async function follow(started: Job, report: (job: Job) => void, signal: AbortSignal): Promise<string> {
-  const response = await fetch(`${BASE}${started.links.events}`, {
-    headers: { accept: "text/event-stream" },
-    signal,
-  });
+  const headers = { accept: "text/event-stream" };
+  const response = await send(new Request(`${BASE}${started.links.events}`, { headers, signal }));
   if (!response.ok || !response.body) {
     throw new Refused({ detail: `The job cannot be followed: ${response.status}.` });
   }

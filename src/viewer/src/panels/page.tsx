@@ -6,6 +6,7 @@ import { link } from "../state/address_bar";
 import { drawing } from "../scene/software";
 import { World, type Side } from "../scene/world";
 import { JointsPanel } from "./joints";
+import { KeyDialog } from "./key";
 import { MachinePicker } from "./machine";
 import { MachineFaults } from "./machine_faults";
 import { acceptDrops } from "./machine_file";
@@ -59,6 +60,7 @@ export function Page() {
         </div>
       )}
       <MachineFaults />
+      <KeyDialog />
     </>
   );
 }

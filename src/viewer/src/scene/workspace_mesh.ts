@@ -12,7 +12,8 @@ import {
   type BufferGeometry,
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import { BASE, type WorkspaceSummary } from "../api/client";
+import { BASE, Refused, type WorkspaceSummary } from "../api/client";
+import { send } from "../api/key";
 import type { Surface } from "../state/store";
 import { shares } from "../geometry/shares";
 
@@ -56,7 +57,9 @@ export class WorkspaceMesh {
       clear(this.grades[grade]);
       return [];
     }
-    const loaded = await this.loader.loadAsync(`${BASE}${summary.links.mesh}?format=glb`);
+    const answer = await send(new Request(`${BASE}${summary.links.mesh}?format=glb`));
+    if (!answer.ok) throw new Refused({ detail: `The mesh cannot be loaded: ${answer.status}.` });
+    const loaded = await this.loader.parseAsync(await answer.arrayBuffer(), "");
     if (this.shown[grade] !== summary.id) return null;
     clear(this.grades[grade]);
     let pieces: Surface[] = [];

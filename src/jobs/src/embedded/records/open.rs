@@ -26,7 +26,7 @@ pub(in crate::embedded) struct Opened {
 
 /// Why one database cannot be used.
 enum Fault {
-    /// It is not a database of jobs, or damaged.
+    /// It is not a database of jobs, an earlier version's, or damaged.
     Corrupt(String),
     Newer(i64),
     Other(String),
@@ -63,7 +63,7 @@ pub(in crate::embedded) fn open(
     let mut opened = match attempt() {
         Err(Fault::Corrupt(reason)) => {
             let set_aside = set_aside(directory).map_err(unusable)?;
-            tracing::error!(reason, moved_to = %set_aside.display(), "the database of jobs is damaged; a new one is begun");
+            tracing::error!(reason, moved_to = %set_aside.display(), "the database of jobs cannot be read; a new one is begun");
             attempt().map(|opened| Opened { set_aside: Some(set_aside), ..opened })
         }
         opened => opened,
@@ -149,6 +149,9 @@ fn is_new(connection: &Connection) -> Result<bool, Fault> {
         schema::VERSION => Ok(false),
         0 if tables == 0 => Ok(true),
         0 => Err(Fault::Corrupt("a database of something else".to_owned())),
+        version if version < schema::VERSION => {
+            Err(Fault::Corrupt(format!("written by an earlier version (schema {version})")))
+        }
         version => Err(Fault::Newer(version)),
     }
 }

@@ -8,7 +8,7 @@ use rusqlite::{Connection, Row, named_params};
 
 use super::{Record, Write, schema};
 use crate::moment::{from_micros, to_micros};
-use crate::{Failure, Job, JobId, State};
+use crate::{Clients, Failure, Job, JobId, State};
 
 pub(super) fn write(connection: &Connection, write: &Write) -> rusqlite::Result<()> {
     match write {
@@ -20,6 +20,10 @@ pub(super) fn write(connection: &Connection, write: &Write) -> rusqlite::Result<
         }
         Write::Show { life } => {
             connection.prepare_cached(schema::SHOW)?.execute([life.cast_signed()]).map(drop)
+        }
+        Write::Clients { life, clients } => {
+            let parameters = named_params! { ":life": life.cast_signed(), ":clients": to_json(clients)? };
+            connection.prepare_cached(schema::CLIENTS)?.execute(parameters).map(drop)
         }
         Write::Split { life } => {
             connection.prepare_cached(schema::SPLIT)?.execute([life.cast_signed()]).map(drop)
@@ -40,10 +44,15 @@ pub(super) fn write(connection: &Connection, write: &Write) -> rusqlite::Result<
 fn submit(connection: &Connection, Record { life, job, deadline, hidden }: &Record) -> rusqlite::Result<()> {
     let parameters = named_params! {
         ":life": life.cast_signed(), ":id": job.id.as_bytes(), ":client": job.client, ":cost": job.cost,
+        ":clients": to_json(&job.clients)?,
         ":payload": job.payload.as_ref(), ":deadline": deadline.map(to_millis), ":created": to_micros(job.created),
         ":hidden": hidden,
     };
     connection.prepare_cached(schema::SUBMIT)?.execute(parameters).map(drop)
+}
+
+fn to_json(clients: &Clients) -> rusqlite::Result<String> {
+    serde_json::to_string(clients).map_err(|fault| rusqlite::Error::ToSqlConversionFailure(Box::new(fault)))
 }
 
 fn to_millis(limit: Duration) -> i64 {
@@ -81,6 +90,7 @@ pub(super) fn read(row: &Row<'_>) -> rusqlite::Result<Record> {
     let job = Job {
         id: JobId::from_bytes(row.get("id")?),
         client: row.get("client")?,
+        clients: serde_json::from_str(&row.get::<_, String>("clients")?).map_err(|_| unknown("clients"))?,
         cost: row.get("cost")?,
         payload: Bytes::from(row.get::<_, Vec<u8>>("payload")?),
         state,

@@ -1,13 +1,14 @@
 //! The database's statements.
 
 /// `user_version` of a database that these statements fit.
-pub(super) const VERSION: i64 = 1;
+pub(super) const VERSION: i64 = 2;
 
 pub(super) const CREATE: &str = "
 CREATE TABLE jobs (
     life INTEGER PRIMARY KEY,
     id BLOB NOT NULL UNIQUE,
     client TEXT NOT NULL,
+    clients TEXT NOT NULL, -- who has submitted it: an array of JSON
     cost REAL NOT NULL,
     payload BLOB NOT NULL,
     deadline INTEGER, -- milliseconds
@@ -28,11 +29,13 @@ CREATE INDEX live ON jobs (life) WHERE finished IS NULL;
 ";
 
 pub(super) const SUBMIT: &str = "
-INSERT OR REPLACE INTO jobs (life, id, client, cost, payload, deadline, state, progress, created, attempts, hidden)
-VALUES (:life, :id, :client, :cost, :payload, :deadline, 'queued', 0.0, :created, 0,
+INSERT OR REPLACE INTO jobs (life, id, client, clients, cost, payload, deadline, state, progress, created, attempts, hidden)
+VALUES (:life, :id, :client, :clients, :cost, :payload, :deadline, 'queued', 0.0, :created, 0,
     :hidden AND coalesce((SELECT hidden FROM jobs WHERE id = :id), 1))";
 
 pub(super) const SHOW: &str = "UPDATE jobs SET hidden = 0 WHERE life = ?1";
+
+pub(super) const CLIENTS: &str = "UPDATE jobs SET clients = :clients WHERE life = :life";
 
 pub(super) const SPLIT: &str = "UPDATE jobs SET split = 1 WHERE life = ?1";
 
@@ -51,7 +54,8 @@ pub(super) const GET: &str = "SELECT * FROM jobs WHERE id = ?1";
 
 pub(super) const LIST: &str = "
 SELECT * FROM jobs
-WHERE life < :before AND NOT hidden AND (:state IS NULL OR state = :state) AND (:client IS NULL OR client = :client)
+WHERE life < :before AND NOT hidden AND (:state IS NULL OR state = :state)
+    AND (:client IS NULL OR EXISTS (SELECT 1 FROM json_each(clients) WHERE value = :client))
 ORDER BY life DESC LIMIT :limit";
 
 pub(super) const LIVE: &str = "SELECT * FROM jobs WHERE finished IS NULL ORDER BY life";

@@ -1,0 +1,58 @@
+//! The keys in force.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Weak};
+
+use tokio::sync::watch;
+
+use super::key::Key;
+use super::keys_file::{self, BadKeys, Holder, Table};
+use super::rate::Rate;
+
+/// The keys of a file, as it was when it was last read well.
+pub(super) struct Keys {
+    path: PathBuf,
+    rate: Option<Rate>,
+    table: watch::Sender<Table>,
+}
+
+impl Keys {
+    /// Reads the file now, and again at each SIGHUP; `rate` limits the keys that have none of their own.
+    pub(super) async fn open(path: PathBuf, rate: Option<Rate>) -> Result<Arc<Self>, BadKeys> {
+        let table = watch::Sender::new(read(path.clone(), rate).await?);
+        let keys = Arc::new(Self { path, rate, table });
+        tracing::info!(keys = keys.table.borrow().len(), "keys are asked for");
+        #[cfg(unix)]
+        drop(tokio::spawn(reread(Arc::downgrade(&keys))));
+        Ok(keys)
+    }
+
+    /// Whose key was sent.
+    pub(super) fn holder(&self, sent: &str) -> Option<Arc<Holder>> {
+        self.table.borrow().get(&Key::hash_of(sent)).cloned()
+    }
+
+    /// Reads the file again; if it cannot be used, all stays as it is.
+    pub(super) async fn reload(&self) -> Result<(), BadKeys> {
+        self.table.send_replace(read(self.path.clone(), self.rate).await?);
+        Ok(())
+    }
+}
+
+async fn read(path: PathBuf, rate: Option<Rate>) -> Result<Table, BadKeys> {
+    let lost = BadKeys::lost(&path);
+    tokio::task::spawn_blocking(move || keys_file::read(&path, rate)).await.unwrap_or(Err(lost))
+}
+
+#[cfg(unix)]
+async fn reread(keys: Weak<Keys>) {
+    use tokio::signal::unix::{SignalKind, signal};
+    let Ok(mut hangups) = signal(SignalKind::hangup()) else { return };
+    while hangups.recv().await.is_some() {
+        let Some(keys) = keys.upgrade() else { return };
+        match keys.reload().await {
+            Ok(()) => tracing::info!(keys = keys.table.borrow().len(), "keys were read again"),
+            Err(error) => tracing::error!(%error, "keys stay as they were"),
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! `verne key`: makes the keys of a service.
+
+use std::io::Write;
+
+use clap::{Args, Subcommand};
+
+use crate::access::{Key, Role, is_name};
+
+/// Keys of a service.
+#[derive(Debug, Args)]
+pub(super) struct KeyCommand {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Print a fresh key, and the entry that makes it known for the file of --keys. The file has only its hash: the
+    /// key is shown this once.
+    New {
+        /// Whose it is: 1 to 64 letters, digits or .-_, a letter first. Two keys of one name are one client.
+        #[arg(long, value_parser = name)]
+        name: String,
+        /// What it is good for.
+        #[arg(long, value_enum)]
+        role: Role,
+    },
+}
+
+impl KeyCommand {
+    /// Writes the key and its entry to `out`.
+    pub(super) fn run(self, out: &mut impl Write) -> Result<(), String> {
+        let Command::New { name, role } = self.command;
+        let key = Key::fresh().map_err(|error| format!("the system has no random numbers: {error}"))?;
+        let hash = key.hash().to_hex();
+        writeln!(out, "{key}\n\n[[key]]\nname = \"{name}\"\nrole = \"{role}\"\nhash = \"{hash}\"")
+            .map_err(|error| format!("cannot write the key: {error}"))
+    }
+}
+
+fn name(text: &str) -> Result<String, &'static str> {
+    if is_name(text) { Ok(text.to_owned()) } else { Err("1 to 64 letters, digits or .-_, a letter first") }
+}

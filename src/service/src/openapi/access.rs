@@ -1,0 +1,45 @@
+//! What keys mean for the document.
+
+use utoipa::IntoResponses;
+use utoipa::openapi::OpenApi;
+use utoipa::openapi::path::{Operation, Paths};
+use utoipa::openapi::security::{Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
+
+use super::problems::{ForbiddenProblem, KeyProblems, RateProblems};
+use crate::access::{Access, Role};
+use crate::admission::Load;
+
+const BEARER: &str = "bearer";
+
+/// The document with the scheme by which keys are sent.
+pub(crate) fn with_scheme(mut document: OpenApi) -> OpenApi {
+    let mut scheme = Http::new(HttpAuthScheme::Bearer);
+    scheme.description = Some("A key; only where the service was started with --keys.".to_owned());
+    let components = document.components.get_or_insert_default();
+    components.add_security_scheme(BEARER, SecurityScheme::Http(scheme));
+    document
+}
+
+/// The operations of a route with what its access adds to them.
+pub(crate) fn documented(mut paths: Paths, access: Access) -> Paths {
+    let Access::For(role, load) = access else { return paths };
+    for item in paths.paths.values_mut() {
+        let operations = [&mut item.get, &mut item.post, &mut item.delete];
+        operations.into_iter().flatten().for_each(|operation| ask_for_key(operation, role, load));
+    }
+    paths
+}
+
+fn ask_for_key(operation: &mut Operation, role: Role, load: Load) {
+    // The second: not where the service has no keys.
+    let either = [SecurityRequirement::new(BEARER, [""; 0]), SecurityRequirement::default()];
+    operation.security = Some(either.into());
+    let responses = &mut operation.responses.responses;
+    responses.extend(KeyProblems::responses());
+    if load != Load::Watch {
+        responses.extend(RateProblems::responses());
+    }
+    if role > Role::Read {
+        responses.extend(ForbiddenProblem::responses());
+    }
+}

@@ -1,0 +1,51 @@
+// A service with keys: the page asks for one, and everything goes with it.
+import { execFileSync, spawn } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { expect, test } from "./viewer.mjs";
+
+const ADDRESS = "127.0.0.1:18474";
+const VERNE = resolve(import.meta.dirname, process.env.VERNE ?? "../../target/debug/verne");
+
+let directory, service, key;
+
+test.beforeAll(async () => {
+  const made = execFileSync(VERNE, ["key", "new", "--name", "cam", "--role", "compute"], { encoding: "utf8" });
+  let entry;
+  [key, entry] = made.split("\n\n");
+  directory = mkdtempSync(join(tmpdir(), "verne-keys-"));
+  const file = join(directory, "keys.toml");
+  writeFileSync(file, entry);
+  service = spawn(VERNE, ["serve", "--memory-only", "--wait", "0", "--listen", ADDRESS, "--keys", file]);
+  const ready = () => fetch(`http://${ADDRESS}/readyz`).then(({ ok }) => ok, () => false);
+  await expect.poll(ready).toBe(true);
+});
+
+test.afterAll(() => {
+  service.kill();
+  rmSync(directory, { recursive: true });
+});
+
+test.use({ baseURL: `http://${ADDRESS}`, provoked: [/status of 401/] });
+
+test("a key is asked for, and opens machines, jobs, meshes and files", async ({ page }) => {
+  await page.goto("/#workspace=tool&section=1200");
+  const dialog = page.getByRole("dialog", { name: "This service asks for a key" });
+  await dialog.getByLabel("Key").fill("wrong");
+  await dialog.getByRole("button").click();
+  await expect(dialog.getByRole("alert")).toBeVisible();
+  await dialog.getByLabel("Key").fill(key);
+  await dialog.getByLabel("Key").press("Enter");
+  await expect(dialog).toBeHidden();
+  await page.locator("canvas[data-ready=yes]").waitFor();
+  await expect(page.locator(".legend li").first()).toBeVisible();
+  await expect(page.getByTestId("slice-area")).toBeVisible();
+  const download = page.waitForEvent("download");
+  await page.getByRole("link", { name: "STL" }).click();
+  expect((await download).suggestedFilename()).toBe("verne-tool.stl");
+  // The tab keeps it.
+  await page.reload();
+  await page.locator("canvas[data-ready=yes]").waitFor();
+  await expect(dialog).toBeHidden();
+});

@@ -1,0 +1,145 @@
+//! What is refused when too much is worked on, and what is answered all the same.
+
+use std::convert::Infallible;
+
+use axum::Router;
+use axum::body::{Body, Bytes};
+use axum::http::header::RETRY_AFTER;
+use axum::http::{Method, Request, StatusCode};
+use futures_util::stream;
+use serde_json::{Value, json};
+use tokio::sync::oneshot;
+use tokio::task::JoinHandle;
+use tower::ServiceExt;
+use verne_service::config::ServeConfig;
+
+use super::jobs::{long, one_core, start};
+use super::workspace::ask;
+use super::{Reply, config, get_from, json_request, opened, send_to};
+
+const FK: &str = "/fk?rho=674,685,250";
+
+/// A request whose body is being read and does not end yet.
+struct Held {
+    end: oneshot::Sender<()>,
+    reply: JoinHandle<Reply>,
+}
+
+impl Held {
+    /// Returns when the body is being read.
+    async fn post(service: &Router, uri: &str, body: &Value) -> Self {
+        let ((begins, begun), (end, ended)) = (oneshot::channel(), oneshot::channel());
+        let bytes = Bytes::from(body.to_string());
+        let body = stream::once(async move {
+            begins.send(()).unwrap();
+            ended.await.unwrap();
+            Ok::<_, Infallible>(bytes)
+        });
+        let request = json_request(Method::POST, uri, "").map(|_| Body::from_stream(body));
+        let reply = tokio::spawn(send_to(service.clone(), request));
+        begun.await.unwrap();
+        Self { end, reply }
+    }
+
+    async fn end(self) -> Reply {
+        self.end.send(()).unwrap();
+        self.reply.await.unwrap()
+    }
+}
+
+async fn at_most(max_requests: usize) -> Router {
+    opened(&ServeConfig { max_requests, ..config(None) }).await
+}
+
+#[track_caller]
+fn assert_overloaded(reply: &Reply) {
+    reply.assert_problem(503, "overloaded");
+    assert_eq!(reply.headers[RETRY_AFTER], "1");
+}
+
+#[tokio::test]
+async fn batches_leave_places_for_questions() {
+    let service = at_most(8).await;
+    let batch = json!({"joints": [[674, 685, 250]]});
+    let mut held = Vec::new();
+    for _ in 0..4 {
+        held.push(Held::post(&service, "/fk/batch", &batch).await);
+    }
+    let more = || send_to(service.clone(), json_request(Method::POST, "/fk/batch", &batch));
+    assert_overloaded(&more().await);
+    let points = json_request(Method::POST, "/workspace/contains", json!({"points": [[0, 0, 900]]}));
+    assert_overloaded(&send_to(service.clone(), points).await);
+    for uri in [FK, "/jobs"] {
+        assert_eq!(get_from(&service, uri, &[]).await.status, StatusCode::OK, "{uri}");
+    }
+    for held in held {
+        assert_eq!(held.end().await.status, StatusCode::OK);
+    }
+    assert_eq!(more().await.status, StatusCode::OK);
+}
+
+#[tokio::test]
+async fn what_is_beyond_the_limit_is_refused_at_once() {
+    let service = at_most(4).await;
+    let mut held = Vec::new();
+    for _ in 0..3 {
+        held.push(Held::post(&service, "/workspace", &json!({"tolerance": 50})).await);
+    }
+    // The last place is kept for single questions.
+    assert_overloaded(&get_from(&service, "/jobs", &[]).await);
+    assert_eq!(get_from(&service, FK, &[]).await.status, StatusCode::OK);
+    held.push(Held::post(&service, "/fk", &json!({"joints": {"rho": [674, 685, 250]}})).await);
+    assert_overloaded(&get_from(&service, FK, &[]).await);
+    for uri in ["/livez", "/readyz", "/metrics", "/openapi.json", "/"] {
+        assert_eq!(get_from(&service, uri, &[]).await.status, StatusCode::OK, "{uri}");
+    }
+    for held in held {
+        assert_eq!(held.end().await.status, StatusCode::OK);
+    }
+    assert_eq!(get_from(&service, "/jobs", &[]).await.status, StatusCode::OK);
+}
+
+#[tokio::test]
+async fn who_waits_for_a_job_is_not_in_the_way() {
+    let service = opened(&ServeConfig { max_requests: 4, ..one_core() }).await;
+    for number in 0..8 {
+        let service = service.clone();
+        tokio::spawn(async move { ask(&service, long(100 * number)).await });
+    }
+    // Refused are those that come before others wait; they come again.
+    let mut asked = 8;
+    loop {
+        let reply = get_from(&service, "/jobs", &[]).await;
+        if reply.status == StatusCode::OK && reply.json["jobs"].as_array().unwrap().len() == 8 {
+            break;
+        }
+        let service = service.clone();
+        tokio::spawn(async move { ask(&service, long(100 * (asked % 8))).await });
+        asked += 1;
+        tokio::task::yield_now().await;
+    }
+    assert_eq!(get_from(&service, FK, &[]).await.status, StatusCode::OK);
+}
+
+#[tokio::test]
+async fn ten_thousand_follow_a_job() {
+    let service = opened(&one_core()).await;
+    let id = start(&service, &long(0)).await;
+    let follow = || {
+        let request = Request::get(format!("/jobs/{id}/events")).body(Body::empty()).unwrap();
+        service.clone().oneshot(request)
+    };
+    let mut followers = Vec::new();
+    loop {
+        let response = follow().await.unwrap();
+        if response.status() != StatusCode::OK {
+            assert_eq!(response.status(), StatusCode::SERVICE_UNAVAILABLE);
+            break;
+        }
+        followers.push(response);
+    }
+    assert!(followers.len() >= 10_000, "{}", followers.len());
+    assert_eq!(get_from(&service, "/jobs", &[]).await.status, StatusCode::OK);
+    followers.pop();
+    assert_eq!(follow().await.unwrap().status(), StatusCode::OK);
+}

@@ -1,0 +1,48 @@
+//! Files of keys that cannot be used say where and why.
+
+use verne_service::app::Service;
+
+use super::config;
+use super::keys::{Keys, fresh};
+
+async fn refusal(text: &str) -> String {
+    let keys = Keys::new([("cam", "read")]);
+    keys.write(text);
+    let refusal = Service::open(&keys.asked_for_by(config(None))).await.err().unwrap().to_string();
+    let file = keys.file();
+    let rest = refusal.strip_prefix(file.to_str().unwrap()).unwrap_or_else(|| panic!("{refusal}"));
+    rest.strip_prefix(": ").unwrap().to_owned()
+}
+
+#[tokio::test]
+async fn what_is_wrong_is_named() {
+    let (_, good) = fresh("cam", "read");
+    let (key, second) = fresh("cad", "compute");
+    let hash = second.lines().find(|line| line.starts_with("hash")).unwrap();
+    for (text, place) in [
+        (String::new(), "has no entry [[key]]"),
+        ("\n\n[[key]".to_owned(), "line 3: "),
+        (format!("{good}\n[[keys]]\nname = \"cad\""), "line 6: unknown field `keys`"),
+        (second.replace("compute", "write"), "key 1 (cad): role: unknown variant `write`"),
+        (format!("{good}\n{}", second.replace("cad", "10.0.0.1")), "key 2: name: must be"),
+        (format!("{good}\n{}", second.replace(hash, "")), "key 2 (cad): missing field `hash`"),
+        (second.replace(hash, &format!("hash = \"{key}\"")), "key 1 (cad): hash: must be the 64 hexa"),
+        (format!("{second}rate = -1"), "key 1 (cad): rate: "),
+        (format!("{second}rate_burst = 5"), "key 1 (cad): rate_burst: needs a rate"),
+        (format!("{second}rate = 5\nrate_burst = 0"), "key 1 (cad): rate_burst: "),
+        (format!("{second}extra = 1"), "key 1 (cad): extra: unknown field `extra`"),
+        (format!("{second}\n{second}"), "key 2 (cad): the hash of an earlier entry"),
+    ] {
+        let refusal = refusal(&text).await;
+        assert!(refusal.starts_with(place), "{text}\n{refusal}");
+        assert!(!refusal.contains(&key[10..]), "a key in the wrong place is not repeated: {refusal}");
+    }
+}
+
+#[tokio::test]
+async fn a_file_that_is_not_there_is_named() {
+    let keys = Keys::new([("cam", "read")]);
+    std::fs::remove_file(keys.file()).unwrap();
+    let refusal = Service::open(&keys.asked_for_by(config(None))).await.err().unwrap().to_string();
+    assert!(refusal.contains(keys.file().to_str().unwrap()), "{refusal}");
+}
