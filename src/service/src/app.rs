@@ -15,6 +15,7 @@ use crate::config::ServeConfig;
 use crate::metrics::Metrics;
 use crate::readiness::Readiness;
 use crate::registry::{BadFile, Registry};
+use crate::server::{Server, TlsError};
 use crate::state::{Shared, State};
 use crate::storage::{Storage, StorageError};
 use crate::{layers, openapi, router, viewer};
@@ -26,7 +27,9 @@ pub enum StartError {
     Machine(BadFile),
     /// Where jobs and results are kept.
     Storage(StorageError),
-    /// The address, or the listener later on.
+    /// The certificate.
+    Tls(TlsError),
+    /// The address.
     Listen(SocketAddr, std::io::Error),
 }
 
@@ -35,6 +38,7 @@ impl fmt::Display for StartError {
         match self {
             Self::Machine(bad) => bad.fmt(f),
             Self::Storage(error) => error.fmt(f),
+            Self::Tls(error) => error.fmt(f),
             Self::Listen(address, error) => write!(f, "cannot serve on {address}: {error}"),
         }
     }
@@ -87,33 +91,30 @@ impl Service {
     }
 }
 
-/// Serves until SIGTERM or ctrl-c. Then requests under way are finished and jobs go back to the queue, all within a
-/// bounded time.
+/// Serves until SIGTERM or ctrl-c.
 pub async fn serve(config: &ServeConfig) -> Result<(), StartError> {
-    let failed = |error| StartError::Listen(config.listen, error);
-    let listener = TcpListener::bind(config.listen).await.map_err(failed)?;
+    let listener = TcpListener::bind(config.listen).await;
+    let listener = listener.map_err(|error| StartError::Listen(config.listen, error))?;
+    serve_on(listener, config, told_to_stop()).await
+}
+
+/// Serves until `told` is over. Then requests under way are finished and jobs go back to the queue, all within a bounded
+/// time.
+pub async fn serve_on(
+    listener: TcpListener,
+    config: &ServeConfig,
+    told: impl Future<Output = ()>,
+) -> Result<(), StartError> {
+    let server = Server::new(listener, config).map_err(StartError::Tls)?;
     let service = Service::open(config).await?;
-    tracing::info!("listening on http://{}", listener.local_addr().map_err(failed)?);
-    let stopping = service.state.stopping.clone();
-    let router = service.router.clone().into_make_service_with_connect_info::<SocketAddr>();
-    let serving = axum::serve(listener, router).with_graceful_shutdown(stopping.clone().cancelled_owned());
+    server.announce(false).map_err(|error| StartError::Listen(config.listen, error))?;
     let limit = Duration::from_secs(config.drain);
-    let told = async {
-        told_to_stop().await;
+    let stopped = async {
+        told.await;
         service.stop(limit).await;
     };
-    // A client that reads nothing must not keep the process: what is open after the limit is cut.
-    let cut = async {
-        stopping.cancelled().await;
-        tokio::time::sleep(limit).await;
-    };
-    let ((), served) = tokio::join!(told, async {
-        tokio::select! {
-            served = serving => served,
-            () = cut => Ok(()),
-        }
-    });
-    served.map_err(failed)
+    tokio::join!(stopped, server.serve(service.router.clone(), &service.state.stopping, limit));
+    Ok(())
 }
 
 /// Returns when the process is to end: SIGTERM or ctrl-c.

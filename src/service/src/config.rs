@@ -47,6 +47,21 @@ pub struct ServeConfig {
     /// Address to listen on.
     #[arg(long, env = "VERNE_LISTEN", default_value = "127.0.0.1:8080")]
     pub listen: SocketAddr,
+    /// Most open connections, an address at most half of them; more are closed at once. A process may usually open 1024
+    /// files, and results and jobs need some of those.
+    #[arg(long, env = "VERNE_MAX_CONNECTIONS", default_value_t = 800, value_name = "CONNECTIONS",
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
+    pub max_connections: usize,
+    /// Seconds in which the headers of a request must have come, and in which the next request must begin.
+    #[arg(long, env = "VERNE_HEADER_TIMEOUT", default_value_t = 10, value_name = "SECONDS",
+        value_parser = value_parser!(u64).range(1..=LONGEST))]
+    pub header_timeout: u64,
+    /// Certificate with those that vouch for it, in PEM: serve over TLS. A new one is taken up within a minute.
+    #[arg(long, env = "VERNE_TLS_CERTIFICATE", value_name = "FILE")]
+    pub tls_certificate: Option<PathBuf>,
+    /// The certificate's private key, in PEM.
+    #[arg(long, env = "VERNE_TLS_KEY", value_name = "FILE")]
+    pub tls_key: Option<PathBuf>,
     /// Directory whose *.json machines are published beside the built-in one.
     #[arg(long, env = "VERNE_MACHINES", value_name = "DIR")]
     pub machines: Option<PathBuf>,
@@ -87,7 +102,7 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_WAIT", default_value_t = 10, value_name = "SECONDS",
         value_parser = value_parser!(u64).range(0..=LONGEST))]
     pub wait: u64,
-    /// Seconds after which a request is given up.
+    /// Seconds after which a request is given up, or an answer of which the client takes nothing.
     #[arg(long, env = "VERNE_TIMEOUT", default_value_t = 30, value_name = "SECONDS",
         value_parser = value_parser!(u64).range(1..=LONGEST))]
     pub timeout: u64,

@@ -26,6 +26,7 @@ mod registry;
 mod result_id;
 mod results;
 mod router;
+mod server;
 mod state;
 mod storage;
 mod tasks;
