@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod batch;
+mod browsers;
 mod dexterity;
 mod jobs;
 mod jobs_cancelled;

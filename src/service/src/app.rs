@@ -11,6 +11,7 @@ use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
+use crate::browsers::Browsers;
 use crate::config::ServeConfig;
 use crate::metrics::Metrics;
 use crate::readiness::Readiness;
@@ -18,7 +19,7 @@ use crate::registry::{BadFile, Registry};
 use crate::server::{Server, TlsError};
 use crate::state::{Shared, State};
 use crate::storage::{Storage, StorageError};
-use crate::{layers, openapi, router, viewer};
+use crate::{browsers, layers, openapi, router, viewer};
 
 /// Why the service cannot run.
 #[derive(Debug)]
@@ -79,8 +80,10 @@ impl Service {
         let limits = config.limits();
         let state = Arc::new(State { machines, limits, results, jobs, readiness, metrics, stopping });
         let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
+        let docs = browsers::pages(docs.into(), browsers::DOCS);
         let routes = routes.with_state(Arc::clone(&state)).merge(docs).merge(viewer::routes());
-        let router = layers::wrap(routes, requests, Duration::from_secs(config.timeout));
+        let router =
+            layers::wrap(routes, requests, Duration::from_secs(config.timeout), &Browsers::of(config));
         Ok(Self { router, state })
     }
 

@@ -7,6 +7,7 @@ mod checks;
 mod effective;
 mod file;
 mod layered;
+mod origin;
 pub mod sharing;
 pub mod worker;
 
@@ -19,6 +20,7 @@ use clap::builder::{BoolishValueParser, RangedU64ValueParser};
 use clap::{Args, value_parser};
 
 pub(crate) use layered::read;
+pub use origin::Origin;
 use sharing::{BrokerConfig, StoreConfig};
 
 use crate::state::RequestLimits;
@@ -62,6 +64,10 @@ pub struct ServeConfig {
     /// The certificate's private key, in PEM.
     #[arg(long, env = "VERNE_TLS_KEY", value_name = "FILE")]
     pub tls_key: Option<PathBuf>,
+    /// Pages that may ask from a browser, by their origins, such as https://example.org, with commas between them; * for
+    /// all. Without it only the service's own.
+    #[arg(long, env = "VERNE_CORS_ORIGIN", value_delimiter = ',', value_name = "ORIGIN")]
+    pub cors_origin: Vec<Origin>,
     /// Directory whose *.json machines are published beside the built-in one.
     #[arg(long, env = "VERNE_MACHINES", value_name = "DIR")]
     pub machines: Option<PathBuf>,

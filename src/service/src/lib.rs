@@ -4,6 +4,7 @@
 
 mod answers;
 pub mod app;
+mod browsers;
 pub mod cli;
 pub mod config;
 mod delivery;

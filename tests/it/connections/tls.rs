@@ -55,6 +55,7 @@ async fn both_versions_are_spoken() {
             .unwrap();
         let answer = rest(&mut stream).await;
         assert!(answer.starts_with("HTTP/1.1 200 OK"), "{answer}");
+        assert!(answer.contains("strict-transport-security: max-age="), "{answer}");
     }
     let stream = connect(&["h2", "http/1.1"]).await;
     assert_eq!(stream.get_ref().1.alpn_protocol(), Some(b"h2".as_slice()));
