@@ -2,6 +2,7 @@
 
 mod connection;
 mod exposure;
+mod outgoing;
 mod patience;
 mod places;
 mod tls;

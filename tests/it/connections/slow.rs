@@ -1,5 +1,9 @@
 //! Clients that keep the service waiting.
 
+use axum::body::Body;
+use axum::http::Request;
+use hyper::client::conn::http2::Builder;
+use hyper_util::rt::{TokioExecutor, TokioIo};
 use tokio::io::AsyncWriteExt;
 
 use super::{asked, in_time, rest, serve};
@@ -72,5 +76,22 @@ async fn who_takes_no_answer_is_cut() {
     let question = "GET /docs/swagger-ui-bundle.js HTTP/1.1\r\nHost: verne\r\n\r\n";
     in_time(async { while stream.write_all(question.as_bytes()).await.is_ok() {} }).await;
     assert!(asked(&mut served.connect().await).await);
+    served.end().await;
+}
+
+#[tokio::test]
+async fn who_takes_no_answer_over_http2_is_cut() {
+    let served = serve("--timeout 1").await;
+    let io = TokioIo::new(served.connect().await);
+    // It answers pings, and leaves a few bytes of the answer where they are.
+    let mut builder = Builder::new(TokioExecutor::new());
+    let (mut client, connection) =
+        builder.initial_stream_window_size(65_535).handshake::<_, Body>(io).await.unwrap();
+    let connection = tokio::spawn(connection);
+    let request = Request::get("http://localhost/docs/swagger-ui-bundle.js").body(Body::empty()).unwrap();
+    let answer = in_time(client.send_request(request)).await.unwrap();
+    // However it ends, it ends.
+    let _ = in_time(connection).await.unwrap();
+    drop((answer, client));
     served.end().await;
 }

@@ -19,6 +19,7 @@ use tokio::net::TcpStream;
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
+use super::outgoing::{Outgoing, Watched};
 use super::patience::Patient;
 use super::places::Place;
 use super::tls::Tls;
@@ -107,9 +108,16 @@ impl Attendant {
             Some(false) => builder.http1_only(),
         };
         let io = TokioIo::new(Patient::new(stream, bounds.header, bounds.stall));
-        let service = service_fn(move |request| answer(router.clone(), request, peer));
-        if let Err(error) = watcher.watch(builder.serve_connection(io, service)).await {
-            tracing::debug!(%peer, %error, "a connection broke off");
+        let outgoing = Arc::new(Outgoing::default());
+        let watching = Arc::clone(&outgoing);
+        let service = service_fn(move |request| answer(router.clone(), request, peer, Arc::clone(&watching)));
+        tokio::select! {
+            served = watcher.watch(builder.serve_connection(io, service)) => {
+                if let Err(error) = served {
+                    tracing::debug!(%peer, %error, "a connection broke off");
+                }
+            }
+            () = outgoing.stalled(bounds.stall) => tracing::debug!(%peer, "an answer is not taken: cut"),
         }
     }
 }
@@ -118,7 +126,9 @@ async fn answer(
     router: Router,
     mut request: Request<Incoming>,
     peer: SocketAddr,
-) -> Result<Response<Body>, Infallible> {
+    outgoing: Arc<Outgoing>,
+) -> Result<Response<Watched>, Infallible> {
     request.extensions_mut().insert(ConnectInfo(peer));
-    router.oneshot(request.map(Body::new)).await
+    let response = router.oneshot(request.map(Body::new)).await?;
+    Ok(response.map(|body| outgoing.watch(body)))
 }
