@@ -21,6 +21,7 @@ mod workspace_contains;
 mod workspace_delivery;
 mod workspace_files;
 mod workspace_slices;
+mod workspace_too_large;
 
 use std::path::PathBuf;
 

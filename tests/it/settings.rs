@@ -58,6 +58,7 @@ fn what_makes_no_sense_is_refused_at_once() {
         ("job_threads = 0", "job_threads: invalid value '0'"),
         ("drain = 99999999999", "drain: invalid value '99999999999'"),
         ("max_connections = 0", "max_connections: invalid value '0'"),
+        ("max_triangles = 0", "max_triangles: invalid value '0'"),
         ("header_timeout = 0", "header_timeout: invalid value '0'"),
         ("tls_key = 'key.pem'", "tls_key needs tls_certificate"),
         ("cors_origin = ['*', 'example.org']", "cors_origin: invalid value 'example.org'"),

@@ -79,6 +79,10 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_MAX_ROWS", default_value_t = 100_000,
         value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_rows: usize,
+    /// Most triangles of a mesh, by an estimate; what would have more is refused before it is computed.
+    #[arg(long, env = "VERNE_MAX_TRIANGLES", default_value_t = 5_000_000, value_name = "TRIANGLES",
+        value_parser = value_parser!(u64).range(1..))]
+    pub max_triangles: u64,
     /// Directory in which jobs and results outlive the process; by default the user's own directory for data.
     #[arg(long, env = "VERNE_DATA", value_name = "DIR")]
     pub data: Option<PathBuf>,
@@ -133,6 +137,7 @@ impl ServeConfig {
         RequestLimits {
             body_bytes: self.max_body_bytes,
             rows: self.max_rows,
+            triangles: self.max_triangles,
             wait: Duration::from_secs(self.wait).min(longest_wait),
             longest_wait,
             job: Duration::from_secs(self.job_limit),

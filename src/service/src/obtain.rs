@@ -48,6 +48,7 @@ impl State {
         question: &Question,
         patience: &Patience,
     ) -> Result<Obtained<Record>, Error> {
+        question.check_triangles(self.limits.triangles)?;
         let submission = question.submission(patience.client.clone(), Some(self.limits.job))?;
         let claim = self.jobs.submit(submission).await?;
         if patience.wait.is_zero() {
