@@ -3,6 +3,7 @@
 mod admission;
 mod bad_input;
 mod batch;
+mod browsers;
 mod dexterity;
 mod jobs;
 mod jobs_cancelled;
@@ -24,6 +25,7 @@ mod workspace_contains;
 mod workspace_delivery;
 mod workspace_files;
 mod workspace_slices;
+mod workspace_too_large;
 
 use std::path::PathBuf;
 

@@ -13,14 +13,16 @@ use utoipa_swagger_ui::{Config, SwaggerUi};
 
 use crate::access::{BadKeys, Gate};
 use crate::admission::Admission;
+use crate::browsers::Browsers;
 use crate::config::ServeConfig;
 use crate::metrics::Metrics;
 use crate::readiness::Readiness;
 use crate::registry::{BadFile, Registry};
+use crate::server::{Server, TlsError};
 use crate::state::{Shared, State};
 use crate::storage::{Storage, StorageError};
 use crate::workers::spare_a_core;
-use crate::{layers, openapi, router, viewer};
+use crate::{browsers, layers, openapi, router, viewer};
 
 /// Why the service cannot run.
 #[derive(Debug)]
@@ -31,7 +33,9 @@ pub enum StartError {
     Keys(BadKeys),
     /// Where jobs and results are kept.
     Storage(StorageError),
-    /// The address, or the listener later on.
+    /// The certificate.
+    Tls(TlsError),
+    /// The address.
     Listen(SocketAddr, std::io::Error),
 }
 
@@ -41,6 +45,7 @@ impl fmt::Display for StartError {
             Self::Machine(bad) => bad.fmt(f),
             Self::Keys(bad) => bad.fmt(f),
             Self::Storage(error) => error.fmt(f),
+            Self::Tls(error) => error.fmt(f),
             Self::Listen(address, error) => write!(f, "cannot serve on {address}: {error}"),
         }
     }
@@ -85,8 +90,10 @@ impl Service {
         let state =
             Arc::new(State { machines, limits, admission, results, jobs, readiness, metrics, stopping });
         let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
+        let docs = browsers::pages(docs.into(), browsers::DOCS);
         let routes = routes.with_state(Arc::clone(&state)).merge(docs).merge(viewer::routes());
-        let router = layers::wrap(routes, requests, Duration::from_secs(config.timeout));
+        let browsers = Browsers::of(config);
+        let router = layers::wrap(routes, requests, Duration::from_secs(config.timeout), &browsers);
         Ok(Self { router, state, gate })
     }
 
@@ -102,34 +109,31 @@ impl Service {
     }
 }
 
-/// Serves until SIGTERM or ctrl-c. Then requests under way are finished and jobs go back to the queue, all within a
-/// bounded time.
+/// Serves until SIGTERM or ctrl-c.
 pub async fn serve(config: &ServeConfig) -> Result<(), StartError> {
-    let failed = |error| StartError::Listen(config.listen, error);
-    let listener = TcpListener::bind(config.listen).await.map_err(failed)?;
+    let listener = TcpListener::bind(config.listen).await;
+    let listener = listener.map_err(|error| StartError::Listen(config.listen, error))?;
+    serve_on(listener, config, told_to_stop()).await
+}
+
+/// Serves until `told` is over. Then requests under way are finished and jobs go back to the queue, all within a bounded
+/// time.
+pub async fn serve_on(
+    listener: TcpListener,
+    config: &ServeConfig,
+    told: impl Future<Output = ()>,
+) -> Result<(), StartError> {
     spare_a_core();
+    let server = Server::new(listener, config).map_err(StartError::Tls)?;
     let service = Service::open(config).await?;
-    tracing::info!("listening on http://{}", listener.local_addr().map_err(failed)?);
-    let stopping = service.state.stopping.clone();
-    let router = service.router.clone().into_make_service_with_connect_info::<SocketAddr>();
-    let serving = axum::serve(listener, router).with_graceful_shutdown(stopping.clone().cancelled_owned());
+    server.announce(config.keys.is_some()).map_err(|error| StartError::Listen(config.listen, error))?;
     let limit = Duration::from_secs(config.drain);
-    let told = async {
-        told_to_stop().await;
+    let stopped = async {
+        told.await;
         service.stop(limit).await;
     };
-    // A client that reads nothing must not keep the process: what is open after the limit is cut.
-    let cut = async {
-        stopping.cancelled().await;
-        tokio::time::sleep(limit).await;
-    };
-    let ((), served) = tokio::join!(told, async {
-        tokio::select! {
-            served = serving => served,
-            () = cut => Ok(()),
-        }
-    });
-    served.map_err(failed)
+    tokio::join!(stopped, server.serve(service.router.clone(), &service.state.stopping, limit));
+    Ok(())
 }
 
 /// Returns when the process is to end: SIGTERM or ctrl-c.

@@ -41,7 +41,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Serve over HTTP.
-    Serve(ServeConfig),
+    Serve(Box<ServeConfig>),
     /// Run the jobs that wait at a broker (--broker), and keep their results in a store that all reach (--store).
     Worker(WorkerConfig),
     /// Ask a service whether it is ready: ends with 0 where it is, with 1 otherwise.
@@ -68,7 +68,7 @@ impl Cli {
         if let Some(settings) = self.settings {
             return write!(out, "{settings}").map_err(|error| format!("cannot print the settings: {error}"));
         }
-        match self.command.unwrap_or(Command::Serve(self.serve)) {
+        match self.command.unwrap_or(Command::Serve(Box::new(self.serve))) {
             Command::Serve(config) => on_runtime(&config.telemetry, app::serve(&config)),
             Command::Worker(config) => on_runtime(&config.telemetry, worker::work(&config)),
             Command::Health(command) => command.run(),

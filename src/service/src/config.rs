@@ -7,6 +7,7 @@ mod checks;
 mod effective;
 mod file;
 mod layered;
+mod origin;
 pub mod sharing;
 pub mod worker;
 
@@ -19,6 +20,7 @@ use clap::builder::{BoolishValueParser, RangedU64ValueParser};
 use clap::{Args, value_parser};
 
 pub(crate) use layered::read;
+pub use origin::Origin;
 use sharing::{BrokerConfig, StoreConfig};
 
 use crate::state::RequestLimits;
@@ -47,6 +49,25 @@ pub struct ServeConfig {
     /// Address to listen on.
     #[arg(long, env = "VERNE_LISTEN", default_value = "127.0.0.1:8080")]
     pub listen: SocketAddr,
+    /// Most open connections, an address at most half of them; more are closed at once. A process may usually open 1024
+    /// files, and results and jobs need some of those.
+    #[arg(long, env = "VERNE_MAX_CONNECTIONS", default_value_t = 800, value_name = "CONNECTIONS",
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
+    pub max_connections: usize,
+    /// Seconds in which the headers of a request must have come, and in which the next request must begin.
+    #[arg(long, env = "VERNE_HEADER_TIMEOUT", default_value_t = 10, value_name = "SECONDS",
+        value_parser = value_parser!(u64).range(1..=LONGEST))]
+    pub header_timeout: u64,
+    /// Certificate with those that vouch for it, in PEM: serve over TLS. A new one is taken up within a minute.
+    #[arg(long, env = "VERNE_TLS_CERTIFICATE", value_name = "FILE")]
+    pub tls_certificate: Option<PathBuf>,
+    /// The certificate's private key, in PEM.
+    #[arg(long, env = "VERNE_TLS_KEY", value_name = "FILE")]
+    pub tls_key: Option<PathBuf>,
+    /// Pages that may ask from a browser, by their origins, such as https://example.org, with commas between them; * for
+    /// all. Without it only the service's own.
+    #[arg(long, env = "VERNE_CORS_ORIGIN", value_delimiter = ',', value_name = "ORIGIN")]
+    pub cors_origin: Vec<Origin>,
     /// Directory whose *.json machines are published beside the built-in one.
     #[arg(long, env = "VERNE_MACHINES", value_name = "DIR")]
     pub machines: Option<PathBuf>,
@@ -58,6 +79,10 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_MAX_ROWS", default_value_t = 100_000,
         value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_rows: usize,
+    /// Most triangles of a mesh, by an estimate; what would have more is refused before it is computed.
+    #[arg(long, env = "VERNE_MAX_TRIANGLES", default_value_t = 5_000_000, value_name = "TRIANGLES",
+        value_parser = value_parser!(u64).range(1..))]
+    pub max_triangles: u64,
     /// Directory in which jobs and results outlive the process; by default the user's own directory for data.
     #[arg(long, env = "VERNE_DATA", value_name = "DIR")]
     pub data: Option<PathBuf>,
@@ -87,7 +112,7 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_WAIT", default_value_t = 10, value_name = "SECONDS",
         value_parser = value_parser!(u64).range(0..=LONGEST))]
     pub wait: u64,
-    /// Seconds after which a request is given up.
+    /// Seconds after which a request is given up, or an answer of which the client takes nothing.
     #[arg(long, env = "VERNE_TIMEOUT", default_value_t = 30, value_name = "SECONDS",
         value_parser = value_parser!(u64).range(1..=LONGEST))]
     pub timeout: u64,
@@ -127,6 +152,7 @@ impl ServeConfig {
         RequestLimits {
             body_bytes: self.max_body_bytes,
             rows: self.max_rows,
+            triangles: self.max_triangles,
             wait: Duration::from_secs(self.wait).min(longest_wait),
             longest_wait,
             job: Duration::from_secs(self.job_limit),

@@ -12,23 +12,29 @@ use tower::ServiceBuilder;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
 use tower_http::compression::predicate::{DefaultPredicate, Predicate};
-use tower_http::cors::{Any, CorsLayer};
 use tower_http::request_id::{MakeRequestUuid, PropagateRequestIdLayer, SetRequestIdLayer};
 use tower_http::timeout::TimeoutLayer;
 
+use crate::browsers::Browsers;
 use crate::metrics::Requests;
 use crate::observe::observe;
 use crate::problem::give_every_failure_a_document;
 
 /// Wraps the routes; the first layer here is the outermost. One stack: each call of `Router::layer` would box every
 /// request once more.
-pub(crate) fn wrap(routes: Router, requests: Arc<Requests>, time_limit: Duration) -> Router {
+pub(crate) fn wrap(
+    routes: Router,
+    requests: Arc<Requests>,
+    time_limit: Duration,
+    browsers: &Browsers,
+) -> Router {
     routes.layer(
         ServiceBuilder::new()
             .layer(SetRequestIdLayer::x_request_id(MakeRequestUuid))
             .layer(from_fn_with_state(requests, observe))
             .layer(PropagateRequestIdLayer::x_request_id())
-            .layer(open_to_browsers())
+            .option_layer(browsers.cors())
+            .map_response(browsers.protect())
             .layer(CompressionLayer::new().compress_when(DefaultPredicate::new().and(Untagged)))
             .map_response(give_every_failure_a_document)
             .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, time_limit))
@@ -44,9 +50,4 @@ impl Predicate for Untagged {
     fn should_compress<B: HttpBody>(&self, response: &Response<B>) -> bool {
         !response.headers().contains_key(ETAG)
     }
-}
-
-/// The service keeps no secrets and no state of its callers: any page may ask.
-fn open_to_browsers() -> CorsLayer {
-    CorsLayer::new().allow_origin(Any).allow_methods(Any).allow_headers(Any).expose_headers(Any)
 }

@@ -54,6 +54,7 @@ impl State {
         patience: &Patience,
     ) -> Result<Obtained<Record>, Error> {
         patience.caller.must_be(Role::Compute)?;
+        question.check_triangles(self.limits.triangles)?;
         let submission = question.submission(patience.caller.client.clone(), Some(self.limits.job))?;
         let claim = self.jobs.submit(submission).await?;
         if patience.wait.is_zero() {

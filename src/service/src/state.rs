@@ -19,6 +19,8 @@ pub(crate) struct RequestLimits {
     pub body_bytes: usize,
     /// Rows in a batch.
     pub rows: usize,
+    /// Triangles of a mesh.
+    pub triangles: u64,
     /// How long an answer is waited for unless the request says so.
     pub wait: Duration,
     /// How long it may at most.

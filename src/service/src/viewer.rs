@@ -9,6 +9,7 @@ use axum::routing::get;
 use headers::{ETag, HeaderMapExt, IfNoneMatch};
 use rust_embed::{EmbeddedFile, RustEmbed};
 
+use crate::browsers;
 use crate::delivery::FOR_EVER;
 use crate::error::Error;
 
@@ -22,7 +23,7 @@ const NO_VIEWER: &str = "This verne was built without its viewer, which needs No
 
 /// The page and the files it loads.
 pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
-    Router::new().route("/", get(page)).route("/assets/{name}", get(asset))
+    browsers::pages(Router::new().route("/", get(page)).route("/assets/{name}", get(asset)), browsers::VIEWER)
 }
 
 /// The page names the files of its own build: it is asked for anew each time.

@@ -88,6 +88,18 @@ impl Question {
         }
     }
 
+    /// Refuses meshes of more triangles than this: those of each member of a family. The grid of a dexterity map has a
+    /// bound of its own, and pieces are of what was checked.
+    pub(crate) fn check_triangles(&self, most: u64) -> Result<(), Error> {
+        match self {
+            Self::Workspace(question) => question.check_triangles(most),
+            Self::Family(question) => {
+                question.members.iter().try_for_each(|member| member.check_triangles(most))
+            }
+            Self::Dexterity(_) | Self::Piece(_) => Ok(()),
+        }
+    }
+
     /// The question as text.
     pub(crate) fn written(&self) -> Result<Vec<u8>, Error> {
         let (asked, request) = match self {

@@ -1,0 +1,125 @@
+//! The listener: connections are accepted within bounds, served, and brought to an end.
+
+mod connection;
+mod exposure;
+mod outgoing;
+mod patience;
+mod places;
+mod tls;
+
+pub(crate) use tls::TlsError;
+
+use std::io;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use axum::Router;
+use hyper_util::server::graceful::GracefulShutdown;
+use tokio::net::{TcpListener, TcpStream};
+use tokio_util::sync::CancellationToken;
+
+use crate::config::ServeConfig;
+use connection::{Attendant, Bounds};
+use places::{Full, Places};
+use tls::Tls;
+
+/// How long nothing is accepted after the system could not, for want of files, say.
+const BREATH: Duration = Duration::from_millis(500);
+
+/// Refused connections are logged no more often than this.
+const SELDOM: Duration = Duration::from_secs(10);
+
+/// A listener that is ready to serve.
+pub(crate) struct Server {
+    listener: TcpListener,
+    places: Arc<Places>,
+    bounds: Bounds,
+    tls: Option<Arc<Tls>>,
+}
+
+impl Server {
+    /// Reads the certificate, where there is one.
+    pub(crate) fn new(listener: TcpListener, config: &ServeConfig) -> Result<Self, TlsError> {
+        let tls = match (&config.tls_certificate, &config.tls_key) {
+            (Some(certificate), Some(key)) => Some(Arc::new(Tls::read(certificate, key)?)),
+            _ => None,
+        };
+        let bounds = Bounds {
+            header: Duration::from_secs(config.header_timeout),
+            stall: Duration::from_secs(config.timeout),
+        };
+        Ok(Self { listener, places: Places::new(config.max_connections), bounds, tls })
+    }
+
+    /// Says where it listens, and what is open to others.
+    pub(crate) fn announce(&self, has_keys: bool) -> io::Result<()> {
+        let address = self.listener.local_addr()?;
+        let scheme = if self.tls.is_some() { "https" } else { "http" };
+        tracing::info!("listening on {scheme}://{address}");
+        exposure::warn_if_open(address.ip(), has_keys, self.tls.is_some());
+        Ok(())
+    }
+
+    /// Serves until it is to stop. Then idle connections are closed at once, and what is open after the limit is cut: a
+    /// client that reads nothing must not keep the process.
+    pub(crate) async fn serve(self, router: Router, stopping: &CancellationToken, limit: Duration) {
+        let graceful = GracefulShutdown::new();
+        let cut = CancellationToken::new();
+        let attendant = Attendant::new(self.bounds, router, self.tls.clone(), stopping.clone());
+        let mut refusals = Refusals::default();
+        let reloading = tokio::spawn(cut.clone().run_until_cancelled_owned(tls::keep_fresh(self.tls)));
+        while let Some((stream, peer)) = next(&self.listener, stopping).await {
+            match self.places.take(peer.ip()) {
+                Ok(place) => {
+                    let attended = attendant.clone().attend(stream, peer, place, graceful.watcher());
+                    tokio::spawn(cut.clone().run_until_cancelled_owned(attended));
+                }
+                Err(full) => refusals.log(peer, full),
+            }
+        }
+        drop(self.listener);
+        if tokio::time::timeout(limit, graceful.shutdown()).await.is_err() {
+            tracing::info!("connections that are still open are cut");
+        }
+        cut.cancel();
+        drop(reloading.await);
+    }
+}
+
+/// The next connection; nothing when the service is to stop. No error of one connection, or of the moment, ends the
+/// listener.
+async fn next(listener: &TcpListener, stopping: &CancellationToken) -> Option<(TcpStream, SocketAddr)> {
+    loop {
+        match stopping.run_until_cancelled(listener.accept()).await? {
+            Ok(accepted) => return Some(accepted),
+            Err(error) if is_of_one_connection(&error) => {}
+            Err(error) => {
+                tracing::error!(%error, "no connection can be accepted now");
+                stopping.run_until_cancelled(tokio::time::sleep(BREATH)).await?;
+            }
+        }
+    }
+}
+
+fn is_of_one_connection(error: &io::Error) -> bool {
+    use io::ErrorKind::{ConnectionAborted, ConnectionRefused, ConnectionReset, Interrupted};
+    matches!(error.kind(), ConnectionAborted | ConnectionRefused | ConnectionReset | Interrupted)
+}
+
+/// What is refused is closed without a word: an answer before the request is lost as often as not. The log says why.
+#[derive(Default)]
+struct Refusals {
+    told: Option<Instant>,
+    untold: u64,
+}
+
+impl Refusals {
+    fn log(&mut self, peer: SocketAddr, full: Full) {
+        self.untold += 1;
+        if self.told.is_none_or(|told| told.elapsed() >= SELDOM) {
+            tracing::warn!(%peer, refused = self.untold, "{full}");
+            *self = Self { told: Some(Instant::now()), untold: 0 };
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! One connection: the handshake, then HTTP/1 or HTTP/2 within bounds.
+
+use std::convert::Infallible;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::Router;
+use axum::body::Body;
+use axum::extract::ConnectInfo;
+use axum::http::{Request, Response};
+use hyper::body::Incoming;
+use hyper::service::service_fn;
+use hyper_util::rt::{TokioExecutor, TokioIo, TokioTimer};
+use hyper_util::server::conn::auto::Builder;
+use hyper_util::server::graceful::Watcher;
+use tokio::io::{AsyncRead, AsyncWrite};
+use tokio::net::TcpStream;
+use tokio_util::sync::CancellationToken;
+use tower::ServiceExt;
+
+use super::outgoing::{Outgoing, Watched};
+use super::patience::Patient;
+use super::places::Place;
+use super::tls::Tls;
+
+/// Most bytes of a request's line and headers. Of headers there are at most 100, hyper's own bound.
+const HEADER_BYTES: u16 = 32 * 1024;
+
+/// Most requests at once on one connection.
+const STREAMS: u32 = 100;
+
+/// Most requests on one connection that were taken back before they were looked at, or that were answered by a reset;
+/// then the connection is closed.
+const RESETS: usize = 32;
+
+/// How long a peer may take for what.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    /// For a request's headers, for the handshake, for the next request, for the answer to a ping.
+    pub header: Duration,
+    /// For the next byte of an answer.
+    pub stall: Duration,
+}
+
+/// Attends to connections.
+#[derive(Clone)]
+pub(super) struct Attendant {
+    bounds: Bounds,
+    builder: Builder<TokioExecutor>,
+    router: Router,
+    tls: Option<Arc<Tls>>,
+    stopping: CancellationToken,
+}
+
+impl Attendant {
+    /// Serves `router`.
+    pub(super) fn new(
+        bounds: Bounds,
+        router: Router,
+        tls: Option<Arc<Tls>>,
+        stopping: CancellationToken,
+    ) -> Self {
+        let mut builder = Builder::new(TokioExecutor::new());
+        builder
+            .http1()
+            .timer(TokioTimer::new())
+            .header_read_timeout(bounds.header)
+            .max_buf_size(HEADER_BYTES.into());
+        builder
+            .http2()
+            .timer(TokioTimer::new())
+            .max_header_list_size(HEADER_BYTES.into())
+            .max_concurrent_streams(STREAMS)
+            .max_pending_accept_reset_streams(RESETS)
+            .max_local_error_reset_streams(RESETS)
+            .keep_alive_interval(bounds.header)
+            .keep_alive_timeout(bounds.header);
+        Self { bounds, builder, router, tls, stopping }
+    }
+
+    /// Serves a connection to its end. Failures are the peer's affair.
+    pub(super) async fn attend(self, stream: TcpStream, peer: SocketAddr, place: Place, watcher: Watcher) {
+        // An answer is written whole: nothing is won by waiting for more of it.
+        drop(stream.set_nodelay(true));
+        if let Some(tls) = self.tls.clone() {
+            let shaking = tokio::time::timeout(self.bounds.header, tls.accept(stream));
+            match self.stopping.run_until_cancelled(shaking).await {
+                Some(Ok(Ok((stream, http2)))) => self.serve(stream, Some(http2), peer, watcher).await,
+                Some(Ok(Err(error))) => tracing::debug!(%peer, %error, "no handshake"),
+                Some(Err(_)) | None => tracing::debug!(%peer, "no handshake in time"),
+            }
+        } else {
+            self.serve(stream, None, peer, watcher).await;
+        }
+        drop(place);
+    }
+
+    /// Over TLS the version was agreed on: HTTP/2 or not.
+    async fn serve<I>(self, stream: I, http2: Option<bool>, peer: SocketAddr, watcher: Watcher)
+    where
+        I: AsyncRead + AsyncWrite + Unpin + Send + 'static,
+    {
+        let Self { bounds, builder, router, .. } = self;
+        let builder = match http2 {
+            None => builder,
+            Some(true) => builder.http2_only(),
+            Some(false) => builder.http1_only(),
+        };
+        let io = TokioIo::new(Patient::new(stream, bounds.header, bounds.stall));
+        let outgoing = Arc::new(Outgoing::default());
+        let watching = Arc::clone(&outgoing);
+        let service = service_fn(move |request| answer(router.clone(), request, peer, Arc::clone(&watching)));
+        tokio::select! {
+            served = watcher.watch(builder.serve_connection(io, service)) => {
+                if let Err(error) = served {
+                    tracing::debug!(%peer, %error, "a connection broke off");
+                }
+            }
+            () = outgoing.stalled(bounds.stall) => tracing::debug!(%peer, "an answer is not taken: cut"),
+        }
+    }
+}
+
+async fn answer(
+    router: Router,
+    mut request: Request<Incoming>,
+    peer: SocketAddr,
+    outgoing: Arc<Outgoing>,
+) -> Result<Response<Watched>, Infallible> {
+    request.extensions_mut().insert(ConnectInfo(peer));
+    let response = router.oneshot(request.map(Body::new)).await?;
+    Ok(response.map(|body| outgoing.watch(body)))
+}

@@ -1,0 +1,124 @@
+//! Places for connections: so many in all, and no address takes them all.
+
+use std::collections::HashMap;
+use std::fmt;
+use std::net::{IpAddr, Ipv6Addr};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// The part of all places that one address may have.
+const SHARE: usize = 2;
+
+/// Why there is no place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Full {
+    /// All are taken.
+    All,
+    /// This address has its share.
+    Share,
+}
+
+impl fmt::Display for Full {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::All => "connections are refused: --max-connections are open",
+            Self::Share => "connections are refused: one address has half of --max-connections",
+        })
+    }
+}
+
+/// The places.
+#[derive(Debug)]
+pub(super) struct Places {
+    all: usize,
+    taken: Mutex<Taken>,
+}
+
+#[derive(Debug, Default)]
+struct Taken {
+    all: usize,
+    by_address: HashMap<IpAddr, usize>,
+}
+
+/// A place, until it is dropped.
+#[derive(Debug)]
+pub(super) struct Place {
+    places: Arc<Places>,
+    address: IpAddr,
+}
+
+impl Places {
+    /// So many places.
+    pub(super) fn new(all: usize) -> Arc<Self> {
+        Arc::new(Self { all, taken: Mutex::default() })
+    }
+
+    /// Takes a place for a connection from this address. This machine itself has no share: what it sends may come from
+    /// a proxy, for everybody.
+    pub(super) fn take(self: &Arc<Self>, address: IpAddr) -> Result<Place, Full> {
+        let address = household(address);
+        let share = if address.is_loopback() { self.all } else { self.all.div_ceil(SHARE) };
+        let mut taken = self.taken();
+        if taken.all >= self.all {
+            return Err(Full::All);
+        }
+        let here = taken.by_address.entry(address).or_default();
+        if *here >= share {
+            return Err(Full::Share);
+        }
+        *here += 1;
+        taken.all += 1;
+        Ok(Place { places: Arc::clone(self), address })
+    }
+
+    fn taken(&self) -> MutexGuard<'_, Taken> {
+        self.taken.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        let mut taken = self.places.taken();
+        taken.all -= 1;
+        if let Some(here) = taken.by_address.get_mut(&self.address) {
+            *here -= 1;
+            if *here == 0 {
+                taken.by_address.remove(&self.address);
+            }
+        }
+    }
+}
+
+/// Who has an address of version 6 has the 2^64 addresses around it.
+fn household(address: IpAddr) -> IpAddr {
+    match address.to_canonical() {
+        IpAddr::V6(v6) if !v6.is_loopback() => {
+            let [a, b, c, d, ..] = v6.segments();
+            Ipv6Addr::new(a, b, c, d, 0, 0, 0, 0).into()
+        }
+        other => other,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use super::{Full, Places};
+
+    #[test]
+    fn no_address_takes_all() {
+        let places = Places::new(4);
+        let ip = |text: &str| text.parse().unwrap();
+        let first = [ip("2001:db8::1"), ip("2001:db8::2")].map(|address| places.take(address).unwrap());
+        assert_eq!(places.take(ip("2001:db8::3")).unwrap_err(), Full::Share);
+        let second = [ip("::ffff:192.0.2.1"), ip("192.0.2.1")].map(|address| places.take(address).unwrap());
+        assert_eq!(places.take(ip("198.51.100.1")).unwrap_err(), Full::All);
+        drop(first);
+        assert_eq!(places.take(ip("192.0.2.1")).unwrap_err(), Full::Share);
+        let again = places.take(ip("2001:db8::3")).unwrap();
+        drop((second, again));
+        let here: Vec<_> = (0..4).map(|_| places.take(ip("127.0.0.1")).unwrap()).collect();
+        assert_eq!(places.take(ip("::1")).unwrap_err(), Full::All);
+        drop(here);
+        assert!(places.taken().by_address.is_empty());
+    }
+}

@@ -1,0 +1,44 @@
+//! A service on a socket that is told to stop.
+
+use tokio::io::AsyncWriteExt;
+
+use super::{asked, in_time, rest, serve};
+
+#[tokio::test]
+async fn idle_connections_are_closed_and_requests_under_way_are_finished() {
+    let served = serve("--drain 60 --header-timeout 60 --timeout 60").await;
+    let (mut idle, mut silent, mut busy) =
+        (served.connect().await, served.connect().await, served.connect().await);
+    assert!(asked(&mut idle).await && asked(&mut busy).await);
+    let body = r#"{"joints": {"rho": [674, 685, 250]}}"#;
+    let (first, second) = body.split_at(10);
+    let length = body.len();
+    let head = format!(
+        "POST /fk HTTP/1.1\r\nHost: verne\r\nContent-Type: application/json\r\nContent-Length: {length}"
+    );
+    busy.write_all(format!("{head}\r\nExpect: 100-continue\r\n\r\n").as_bytes()).await.unwrap();
+    // That it asks for the body shows that the request is under way.
+    let mut expected = [0; 25];
+    in_time(tokio::io::AsyncReadExt::read_exact(&mut busy, &mut expected)).await.unwrap();
+    assert_eq!(&expected, b"HTTP/1.1 100 Continue\r\n\r\n");
+    busy.write_all(first.as_bytes()).await.unwrap();
+
+    drop(served.stop);
+    assert_eq!(rest(&mut idle).await, "");
+    assert_eq!(rest(&mut silent).await, "");
+    busy.write_all(second.as_bytes()).await.unwrap();
+    let answer = rest(&mut busy).await;
+    assert!(answer.starts_with("HTTP/1.1 200 OK"), "{answer}");
+    assert!(answer.contains("connection: close"), "{answer}");
+    in_time(served.ended).await.unwrap();
+}
+
+#[tokio::test]
+async fn a_client_that_does_not_go_on_keeps_nothing_open() {
+    let served = serve("--drain 1 --header-timeout 600 --timeout 600").await;
+    let mut stream = served.connect().await;
+    assert!(asked(&mut stream).await);
+    stream.write_all(b"GET /livez HTTP/1.1\r\nx-slow: ").await.unwrap();
+    served.end().await;
+    assert_eq!(rest(&mut stream).await, "");
+}

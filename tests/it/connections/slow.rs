@@ -1,0 +1,97 @@
+//! Clients that keep the service waiting.
+
+use axum::body::Body;
+use axum::http::Request;
+use hyper::client::conn::http2::Builder;
+use hyper_util::rt::{TokioExecutor, TokioIo};
+use tokio::io::AsyncWriteExt;
+
+use super::{asked, in_time, rest, serve};
+
+/// How a connection may begin and then say nothing more: not at all, HTTP/1 in its first line and in its headers, HTTP/2
+/// within and after its preface, the last without answering a ping.
+const BEGINNINGS: [&[u8]; 5] = [
+    b"",
+    b"GET /liv",
+    b"GET /livez HTTP/1.1\r\nHost: verne\r\nx-slow: ",
+    b"PRI * HTTP/2.0\r\n",
+    b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n\0\0\0\x04\0\0\0\0\0",
+];
+
+#[tokio::test]
+async fn who_does_not_finish_a_header_is_cut() {
+    let served = serve("--header-timeout 1").await;
+    let mut open = Vec::new();
+    for beginning in BEGINNINGS {
+        let mut stream = served.connect().await;
+        stream.write_all(beginning).await.unwrap();
+        open.push(stream);
+    }
+    for mut stream in open {
+        assert!(!rest(&mut stream).await.contains(" 200 "));
+    }
+    served.end().await;
+}
+
+#[tokio::test]
+async fn who_trickles_a_header_is_cut() {
+    let served = serve("--header-timeout 1").await;
+    let mut stream = served.connect().await;
+    stream.write_all(b"GET /livez HTTP/1.1\r\nx-slow: ").await.unwrap();
+    let trickling = async {
+        while stream.write_all(b"x").await.is_ok() {
+            tokio::time::sleep(std::time::Duration::from_millis(50)).await;
+        }
+    };
+    in_time(trickling).await;
+    served.end().await;
+}
+
+#[tokio::test]
+async fn a_connection_that_is_not_used_again_is_closed() {
+    let served = serve("--header-timeout 1").await;
+    let mut stream = served.connect().await;
+    assert!(asked(&mut stream).await);
+    assert_eq!(rest(&mut stream).await, "");
+    served.end().await;
+}
+
+#[tokio::test]
+async fn a_body_that_does_not_come_is_given_up() {
+    let served = serve("--timeout 1").await;
+    let mut stream = served.connect().await;
+    let head =
+        "POST /fk HTTP/1.1\r\nHost: verne\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n{";
+    stream.write_all(head.as_bytes()).await.unwrap();
+    let answer = rest(&mut stream).await;
+    assert!(answer.starts_with("HTTP/1.1 503 ") && answer.contains("timed_out"), "{answer}");
+    served.end().await;
+}
+
+#[tokio::test]
+async fn who_takes_no_answer_is_cut() {
+    let served = serve("--timeout 1").await;
+    let mut stream = served.connect().await;
+    // Questions without end, none of whose answers is read: that writing fails shows the end of it.
+    let question = "GET /docs/swagger-ui-bundle.js HTTP/1.1\r\nHost: verne\r\n\r\n";
+    in_time(async { while stream.write_all(question.as_bytes()).await.is_ok() {} }).await;
+    assert!(asked(&mut served.connect().await).await);
+    served.end().await;
+}
+
+#[tokio::test]
+async fn who_takes_no_answer_over_http2_is_cut() {
+    let served = serve("--timeout 1").await;
+    let io = TokioIo::new(served.connect().await);
+    // It answers pings, and leaves a few bytes of the answer where they are.
+    let mut builder = Builder::new(TokioExecutor::new());
+    let (mut client, connection) =
+        builder.initial_stream_window_size(65_535).handshake::<_, Body>(io).await.unwrap();
+    let connection = tokio::spawn(connection);
+    let request = Request::get("http://localhost/docs/swagger-ui-bundle.js").body(Body::empty()).unwrap();
+    let answer = in_time(client.send_request(request)).await.unwrap();
+    // However it ends, it ends.
+    let _ = in_time(connection).await.unwrap();
+    drop((answer, client));
+    served.end().await;
+}
