@@ -1,4 +1,4 @@
-"""A broker, a store, API nodes and workers of verne on this machine. Used by scale.py."""
+"""A broker, a store, API nodes and workers of verne on this machine. Used by scale.py and measure_scale.py."""
 
 import atexit
 import http.client
@@ -118,3 +118,8 @@ class Cluster:
     def kill_all(self):
         for process in self.nodes + self.workers:
             process.kill()
+
+    def end(self):
+        self.kill_all()
+        self.broker.kill()
+        self.objects.kill()

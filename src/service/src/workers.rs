@@ -8,11 +8,12 @@ use verne_solver::workspace::Observer;
 
 use crate::error::Error;
 
-/// Has one worker thread less than cores, at least one: single questions, which the runtime's threads answer, keep one
-/// whatever batches there are. For the process; without effect once a worker thread runs.
+/// Has one worker thread less than cores: single questions, which the runtime's threads answer, keep one whatever batches
+/// there are. Of two cores batches have both: half as fast is too dear for what the system's scheduler gives to who wakes
+/// up anyway. For the process; without effect once a worker thread runs.
 pub(crate) fn spare_a_core() {
     let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(cores.saturating_sub(1).max(1));
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(cores.saturating_sub(1).max(cores.min(2)));
     if let Err(error) = threads.build_global() {
         tracing::warn!(%error, "the worker threads are as many as cores");
     }

@@ -1,0 +1,119 @@
+"""Measures many processes against one, on this machine, and prints figures; nothing is asserted. Wants a quiet machine
+with two cores or more. python measure_scale.py VERNE NATS_SERVER
+
+- A dexterity map on two workers of one thread each against one.
+- Jobs of about a second through broker and store against the same in one process.
+- How long after DELETE a running job has ended and its worker is free.
+- Memory of an API node with 10,000 streams of events."""
+
+import os
+import resource
+import socket
+import sys
+import tempfile
+import time
+
+from cluster import Cluster
+from served import Client, Served
+
+STREAMS = 10_000
+MEBI = 1 << 20
+LONG = {"kind": "part", "tool_length": {"from": 1, "to": 500, "step": 1}, "tolerance": 0.05}
+
+
+def dexterity(tool_length, cell):
+    return {"tool_length": tool_length, "phi1": {"from": -30, "to": 30}, "cell": cell}
+
+
+def seconds(port, questions):
+    """Until all are answered, asked at once."""
+    client = Client(port)
+    began = time.monotonic()
+    paths = [client.ask("POST", "/workspace/dexterity", question, Prefer="respond-async").headers["Location"]
+             for question in questions]
+    for path in paths:
+        events = client.ask("GET", f"{path}/events").body
+        assert b'"succeeded"' in events, events[-500:]
+    return time.monotonic() - began
+
+
+def with_workers(verne, nats, workers):
+    place = tempfile.TemporaryDirectory()
+    return Cluster(verne, nats, place.name, 1, workers), place
+
+
+def efficiency(verne, nats):
+    one, here = with_workers(verne, nats, 1)
+    two, there = with_workers(verne, nats, 2)
+    for i in range(3):
+        times = [seconds(cluster.ports()[0], [dexterity(50 + i, 16)]) for cluster in (one, two)]
+        print(f"map: one worker {times[0]:.2f} s, two {times[1]:.2f} s, {times[0] / times[1]:.2f} times as fast", flush=True)
+    two.end()
+    return one, (here, there)
+
+
+def overhead(verne, one):
+    with tempfile.TemporaryDirectory() as place:
+        alone = Served(verne, os.path.join(place, "alone"), "--job-threads", "1").start()
+        for i in range(3):
+            questions = [dexterity(100 + 10 * i + k / 10, 45) for k in range(20)]
+            times = [seconds(port, questions) for port in (alone.port, one.ports()[0])]
+            print(f"20 jobs: one process {times[0]:.2f} s, broker and store {times[1]:.2f} s, "
+                  f"{100 * (times[1] / times[0] - 1):+.1f} %", flush=True)
+        alone.kill()
+
+
+def busy(worker):
+    text = Client(worker.port).ask("GET", "/metrics").body.decode()
+    return "\nverne_worker_seats_busy 0" not in text
+
+
+def cancelling(one):
+    client, times = Client(one.ports()[0]), []
+    for i in range(10):
+        path = client.ask("POST", "/workspace", {**LONG, "phi1": i / 10}, Prefer="respond-async").headers["Location"]
+        while client.ask("GET", path).json()["progress"] == 0:
+            time.sleep(0.01)
+        began = time.monotonic()
+        client.ask("DELETE", path)
+        while client.ask("GET", path).json()["state"] != "cancelled" or busy(one.workers[0]):
+            time.sleep(0.002)
+        times.append(time.monotonic() - began)
+    times.sort()
+    print(f"DELETE to ended and free: median {times[5]:.3f} s, longest {times[-1]:.3f} s", flush=True)
+
+
+def watchers(verne):
+    with tempfile.TemporaryDirectory() as place:
+        node = Served(verne, os.path.join(place, "node"), "--max-connections", str(STREAMS + 100)).start()
+        client = Client(node.port)
+        path = client.ask("POST", "/workspace", LONG, Prefer="respond-async").headers["Location"]
+        before, streams = node.rss(), []
+        for _ in range(STREAMS):
+            stream = socket.create_connection(("127.0.0.1", node.port))
+            stream.sendall(f"GET {path}/events HTTP/1.1\r\nHost: x\r\n\r\n".encode())
+            streams.append(stream)
+        for stream in streams:
+            assert stream.recv(15) == b"HTTP/1.1 200 OK"
+        open_ones = node.rss()
+        client.ask("DELETE", path)
+        for stream in streams:
+            while stream.recv(65536):
+                pass
+            stream.close()
+        print(f"{STREAMS} streams: resident {before / MEBI:.0f} MiB before, {open_ones / MEBI:.0f} with them "
+              f"({(open_ones - before) / STREAMS / 1024:.1f} KiB each), all ended by DELETE", flush=True)
+        node.kill()
+
+
+def main():
+    resource.setrlimit(resource.RLIMIT_NOFILE, (resource.getrlimit(resource.RLIMIT_NOFILE)[1],) * 2)
+    verne, nats = sys.argv[1:]
+    one, _places = efficiency(verne, nats)
+    overhead(verne, one)
+    cancelling(one)
+    one.end()
+    watchers(verne)
+
+
+main()
