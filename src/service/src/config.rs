@@ -49,9 +49,8 @@ pub struct ServeConfig {
     /// Address to listen on.
     #[arg(long, env = "VERNE_LISTEN", default_value = "127.0.0.1:8080")]
     pub listen: SocketAddr,
-    /// Most open connections, an address at most half of them; more are closed at once. A process may usually open 1024
-    /// files, and results and jobs need some of those.
-    #[arg(long, env = "VERNE_MAX_CONNECTIONS", default_value_t = 800, value_name = "CONNECTIONS",
+    /// Most open connections, an address at most half of them; more are closed at once. Each is an open file.
+    #[arg(long, env = "VERNE_MAX_CONNECTIONS", default_value_t = 10_000, value_name = "CONNECTIONS",
         value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_connections: usize,
     /// Seconds in which the headers of a request must have come, and in which the next request must begin.
@@ -64,7 +63,7 @@ pub struct ServeConfig {
     /// The certificate's private key, in PEM.
     #[arg(long, env = "VERNE_TLS_KEY", value_name = "FILE")]
     pub tls_key: Option<PathBuf>,
-    /// Pages that may ask from a browser, by their origins, such as https://example.org, with commas between them; * for
+    /// Pages that may ask from a browser, by their origins, such as `https://example.org`, with commas between them; `*` for
     /// all. Without it only the service's own.
     #[arg(long, env = "VERNE_CORS_ORIGIN", value_delimiter = ',', value_name = "ORIGIN")]
     pub cors_origin: Vec<Origin>,

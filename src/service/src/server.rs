@@ -2,6 +2,7 @@
 
 mod connection;
 mod exposure;
+mod files;
 mod outgoing;
 mod patience;
 mod places;
@@ -45,6 +46,7 @@ impl Server {
             (Some(certificate), Some(key)) => Some(Arc::new(Tls::read(certificate, key)?)),
             _ => None,
         };
+        files::ask_for(config.max_connections);
         let bounds = Bounds {
             header: Duration::from_secs(config.header_timeout),
             stall: Duration::from_secs(config.timeout),
