@@ -36,6 +36,9 @@ use records::{Opened, Record, Records};
 pub use config::{Config, OpenError};
 pub use records::Retention;
 
+/// How much nicer jobs are than who answers short questions in the same process: a tenth of its share of a full core.
+const COURTESY: i32 = 10;
+
 /// Callers that read the records at the same time; others wait.
 const READERS: usize = 64;
 
@@ -56,7 +59,7 @@ impl Embedded {
     pub fn open(config: Config, work: Arc<dyn Work>) -> Result<Self, OpenError> {
         let Opened { records, live, last_life, given_up, set_aside } =
             records::open(config.directory.as_deref(), config.retention, config.max_attempts)?;
-        let seats = pools::seats(config.threads, config.slots)
+        let seats = pools::seats(config.threads, config.slots, COURTESY)
             .map_err(|fault| OpenError::Threads(fault.to_string()))?;
         let threads = |fault: std::io::Error| OpenError::Threads(fault.to_string());
         let recorder = Recorder::start(records).map_err(threads)?;

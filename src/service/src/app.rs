@@ -42,11 +42,11 @@ pub enum StartError {
 impl fmt::Display for StartError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Machine(bad) => bad.fmt(f),
-            Self::Keys(bad) => bad.fmt(f),
+            Self::Machine(bad) => write!(f, "machines: {bad}"),
+            Self::Keys(bad) => write!(f, "keys: {bad}"),
             Self::Storage(error) => error.fmt(f),
-            Self::Tls(error) => error.fmt(f),
-            Self::Listen(address, error) => write!(f, "cannot serve on {address}: {error}"),
+            Self::Tls(error) => write!(f, "tls_certificate, tls_key: {error}"),
+            Self::Listen(address, error) => write!(f, "listen: cannot serve on {address}: {error}"),
         }
     }
 }

@@ -17,7 +17,7 @@ use tower_http::timeout::TimeoutLayer;
 
 use crate::browsers::Browsers;
 use crate::metrics::Requests;
-use crate::observe::observe;
+use crate::observe::{observe, without_long_id};
 use crate::problem::give_every_failure_a_document;
 
 /// Wraps the routes; the first layer here is the outermost. One stack: each call of `Router::layer` would box every
@@ -30,6 +30,7 @@ pub(crate) fn wrap(
 ) -> Router {
     routes.layer(
         ServiceBuilder::new()
+            .map_request(without_long_id)
             .layer(SetRequestIdLayer::x_request_id(MakeRequestUuid))
             .layer(from_fn_with_state(requests, observe))
             .layer(PropagateRequestIdLayer::x_request_id())

@@ -20,7 +20,7 @@ pub struct TelemetryConfig {
     #[arg(long, env = "VERNE_LOG_FORMAT", value_enum, default_value_t)]
     pub log_format: LogFormat,
     /// Collector of traces, by OTLP over HTTP: <http://HOST:4318>. By default there are none.
-    #[arg(long, env = "VERNE_OTLP", value_name = "URL")]
+    #[arg(long, env = "VERNE_OTLP", value_name = "URL", hide_env_values = true)]
     pub otlp: Option<String>,
 }
 

@@ -26,6 +26,8 @@ async fn every_request_has_an_id() {
     assert_ne!(ids[0], ids[1]);
     let mine = Request::get(QUESTION).header("x-request-id", "mine").body(Body::empty()).unwrap();
     assert_eq!(send(mine).await.headers["x-request-id"], "mine");
+    let long = Request::get(QUESTION).header("x-request-id", "x".repeat(129)).body(Body::empty()).unwrap();
+    assert!(send(long).await.headers["x-request-id"].len() < 129, "it would stand in every line of the log");
 }
 
 #[tokio::test]

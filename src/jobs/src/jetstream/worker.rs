@@ -85,8 +85,8 @@ impl Worker {
         config: WorkerConfig,
         work: Arc<dyn Work>,
     ) -> Result<Self, ConnectError> {
-        let seats =
-            seats(config.threads, config.slots).map_err(|fault| ConnectError::Threads(fault.to_string()))?;
+        let seats = seats(config.threads, config.slots, 0)
+            .map_err(|fault| ConnectError::Threads(fault.to_string()))?;
         let desk = Arc::new(Desk {
             client: Arc::clone(&backend.client),
             work,

@@ -21,21 +21,34 @@ pub(crate) struct Seat {
     pub(crate) pool: Arc<ThreadPool>,
 }
 
-/// Deals `threads` out among `slots` of the main lane, at least one to each, and adds the express lane.
-pub(crate) fn seats(threads: usize, slots: usize) -> Result<Vec<Seat>, ThreadPoolBuildError> {
+/// Deals `threads` out among `slots` of the main lane, at least one to each, and adds the express lane. The threads are
+/// nicer by `courtesy` than others of the process.
+pub(crate) fn seats(threads: usize, slots: usize, courtesy: i32) -> Result<Vec<Seat>, ThreadPoolBuildError> {
     let threads = threads.max(1);
     let slots = slots.clamp(1, threads);
     let share = |slot| threads / slots + usize::from(slot < threads % slots);
-    let main = (0..slots).map(|slot| seat(Lane::Main, share(slot), format!("jobs-{slot}")));
-    main.chain([seat(Lane::Express, 1, "jobs-express".to_owned())]).collect()
+    let main = (0..slots).map(|slot| seat(Lane::Main, share(slot), format!("jobs-{slot}"), courtesy));
+    main.chain([seat(Lane::Express, 1, "jobs-express".to_owned(), courtesy)]).collect()
 }
 
-fn seat(lane: Lane, threads: usize, name: String) -> Result<Seat, ThreadPoolBuildError> {
+fn seat(lane: Lane, threads: usize, name: String, courtesy: i32) -> Result<Seat, ThreadPoolBuildError> {
     let pool = ThreadPoolBuilder::new()
         .num_threads(threads)
         .thread_name(move |thread| format!("{name}-{thread}"))
+        .start_handler(move |_| give_way(courtesy))
         // What the work spawns apart from its own run; rayon would end the process.
         .panic_handler(|_| tracing::error!("a task that a job had spawned panicked"))
         .build()?;
     Ok(Seat { lane, pool: Arc::new(pool) })
 }
+
+/// On Linux each thread has a niceness of its own; elsewhere the process has one, and keeps it.
+#[cfg(target_os = "linux")]
+fn give_way(courtesy: i32) {
+    if let Err(fault) = rustix::process::nice(courtesy) {
+        tracing::debug!(%fault, "a thread for jobs has the priority of all others");
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn give_way(_: i32) {}

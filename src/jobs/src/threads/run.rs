@@ -184,7 +184,7 @@ mod tests {
             attempts: 1,
             failure: None,
         };
-        let seat = seats(1, 1).into_iter().flatten().find(|seat| seat.lane == lane);
+        let seat = seats(1, 1, 0).into_iter().flatten().find(|seat| seat.lane == lane);
         #[expect(clippy::unwrap_used, reason = "test")]
         let seat = seat.unwrap();
         Run::new((id, 1), false, seat, Feeder::new(job), Arc::clone(turn))

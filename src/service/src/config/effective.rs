@@ -27,7 +27,7 @@ fn value(settings: &Settings, setting: &Arg) -> Option<String> {
         return Some(settings.matches.get_flag(id).to_string());
     }
     let mut values =
-        settings.matches.get_raw(id)?.map(|value| masked(&value.to_string_lossy())).map(|v| literal(&v));
+        settings.matches.get_raw(id)?.map(|value| masked(id, &value.to_string_lossy())).map(|v| literal(&v));
     if matches!(setting.get_action(), ArgAction::Append) {
         return Some(format!("[{}]", values.collect::<Vec<_>>().join(", ")));
     }
@@ -54,17 +54,19 @@ fn literal(text: &str) -> String {
     number.unwrap_or_else(|| Value::String(text.to_owned()).to_string())
 }
 
-/// Addresses without the user and the password, or the token, in them.
-fn masked(text: &str) -> String {
-    let mut pieces = text.split("://");
-    let mut shown = pieces.next().unwrap_or_default().to_owned();
-    for piece in pieces {
-        shown += "://";
-        let secret = piece.rfind('@');
-        shown += if secret.is_some() { "***" } else { "" };
-        shown += piece.get(secret.unwrap_or(0)..).unwrap_or_default();
+/// Settings that are addresses, with a user and a password or a token in them perhaps.
+const ADDRESSES: [&str; 3] = ["broker", "otlp", "store"];
+
+/// Addresses without what is secret in them, also where their scheme was left out.
+fn masked(id: &str, text: &str) -> String {
+    if !ADDRESSES.contains(&id) {
+        return text.to_owned();
     }
-    shown
+    let without = |piece: &str| match piece.rfind('@') {
+        Some(at) => format!("***{}", piece.get(at..).unwrap_or_default()),
+        None => piece.to_owned(),
+    };
+    text.split("://").map(without).collect::<Vec<_>>().join("://")
 }
 
 #[cfg(test)]
@@ -74,12 +76,14 @@ mod tests {
 
     #[test]
     fn nobody_reads_a_password() {
-        for (address, shown) in [
-            ("nats://me:p@ss@one:4222,tls://token@two", "nats://***@one:4222,tls://***@two"),
-            ("nats://one,nats://two", "nats://one,nats://two"),
-            ("/etc/verne@home.toml", "/etc/verne@home.toml"),
+        for (id, address, shown) in [
+            ("broker", "nats://me:p@ss@one:4222,tls://token@two", "nats://***@one:4222,tls://***@two"),
+            ("broker", "nats://one,nats://two", "nats://one,nats://two"),
+            ("broker", "me:secret@one:4222", "***@one:4222"),
+            ("otlp", "http://me:secret@one:4318", "http://***@one:4318"),
+            ("keys", "/etc/verne@home.toml", "/etc/verne@home.toml"),
         ] {
-            assert_eq!(masked(address), shown);
+            assert_eq!(masked(id, address), shown);
         }
     }
 

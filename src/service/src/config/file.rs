@@ -30,11 +30,19 @@ struct Setting {
     name: String,
 }
 
+/// Line and fault, without the line's text: there may be a password in it.
+fn told_of(error: &toml::de::Error, text: &str) -> String {
+    let before = error.span().and_then(|span| text.get(..span.start));
+    let line = before.map(|before| format!("line {}: ", before.matches('\n').count() + 1));
+    format!("{}{}", line.unwrap_or_default(), error.message())
+}
+
 impl SettingsInFile {
     /// Reads a file for a command that has these values already. The error names file and key.
     pub(super) fn read(path: &Path, command: &Command, told: &ArgMatches) -> Result<Self, String> {
         let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let table: Table = text.parse().map_err(|error| format!("{}: {error}", path.display()))?;
+        let table: Table =
+            text.parse().map_err(|error| format!("{}: {}", path.display(), told_of(&error, &text)))?;
         let mut decided = Vec::new();
         for (key, value) in table {
             let fault = |what: String| format!("{}: {what}", path.display());

@@ -214,6 +214,12 @@ mod tests {
     }
 
     #[test]
+    fn a_refusal_does_not_repeat_the_file() {
+        let error = settings("count = 1\ndata = \"nats://me:secret@host", "").unwrap_err();
+        assert!(error.contains("line 2") && !error.contains("secret"), "{error}");
+    }
+
+    #[test]
     fn layers_complete_each_other() {
         assert!(settings("count = 1\ntls_key = 'k'", "--tls_certificate c").is_ok());
         let printed = settings("count = 1\ndata = '/f'", "--memory_only").unwrap();
