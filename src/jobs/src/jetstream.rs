@@ -105,23 +105,37 @@ impl JetStream {
         let late = |_| Unavailable("the broker does not answer".to_owned());
         timeout(SETTLING, self.client.claims.settled()).await.map_err(late)
     }
+
+    /// Returns when the job is in the mirror, or the broker does not have it: another process may have just begun it.
+    async fn heard_of(&self, id: JobId) -> Result<(), Unavailable> {
+        self.settled().await?;
+        if self.client.mirror.revision(id).is_none() {
+            self.client.refresh(id).await?;
+        }
+        Ok(())
+    }
+}
+
+async fn claim(client: Arc<Client>, submission: Submission) -> Result<Claim, SubmitError> {
+    let id = submission.id;
+    let _shard = client.shard(id).await;
+    let record = client.submit(&submission, Claimant::Process(client.process)).await?;
+    let stake = Stake::new(&client, (id, record.life));
+    let feed = client.mirror.feed(id, record.life);
+    let feed = feed.ok_or_else(|| Unavailable("another has begun the job anew".to_owned()))?;
+    Ok(Claim::new(feed, Box::new(stake)))
 }
 
 #[async_trait]
 impl Backend for JetStream {
     async fn submit(&self, submission: Submission) -> Result<Claim, SubmitError> {
-        let client = &self.client;
-        let id = submission.id;
-        let _shard = client.shard(id).await;
-        let record = client.submit(&submission, Claimant::Process(client.process)).await?;
-        let stake = Stake::new(client, (id, record.life));
-        let feed = client.mirror.feed(id, record.life);
-        let feed = feed.ok_or_else(|| Unavailable("another has begun the job anew".to_owned()))?;
-        Ok(Claim::new(feed, Box::new(stake)))
+        // In a task of its own: who goes away meanwhile leaves no claim behind that nobody has.
+        let submitted = tokio::spawn(claim(Arc::clone(&self.client), submission));
+        submitted.await.unwrap_or_else(|fault| Err(Unavailable(fault.to_string()).into()))
     }
 
     async fn get(&self, id: JobId) -> Result<Option<Job>, Unavailable> {
-        self.settled().await?;
+        self.heard_of(id).await?;
         Ok(self.client.mirror.job(id))
     }
 
@@ -132,7 +146,7 @@ impl Backend for JetStream {
     }
 
     async fn watch(&self, id: JobId) -> Result<Option<Watcher>, Unavailable> {
-        self.settled().await?;
+        self.heard_of(id).await?;
         let board = self.client.mirror.lock();
         Ok(board.entries.get(&id).map(|entry| Watcher::new(entry.feeder.subscribe())))
     }

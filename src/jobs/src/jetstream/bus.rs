@@ -128,9 +128,13 @@ impl Bus {
     }
 
     pub(super) async fn read(&self, id: JobId) -> Result<Option<(Record, u64)>, Unavailable> {
-        let entry = self.records.entry(id.to_string()).await.map_err(unavailable)?;
-        let entry = entry.filter(|entry| entry.operation == kv::Operation::Put);
-        Ok(entry.and_then(|entry| Some((Record::decode(&entry.value)?, entry.revision))))
+        // Of the leader: any replica may answer for an entry, one that lags behind too.
+        let subject = format!("{}{id}", self.records.prefix);
+        match self.records.stream.get_last_raw_message_by_subject(&subject).await {
+            Ok(message) => Ok(Record::decode(&message.payload).map(|record| (record, message.sequence))),
+            Err(fault) if fault.kind() == stream::LastRawMessageErrorKind::NoMessageFound => Ok(None),
+            Err(fault) => Err(unavailable(fault)),
+        }
     }
 
     /// Writes a record in the place of that of `revision`, or the first of its job; its revision.
@@ -138,18 +142,11 @@ impl Bus {
         let key = record.job.id.to_string();
         let other = || WriteError::Unavailable(Unavailable("a record cannot be encoded".to_owned()));
         let value = record.encode().ok_or_else(other)?;
-        match revision {
-            Some(revision) => {
-                self.records.update(key, value, revision).await.map_err(|fault| match fault.kind() {
-                    kv::UpdateErrorKind::WrongLastRevision => WriteError::Conflict,
-                    _ => WriteError::Unavailable(unavailable(fault)),
-                })
-            }
-            None => self.records.create(key, value).await.map_err(|fault| match fault.kind() {
-                kv::CreateErrorKind::AlreadyExists => WriteError::Conflict,
-                _ => WriteError::Unavailable(unavailable(fault)),
-            }),
-        }
+        let written = self.records.update(key, value, revision.unwrap_or(0)).await;
+        written.map_err(|fault| match fault.kind() {
+            kv::UpdateErrorKind::WrongLastRevision => WriteError::Conflict,
+            _ => WriteError::Unavailable(unavailable(fault)),
+        })
     }
 
     /// Forgets a job's record up to this revision; a later one stays.

@@ -71,6 +71,11 @@ impl Claims {
         }
     }
 
+    /// Has the record brought up to date.
+    pub(super) fn look_at(&self, life: Life) {
+        self.change(life, |_| ());
+    }
+
     fn change(&self, life: Life, change: impl FnOnce(&mut Held)) {
         change(self.held.lock().entry(life).or_default());
         drop(self.settle.send(Settle::Changed(life)));

@@ -87,7 +87,13 @@ impl Client {
                     }
                     return Ok(record);
                 }
-                Err(WriteError::Unavailable(unavailable)) => return Err(unavailable.into()),
+                Err(WriteError::Unavailable(unavailable)) => {
+                    // It may have been written all the same, with a claim that nobody here has.
+                    if matches!(claimant, Claimant::Process(_)) {
+                        self.claims.look_at((submission.id, record.life));
+                    }
+                    return Err(unavailable.into());
+                }
                 Err(WriteError::Conflict) => known = self.refresh(submission.id).await?,
             }
         }
@@ -100,7 +106,11 @@ impl Client {
         id: JobId,
         change: impl Fn(&mut Record) -> bool,
     ) -> Result<Option<Record>, Unavailable> {
-        let mut known = self.mirror.read(id);
+        let mut known = match self.mirror.read(id) {
+            // Perhaps it has not been heard of yet.
+            None => self.refresh(id).await?,
+            known => known,
+        };
         for _ in 0..ATTEMPTS {
             let Some((mut record, revision)) = known else {
                 return Ok(None);
@@ -125,10 +135,11 @@ impl Client {
 
     /// What the broker has, whatever has been heard of it.
     pub(super) async fn refresh(&self, id: JobId) -> Result<Option<(Record, u64)>, Unavailable> {
+        let before = self.mirror.revision(id);
         let read = self.bus.read(id).await?;
         match &read {
             Some((record, revision)) => self.mirror.apply(record.clone(), *revision),
-            None => self.mirror.lock().remove(id),
+            None => self.mirror.remove(id, before),
         }
         Ok(read)
     }

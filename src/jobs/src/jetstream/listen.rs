@@ -20,6 +20,9 @@ const RETRY: Duration = Duration::from_millis(500);
 /// When nothing has come for so long there was nothing more.
 const SILENCE: Duration = Duration::from_secs(1);
 
+/// So many silences after each other are reason to ask whether the broker is still the same.
+const MANY_SILENCES: u32 = 10;
+
 /// Keeps the mirror as the records are; tells when it has them all.
 pub(super) async fn records(client: Arc<Client>, caught_up: watch::Sender<bool>) {
     loop {
@@ -31,16 +34,21 @@ pub(super) async fn records(client: Arc<Client>, caught_up: watch::Sender<bool>)
 
 async fn follow(client: &Client, caught_up: &watch::Sender<bool>) -> Result<Infallible, String> {
     let told = |fault: &dyn std::fmt::Display| fault.to_string();
-    let info = client.bus.records.stream.get_info().await.map_err(|fault| told(&fault))?;
-    if info.state.messages == 0 {
+    if last_revision(client).await? == 0 {
         catch_up(client, caught_up);
     }
-    let mut entries = client.bus.records.watch_all().await.map_err(|fault| told(&fault))?;
+    // What is there, and then what comes. Again after each interruption: what came meanwhile is not lost.
+    let mut entries = client.bus.records.watch_with_history(">").await.map_err(|fault| told(&fault))?;
+    let mut silences = 0_u32;
     loop {
         let next = timeout(SILENCE, entries.next()).await;
         let Ok(entry) = next else {
             // What was forgotten meanwhile is waited for in vain.
             catch_up(client, caught_up);
+            silences += 1;
+            if silences.is_multiple_of(MANY_SILENCES) {
+                last_revision(client).await?;
+            }
             continue;
         };
         let entry = entry.ok_or("the broker has gone")?;
@@ -56,6 +64,17 @@ async fn follow(client: &Client, caught_up: &watch::Sender<bool>) -> Result<Infa
             catch_up(client, caught_up);
         }
     }
+}
+
+/// Of the records. If this process has heard of a later one, the broker has lost its records and begun anew: then what was
+/// heard is worth nothing, and would hide what comes.
+async fn last_revision(client: &Client) -> Result<u64, String> {
+    let info = client.bus.records.stream.get_info().await.map_err(|fault| fault.to_string())?;
+    let last = info.state.last_sequence;
+    if client.mirror.begin_anew_after(last) {
+        return Err("the broker has lost its records".to_owned());
+    }
+    Ok(last)
 }
 
 fn catch_up(client: &Client, caught_up: &watch::Sender<bool>) {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant, SystemTime};
 use parking_lot::{Mutex, MutexGuard};
 use tokio::sync::{Notify, watch};
 
-use super::record::Record;
+use super::record::{Claimant, Record};
 use crate::embedded::Retention;
 use crate::feed::{Feed, Feeder};
 use crate::threads::run::Told;
@@ -57,6 +57,8 @@ pub(super) struct Board {
     cost: f64,
     /// By the time of their end: jobs, and what were only parts.
     ended: [BTreeSet<(SystemTime, JobId)>; 2],
+    /// The last revision that was heard of.
+    highest: u64,
     /// What follows has happened while this process watched.
     pub(super) caught_up: bool,
 }
@@ -92,6 +94,29 @@ impl Mirror {
         self.lock().entries.get(&id).map(|entry| (entry.record.clone(), entry.revision))
     }
 
+    pub(super) fn revision(&self, id: JobId) -> Option<u64> {
+        self.lock().entries.get(&id).map(|entry| entry.revision)
+    }
+
+    /// Forgets a job, unless more has been heard of it since this revision.
+    pub(super) fn remove(&self, id: JobId, revision: Option<u64>) {
+        let mut board = self.lock();
+        if board.entries.get(&id).map(|entry| entry.revision) == revision {
+            board.remove(id);
+        }
+    }
+
+    /// Forgets all if something later than this revision was heard of; whether it was.
+    pub(super) fn begin_anew_after(&self, revision: u64) -> bool {
+        let mut board = self.lock();
+        let lost = board.highest > revision;
+        if lost {
+            let counts = Counts { queued: 0, running: 0, ..board.counts };
+            *board = Board { counts, caught_up: board.caught_up, ..Board::default() };
+        }
+        lost
+    }
+
     pub(super) fn job(&self, id: JobId) -> Option<Job> {
         self.lock().entries.get(&id).map(|entry| entry.feeder.job())
     }
@@ -112,6 +137,7 @@ impl Board {
     fn apply(&mut self, record: Record, revision: u64) {
         let id = record.job.id;
         let known = self.entries.get(&id);
+        self.highest = self.highest.max(revision);
         if known.is_some_and(|entry| entry.revision >= revision) {
             return;
         }
@@ -149,8 +175,8 @@ impl Board {
             return;
         }
         let same = old.filter(|old| old.life == new.life);
-        if old.is_some_and(|old| same.is_none() && !old.job.state.is_final()) {
-            // Its life before, which was told to stop.
+        if old.is_some_and(|old| same.is_none() && !old.job.state.is_final() && old.told.is_some()) {
+            // Its life before.
             self.counts.cancelled += 1;
         }
         let attempts = same.map_or(0, |old| old.job.attempts);
@@ -238,6 +264,12 @@ impl Board {
         records.filter(|record| record.told.is_none() && holds(record)).cloned().collect()
     }
 
+    /// Of the jobs that are under way.
+    pub(super) fn claimants(&self) -> impl Iterator<Item = &Claimant> {
+        let live = self.live.iter().filter_map(|id| self.entries.get(id));
+        live.flat_map(|entry| &entry.record.claimants)
+    }
+
     /// What has become of a life of a job.
     pub(super) fn fate(&self, id: JobId, life: u64) -> Fate {
         match self.entries.get(&id).map(|entry| &entry.record) {
@@ -275,7 +307,10 @@ impl Entry {
     }
 
     fn replace(&mut self, record: Record, revision: u64) {
-        if record.life == self.record.life {
+        let told = self.record.told.is_some();
+        if record.life == self.record.life || (!told && !self.feeder.state().is_final()) {
+            // Of a life whose end was not heard of, because the next life's beginning was written over it, the next makes
+            // the same.
             self.feeder.change(|job| {
                 let progress = if record.job.state == State::Running { job.progress } else { 0.0 };
                 *job = record.job.clone();
@@ -299,7 +334,7 @@ mod tests {
     use super::{Fate, Mirror};
     use crate::jetstream::record::{Claimant, Record};
     use crate::threads::run::Outcome;
-    use crate::{JobId, Submission};
+    use crate::{JobId, State, Submission};
 
     fn record(life: u64) -> Record {
         let submission = Submission {
@@ -310,6 +345,25 @@ mod tests {
             deadline: None,
         };
         Record::new(life, submission, Claimant::Process(1), false)
+    }
+
+    /// Its end was written over by the next beginning before this process heard of it.
+    #[test]
+    fn a_life_whose_end_was_not_heard_of_goes_on_in_the_next() {
+        let (mirror, id) = (Mirror::default(), JobId::from_bytes([1; 32]));
+        let mut running = record(1);
+        running.begin();
+        mirror.apply(running.clone(), 1);
+        let waiting = mirror.feed(id, 1).map(|feed| feed.job().state);
+        assert_eq!(waiting, Some(State::Running));
+        let feed = mirror.feed(id, 1);
+        mirror.apply(record(2), 3);
+        assert_eq!(feed.as_ref().map(|feed| feed.job().state), Some(State::Queued), "not cancelled");
+        let mut ended = record(2);
+        ended.end(Outcome::Succeeded);
+        mirror.apply(ended, 4);
+        assert_eq!(feed.map(|feed| feed.job().state), Some(State::Succeeded));
+        assert_eq!(mirror.lock().counts.cancelled, 0);
     }
 
     #[test]

@@ -12,7 +12,7 @@ use super::mirror::{Board, Fate};
 use super::record::{Claimant, Record};
 use crate::moment::now;
 use crate::threads::run::Told;
-use crate::{JobId, State};
+use crate::{JobId, State, Unavailable};
 
 /// How often it looks.
 const TICK: Duration = Duration::from_millis(250);
@@ -67,10 +67,13 @@ impl Heard {
         }
     }
 
-    /// Whether this process is the first of those that are there, as far as it has heard. Two may think so for a moment.
-    fn is_first(&self, own: u64, lease: Duration) -> bool {
-        let mut there = self.processes.iter().filter(|(_, last)| last.elapsed() < lease);
-        there.all(|(process, _)| own <= *process)
+    /// Whose claims are seen for the first time has been heard of then.
+    fn meet(&mut self, board: &Board) {
+        for claimant in board.claimants() {
+            if let Claimant::Process(process) = claimant {
+                self.processes.entry(*process).or_insert_with(Instant::now);
+            }
+        }
     }
 
     /// Whether a process would have been heard of if it were there.
@@ -84,6 +87,7 @@ impl Heard {
 
 async fn look(client: &Client, heard: &mut Heard) {
     let lease = client.bus.config.lease;
+    heard.meet(&client.mirror.lock());
     let missed = |process: u64| heard.misses(process, client.process, lease);
     let late = client.mirror.lock().live(is_late);
     for record in late {
@@ -92,7 +96,7 @@ async fn look(client: &Client, heard: &mut Heard) {
     release(client, missed).await;
     heard.processes.retain(|_, last| last.elapsed() < 2 * lease);
     mend(client).await;
-    forget(client, heard.is_first(client.process, lease)).await;
+    forget(client).await;
 }
 
 fn is_late(record: &Record) -> bool {
@@ -172,19 +176,40 @@ async fn mend(client: &Client) {
     let unseen = client.mirror.lock().unseen(client.bus.config.mend_after);
     for record in unseen {
         if matches!(client.bus.is_published(&record).await, Ok(false))
-            && let Ok(Some((record, _))) = client.refresh(record.job.id).await
-            && !record.job.state.is_final()
+            && let Err(fault) = queue_again(client, record.job.id).await
         {
-            tracing::warn!(job = %record.job.id, "a recorded job was not queued; it is now");
-            drop(client.bus.publish(&record).await);
+            tracing::debug!(%fault, "a job that was not queued is not queued yet");
         }
     }
 }
 
-/// Each process forgets by the same rule; one has the broker forget.
-async fn forget(client: &Client, is_first: bool) {
-    let forgotten = client.mirror.lock().forget(client.bus.config.retention);
-    for (id, revision) in forgotten.into_iter().filter(|_| is_first) {
-        client.bus.forget(id, revision).await;
+/// In a turn of its own: the broker would take the message of a turn that it has seen for a repetition.
+async fn queue_again(client: &Client, id: JobId) -> Result<(), Unavailable> {
+    let _shard = client.shard(id).await;
+    let Some((record, _)) = client.refresh(id).await? else {
+        return Ok(());
+    };
+    if record.job.state.is_final() || client.bus.is_published(&record).await? {
+        return Ok(());
     }
+    let seen = (record.life, record.turn);
+    let queued = client.change(id, |record| {
+        let lost = (record.life, record.turn) == seen && record.goes_on();
+        if lost {
+            record.requeue();
+        }
+        lost
+    });
+    if let Some(record) = queued.await?.filter(|record| (record.life, record.turn) == (seen.0, seen.1 + 1)) {
+        tracing::warn!(job = %id, "a recorded job was not queued; it is now");
+        client.bus.publish(&record).await?;
+    }
+    Ok(())
+}
+
+/// Each process forgets by the same rule, and has the broker forget: nobody is told that another has.
+async fn forget(client: &Client) {
+    let forgotten = client.mirror.lock().forget(client.bus.config.retention);
+    let forgotten = stream::iter(forgotten).map(|(id, revision)| client.bus.forget(id, revision));
+    forgotten.buffer_unordered(AT_ONCE).collect::<()>().await;
 }

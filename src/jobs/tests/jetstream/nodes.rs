@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use verne_jobs::embedded::Retention;
 use verne_jobs::jetstream::{Config, Worker, WorkerConfig};
-use verne_jobs::{Backend, Counts, Filter, JetStream, Job, State, SubmitError};
+use verne_jobs::{Backend, Counts, Failure, Filter, JetStream, Job, State, SubmitError};
 
 use crate::broker::{Broker, worker};
 use crate::stage::{Stage, id, job};
@@ -193,6 +193,93 @@ async fn what_an_old_worker_cannot_read_is_left_to_a_new_one() {
         assert!(occupancy().handed_back >= 2, "{:?}", occupancy());
         // Nor does it keep what it has in hand when it is stopped.
         behind.drain(Duration::from_secs(10)).await;
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
+async fn who_comes_later_knows_what_was_before() {
+    within_a_minute(async {
+        let broker = Broker::start();
+        let api = broker.connect().await;
+        let deadline = Some(Duration::from_secs(3));
+        for name in ["a", "b"] {
+            api.submit(job("ada", name, "pass")).await.unwrap().keep();
+        }
+        api.submit(verne_jobs::Submission { deadline, ..job("ada", "late", "pass") }).await.unwrap().keep();
+        api.get(id("a")).await.unwrap();
+        drop(api);
+        let later = broker.connect().await;
+        let page = later.list(Filter { limit: 9, ..Filter::default() }).await.unwrap();
+        assert_eq!(page.jobs.iter().map(|job| job.id).collect::<Vec<_>>(), [id("late"), id("b"), id("a")]);
+        assert_eq!(later.counts().queued, 3);
+        assert_eq!(end(&later, "late").await.failure, Some(Failure::DeadlinePassed));
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
+async fn what_one_has_taken_any_other_knows_at_once() {
+    within_a_minute(async {
+        let broker = Broker::start();
+        let (one, other) = (broker.connect().await, broker.connect().await);
+        for number in 0..50 {
+            let name = format!("{number}");
+            one.submit(job("ada", &name, "pass")).await.unwrap().keep();
+            assert!(other.get(id(&name)).await.unwrap().is_some(), "{number}");
+        }
+        assert_eq!(other.get(id("never")).await.unwrap(), None);
+    })
+    .await;
+}
+
+/// The client may leave while its job is being recorded.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
+async fn who_goes_away_early_leaves_nothing_behind() {
+    within_a_minute(async {
+        let broker = Broker::start();
+        let api = broker.connect().await;
+        for number in 0..100 {
+            let name = format!("{number}");
+            let submitting = api.submit(job("ada", &name, "pass"));
+            // Some before it is recorded, some after.
+            drop(tokio::time::timeout(Duration::from_micros(50 * number), submitting).await);
+        }
+        while api.counts().queued > 0 {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    })
+    .await;
+}
+
+/// Its directory was lost, or another took its place.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
+async fn a_broker_that_begins_anew_is_followed() {
+    within_a_minute(async {
+        let mut broker = Broker::start();
+        let api = broker.connect().await;
+        for number in 0..20 {
+            api.submit(job("ada", &format!("{number}"), "pass")).await.unwrap().keep();
+        }
+        broker.kill();
+        broker.forget();
+        broker.restart();
+        let fresh = broker.connect().await;
+        fresh.submit(job("ada", "new", "pass")).await.unwrap().keep();
+        let page = loop {
+            let page = api.list(Filter { limit: 9, ..Filter::default() }).await;
+            if let Ok(page) = page
+                && page.jobs.len() == 1
+            {
+                break page;
+            }
+            tokio::time::sleep(Duration::from_millis(100)).await;
+        };
+        assert_eq!(page.jobs[0].id, id("new"));
     })
     .await;
 }

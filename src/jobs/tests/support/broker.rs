@@ -42,6 +42,11 @@ impl Broker {
         self.server.wait().unwrap();
     }
 
+    /// As if its disk had been replaced.
+    pub(crate) fn forget(&self) {
+        std::fs::remove_dir_all(self.directory.path().join("store")).unwrap();
+    }
+
     /// On the same port, with what it has stored.
     pub(crate) fn restart(&mut self) {
         self.server = serve(&self.directory, self.port);

@@ -69,7 +69,11 @@ async fn begin(desk: &Desk, delivery: &Delivery) -> Result<Option<Record>, Unava
         }
         begins
     });
-    Ok(begun.await?.filter(|record| delivery.is_for(record)))
+    let begun = begun.await?;
+    if begun.as_ref().is_some_and(|record| delivery.is_ahead_of(record)) {
+        return Err(Unavailable("its record is older than its message".to_owned()));
+    }
+    Ok(begun.filter(|record| delivery.is_for(record)))
 }
 
 async fn carry_out(desk: &Arc<Desk>, record: &Record, seat: Seat) -> End {
@@ -83,8 +87,13 @@ async fn carry_out(desk: &Arc<Desk>, record: &Record, seat: Seat) -> End {
     let heard = async {
         let news =
             signal.wait_for(|(now, attempts, told)| (*now, *attempts) != (life, attempt) || told.is_some());
-        // What is another's now is stopped as what was cancelled.
-        told.send_replace(Some(news.await.ok().and_then(|news| news.2).unwrap_or(Told::Cancelled)));
+        let what = match news.await.map(|news| news.2) {
+            // What is another's now is stopped as what was cancelled.
+            Ok(told) => told.unwrap_or(Told::Cancelled),
+            // The mirror has begun anew: nobody has said that it should end.
+            Err(_) => Told::Drained,
+        };
+        told.send_replace(Some(what));
         std::future::pending::<()>().await;
     };
     let drained = async {

@@ -46,6 +46,11 @@ impl Delivery {
         (record.life, record.turn) == (self.life, self.turn) && !record.job.state.is_final()
     }
 
+    /// Whether its record must have been written since: what was read is not the last.
+    pub(super) fn is_ahead_of(&self, record: &Record) -> bool {
+        (record.life, record.turn) < (self.life, self.turn)
+    }
+
     /// The job is recorded as done, or as somebody else's; the broker forgets it. If that fails it comes again, and is found
     /// to be done.
     pub(super) async fn done(&self) {

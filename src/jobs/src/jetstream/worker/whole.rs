@@ -71,7 +71,8 @@ async fn wait(desk: &Desk, record: &Record, parts: Vec<Submission>, feeder: &Fee
         {
             let cost = told_apart(part.cost);
             let finished = feed.clone();
-            ends.push(async move { (cost, finished.finished().await) });
+            let part = part.clone();
+            ends.push(async move { (part, finished.finished().await) });
             open.push((cost, feed));
             pending.pop();
         }
@@ -79,10 +80,15 @@ async fn wait(desk: &Desk, record: &Record, parts: Vec<Submission>, feeder: &Fee
             return Ok(());
         }
         tokio::select! {
-            Some((cost, part)) = ends.next() => {
-                succeeded(&part)?;
-                done += cost;
+            Some((part, end)) = ends.next() => {
                 open.retain(|(_, feed)| feed.job().id != part.id);
+                if end.state.is_final() {
+                    succeeded(&end)?;
+                    done += told_apart(part.cost);
+                } else {
+                    // The mirror has begun anew.
+                    pending.push(part);
+                }
             }
             () = tokio::time::sleep(LOOK) => {}
         }
