@@ -89,8 +89,8 @@ impl Collector for Seats {
         let now = (self.0)();
         gauge(&mut encoder, "worker_seats", "Places for jobs in this worker", number(now.seats))?;
         gauge(&mut encoder, "worker_seats_busy", "Places in which a job runs", number(now.busy))?;
-        let redelivered = "Jobs begun here that had been begun before";
-        counter(&mut encoder, "worker_redeliveries", redelivered, now.begun_again)?;
+        let redelivered = "Jobs that the broker had given before to a worker that was lost";
+        counter(&mut encoder, "worker_redeliveries", redelivered, now.redelivered)?;
         let handed_back = "Jobs that this worker gave back to the queue";
         counter(&mut encoder, "worker_handed_back", handed_back, now.handed_back)
     }

@@ -88,6 +88,11 @@ impl Below {
         }
     }
 
+    /// Whether other processes look for what is written here.
+    pub(crate) fn is_shared(&self) -> bool {
+        matches!(self.layer, Layer::Shared(_))
+    }
+
     /// Bytes of all objects, where that is known.
     pub(crate) fn bytes(&self) -> Option<u64> {
         match &self.layer {

@@ -7,6 +7,7 @@ use std::fs::File;
 use std::mem;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use crate::fault::DiskFault;
 use crate::health::Health;
@@ -15,6 +16,9 @@ use crate::object;
 use crate::objects::{Objects, Seen};
 use crate::stats::Counts;
 use crate::{Content, Key};
+
+/// A disk that has much to do is slow, and no failing disk.
+const SLOWEST: Duration = Duration::from_secs(30);
 
 /// The name under which it is tried whether an object can be written.
 const PROBE: &str = "probe";
@@ -82,8 +86,10 @@ impl Disk {
     }
 
     /// Whether an object can be written now, or could a few seconds ago.
-    pub(crate) async fn healthy(&self) -> Result<(), String> {
-        self.health.ask(async { self.objects.probe(PROBE).await.map_err(|fault| fault.to_string()) }).await
+    pub(crate) async fn healthy(self: &Arc<Self>) -> Result<(), String> {
+        let disk = Arc::clone(self);
+        let probe = async move { disk.objects.probe(PROBE).await.map_err(|fault| fault.to_string()) };
+        self.health.ask(SLOWEST, probe).await
     }
 
     /// Bytes of all objects.

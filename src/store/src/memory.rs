@@ -49,6 +49,11 @@ impl Memory {
         self.let_go().await;
     }
 
+    pub(crate) async fn forget(&self, key: &Key) {
+        self.0.invalidate(key).await;
+        self.let_go().await;
+    }
+
     /// The content of a key, and whether this caller's `find` was run for it. Of many callers at once one
     /// finds; if it finds nothing, so do the others.
     pub(crate) async fn get_or_find(

@@ -16,6 +16,9 @@ use crate::{Content, Key};
 /// A store that does not take an object within this time is not healthy.
 const ANSWERED: Duration = Duration::from_secs(5);
 
+/// Who asks how the store is is answered within this time: a prober would not wait longer.
+const PATIENCE: Duration = Duration::from_millis(500);
+
 pub(crate) struct Shared {
     objects: Objects,
     /// The name under which this process tries whether an object can be written.
@@ -64,8 +67,10 @@ impl Shared {
     }
 
     /// Whether an object can be written now, or could a few seconds ago.
-    pub(crate) async fn healthy(&self) -> Result<(), String> {
-        self.health.ask(async { self.tried(ANSWERED).await.map_err(|fault| fault.to_string()) }).await
+    pub(crate) async fn healthy(self: &Arc<Self>) -> Result<(), String> {
+        let shared = Arc::clone(self);
+        let probe = async move { shared.tried(ANSWERED).await.map_err(|fault| fault.to_string()) };
+        self.health.ask(PATIENCE, probe).await
     }
 
     /// Writes and removes an object of this process's own.

@@ -143,11 +143,20 @@ impl Store {
     }
 
     /// Keeps bytes under a key, in place of what was there. A disk that fails is logged and counted: the content
-    /// is in memory all the same.
+    /// is in memory all the same. What a shared store does not take is not: this process would believe it to be where
+    /// others do not find it.
     pub async fn put(&self, key: &Key, bytes: Bytes) -> (Content, Kept) {
         let content = self.held.share(*key, Content::of(bytes).await);
-        self.memory.insert(*key, content.clone()).await;
+        if !self.below.as_ref().is_some_and(Below::is_shared) {
+            self.memory.insert(*key, content.clone()).await;
+            let kept = self.write(*key, &content).await;
+            return (content, kept);
+        }
         let kept = self.write(*key, &content).await;
+        match kept {
+            Kept::Durable => self.memory.insert(*key, content.clone()).await,
+            Kept::MemoryOnly => self.memory.forget(key).await,
+        }
         (content, kept)
     }
 

@@ -49,7 +49,7 @@ struct Desk {
     /// Who waits for a seat before all that is queued: merges, and jobs in hand; and who lets other workers go first.
     first: AtomicUsize,
     seats: usize,
-    begun_again: AtomicU64,
+    redelivered: AtomicU64,
     handed_back: AtomicU64,
     stage: watch::Sender<Stage>,
     active: watch::Sender<usize>,
@@ -62,8 +62,8 @@ pub struct Occupancy {
     pub seats: usize,
     /// Those in which a job runs.
     pub busy: usize,
-    /// Attempts at jobs that had been begun before: their workers were lost or handed them back.
-    pub begun_again: u64,
+    /// Jobs that the broker had given to a worker before, which was lost or stopped answering.
+    pub redelivered: u64,
     /// Jobs that this worker gave back to the queue unfinished.
     pub handed_back: u64,
 }
@@ -95,7 +95,7 @@ impl Worker {
             first: AtomicUsize::new(0),
             seats: seats.len(),
             free: Mutex::new(seats),
-            begun_again: AtomicU64::new(0),
+            redelivered: AtomicU64::new(0),
             handed_back: AtomicU64::new(0),
             stage: watch::Sender::new(Stage::Open),
             active: watch::Sender::new(0),
@@ -113,7 +113,7 @@ impl Worker {
         move || Occupancy {
             seats: desk.seats,
             busy: desk.seats.saturating_sub(desk.free.lock().len()),
-            begun_again: desk.begun_again.load(Ordering::Relaxed),
+            redelivered: desk.redelivered.load(Ordering::Relaxed),
             handed_back: desk.handed_back.load(Ordering::Relaxed),
         }
     }

@@ -121,15 +121,17 @@ async fn a_store_that_refuses_a_tenth_of_what_it_is_asked_loses_nothing() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn a_store_that_refuses_everything_is_given_up_and_memory_answers() {
+async fn what_a_store_refuses_is_not_believed_to_be_there() {
     let objects = Watched::new();
     let store = Store::open_shared_over(Arc::clone(&objects) as _, 1 << 20).await.unwrap();
     objects.record().all_fail.store(true, Ordering::Relaxed);
-    let (put, kept) = store.put(&key(1), bytes(1, 1000)).await;
-    assert_eq!(kept, Kept::MemoryOnly);
-    assert_eq!(store.get(&key(1)).await, Some(put));
-    assert_eq!(store.get(&key(2)).await, None);
-    assert_eq!((store.stats().write_failures, store.stats().read_failures), (1, 1));
+    assert_eq!(store.put(&key(1), bytes(1, 1000)).await.1, Kept::MemoryOnly);
+    assert_eq!((store.get(&key(1)).await, store.get(&key(2)).await), (None, None));
+    assert_eq!((store.stats().write_failures, store.stats().read_failures), (1, 2));
+    objects.record().all_fail.store(false, Ordering::Relaxed);
+    assert_eq!(store.put(&key(1), bytes(1, 1000)).await.1, Kept::Durable);
+    let other = Store::open_shared_over(objects, 1 << 20).await.unwrap();
+    assert_eq!(other.get(&key(1)).await.unwrap().bytes, bytes(1, 1000));
 }
 
 #[tokio::test(start_paused = true)]
@@ -145,6 +147,9 @@ async fn each_process_probes_under_a_name_of_its_own_every_few_seconds() {
     objects.record().all_fail.store(true, Ordering::Relaxed);
     assert_eq!(first.healthy().await, Ok(()), "believed for a while");
     tokio::time::advance(Duration::from_secs(6)).await;
+    let fault = first.healthy().await.unwrap_err();
+    assert_eq!(fault, "no answer within 500 ms", "it is asked again and again meanwhile");
+    tokio::time::advance(Duration::from_secs(5)).await;
     let fault = first.healthy().await.unwrap_err();
     assert!(fault.contains("slow down"), "{fault}");
     objects.record().all_fail.store(false, Ordering::Relaxed);

@@ -40,8 +40,8 @@ pub(super) async fn attempt(active: Active, delivery: Delivery, seat: Seat) {
             return desk.give_seat(seat);
         }
     };
-    if record.job.attempts > 1 {
-        desk.begun_again.fetch_add(1, Ordering::Relaxed);
+    if delivery.is_redelivered() {
+        desk.redelivered.fetch_add(1, Ordering::Relaxed);
     }
     let ended = async {
         let end = carry_out(desk, &record, seat).await;

@@ -46,6 +46,11 @@ impl Delivery {
         (record.life, record.turn) == (self.life, self.turn) && !record.job.state.is_final()
     }
 
+    /// Whether the broker has given it to a worker before.
+    pub(super) fn is_redelivered(&self) -> bool {
+        self.message.info().is_ok_and(|info| info.delivered > 1)
+    }
+
     /// Whether its record must have been written since: what was read is not the last.
     pub(super) fn is_ahead_of(&self, record: &Record) -> bool {
         (record.life, record.turn) < (self.life, self.turn)
