@@ -16,8 +16,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use axum::Router;
-use hyper_util::server::graceful::GracefulShutdown;
+use futures_util::FutureExt;
 use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
 
 use crate::config::ServeConfig;
@@ -66,7 +67,7 @@ impl Server {
     /// Serves until it is to stop. Then idle connections are closed at once, and what is open after the limit is cut: a
     /// client that reads nothing must not keep the process.
     pub(crate) async fn serve(self, router: Router, stopping: &CancellationToken, limit: Duration) {
-        let graceful = GracefulShutdown::new();
+        let open = watch::Sender::new(());
         let cut = CancellationToken::new();
         let attendant = Attendant::new(self.bounds, router, self.tls.clone(), stopping.clone());
         let mut refusals = Refusals::default();
@@ -74,14 +75,15 @@ impl Server {
         while let Some((stream, peer)) = next(&self.listener, stopping).await {
             match self.places.take(peer.ip()) {
                 Ok(place) => {
-                    let attended = attendant.clone().attend(stream, peer, place, graceful.watcher());
-                    tokio::spawn(cut.clone().run_until_cancelled_owned(attended));
+                    let (attended, open) = (attendant.clone().attend(stream, peer, place), open.subscribe());
+                    let attended = cut.clone().run_until_cancelled_owned(attended);
+                    tokio::spawn(attended.map(|_| drop(open)));
                 }
                 Err(full) => refusals.log(peer, full),
             }
         }
         drop(self.listener);
-        if tokio::time::timeout(limit, graceful.shutdown()).await.is_err() {
+        if tokio::time::timeout(limit, open.closed()).await.is_err() {
             tracing::info!("connections that are still open are cut");
         }
         cut.cancel();

@@ -1,11 +1,10 @@
 //! Clients that keep the service waiting.
 
 use axum::body::Body;
-use axum::http::Request;
-use hyper::client::conn::http2::Builder;
-use hyper_util::rt::{TokioExecutor, TokioIo};
+use axum::http::{Request, StatusCode};
 use tokio::io::AsyncWriteExt;
 
+use super::versions::{http2, question};
 use super::{asked, in_time, rest, serve};
 
 /// How a connection may begin and then say nothing more: not at all, HTTP/1 in its first line and in its headers, HTTP/2
@@ -57,6 +56,24 @@ async fn a_connection_that_is_not_used_again_is_closed() {
 }
 
 #[tokio::test]
+async fn a_connection_over_http2_that_is_not_used_again_is_closed() {
+    let served = serve("--header-timeout 1").await;
+    // Of an answer that is not taken the request is under way.
+    let (mut busy, _) = http2(served.connect().await).await;
+    let request = Request::get("http://localhost/docs/swagger-ui-bundle.js").body(Body::empty()).unwrap();
+    let answer = in_time(busy.send_request(request)).await.unwrap();
+    let (mut used, used_to_its_end) = http2(served.connect().await).await;
+    let (unused, unused_to_its_end) = http2(served.connect().await).await;
+    assert_eq!(in_time(used.send_request(question())).await.unwrap().status(), StatusCode::OK);
+    // They answer pings, and come to an end however they end.
+    let _ = in_time(used_to_its_end).await.unwrap();
+    let _ = in_time(unused_to_its_end).await.unwrap();
+    assert_eq!(in_time(busy.send_request(question())).await.unwrap().status(), StatusCode::OK);
+    drop((answer, busy, used, unused));
+    served.end().await;
+}
+
+#[tokio::test]
 async fn a_body_that_does_not_come_is_given_up() {
     let served = serve("--timeout 1").await;
     let mut stream = served.connect().await;
@@ -82,12 +99,8 @@ async fn who_takes_no_answer_is_cut() {
 #[tokio::test]
 async fn who_takes_no_answer_over_http2_is_cut() {
     let served = serve("--timeout 1").await;
-    let io = TokioIo::new(served.connect().await);
     // It answers pings, and leaves a few bytes of the answer where they are.
-    let mut builder = Builder::new(TokioExecutor::new());
-    let (mut client, connection) =
-        builder.initial_stream_window_size(65_535).handshake::<_, Body>(io).await.unwrap();
-    let connection = tokio::spawn(connection);
+    let (mut client, connection) = http2(served.connect().await).await;
     let request = Request::get("http://localhost/docs/swagger-ui-bundle.js").body(Body::empty()).unwrap();
     let answer = in_time(client.send_request(request)).await.unwrap();
     // However it ends, it ends.

@@ -59,7 +59,7 @@ async fn both_versions_are_spoken() {
     }
     let stream = connect(&["h2", "http/1.1"]).await;
     assert_eq!(stream.get_ref().1.alpn_protocol(), Some(b"h2".as_slice()));
-    let mut client = http2(stream).await;
+    let (mut client, _) = http2(stream).await;
     assert_eq!(in_time(client.send_request(question())).await.unwrap().status(), StatusCode::OK);
     drop(client);
     served.end().await;

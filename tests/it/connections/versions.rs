@@ -3,18 +3,21 @@
 use axum::body::Body;
 use axum::http::{Request, StatusCode};
 use http_body_util::BodyExt;
-use hyper::client::conn::http2::SendRequest;
+use hyper::client::conn::http2::{Builder, SendRequest};
 use hyper_util::rt::{TokioExecutor, TokioIo};
 use tokio::io::{AsyncRead, AsyncWrite};
+use tokio::task::JoinHandle;
 
 use super::{in_time, serve};
 
-/// Speaks HTTP/2 over a stream.
-pub(super) async fn http2(io: impl AsyncRead + AsyncWrite + Unpin + Send + 'static) -> SendRequest<Body> {
-    let (client, connection) =
-        hyper::client::conn::http2::handshake(TokioExecutor::new(), TokioIo::new(io)).await.unwrap();
-    tokio::spawn(connection);
-    client
+/// Speaks HTTP/2 over a stream, and takes little of an answer that nobody reads; with the connection's end.
+pub(super) async fn http2(
+    io: impl AsyncRead + AsyncWrite + Unpin + Send + 'static,
+) -> (SendRequest<Body>, JoinHandle<hyper::Result<()>>) {
+    let mut builder = Builder::new(TokioExecutor::new());
+    let handshake = builder.initial_stream_window_size(65_535).handshake(TokioIo::new(io));
+    let (client, connection) = handshake.await.unwrap();
+    (client, tokio::spawn(connection))
 }
 
 /// Asks whether the service lives.
@@ -25,7 +28,7 @@ pub(super) fn question() -> Request<Body> {
 #[tokio::test]
 async fn http2_answers_many_requests_on_one_connection() {
     let served = serve("").await;
-    let client = http2(served.connect().await).await;
+    let (client, _) = http2(served.connect().await).await;
     let answers: Vec<_> = (0..50)
         .map(|_| {
             let mut client = client.clone();
@@ -45,7 +48,7 @@ async fn http2_answers_many_requests_on_one_connection() {
 #[tokio::test]
 async fn headers_have_a_bound_here_too() {
     let served = serve("").await;
-    let mut client = http2(served.connect().await).await;
+    let (mut client, _) = http2(served.connect().await).await;
     let mut request = question();
     request.headers_mut().insert("x-long", "x".repeat(100_000).parse().unwrap());
     let refused = in_time(client.send_request(request)).await;

@@ -2,6 +2,7 @@
 
 use std::convert::Infallible;
 use std::net::SocketAddr;
+use std::pin::pin;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -13,7 +14,6 @@ use hyper::body::Incoming;
 use hyper::service::service_fn;
 use hyper_util::rt::{TokioExecutor, TokioIo, TokioTimer};
 use hyper_util::server::conn::auto::Builder;
-use hyper_util::server::graceful::Watcher;
 use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::net::TcpStream;
 use tokio_util::sync::CancellationToken;
@@ -80,43 +80,66 @@ impl Attendant {
     }
 
     /// Serves a connection to its end. Failures are the peer's affair.
-    pub(super) async fn attend(self, stream: TcpStream, peer: SocketAddr, place: Place, watcher: Watcher) {
+    pub(super) async fn attend(self, stream: TcpStream, peer: SocketAddr, place: Place) {
         // An answer is written whole: nothing is won by waiting for more of it.
         drop(stream.set_nodelay(true));
         if let Some(tls) = self.tls.clone() {
             let shaking = tokio::time::timeout(self.bounds.header, tls.accept(stream));
             match self.stopping.run_until_cancelled(shaking).await {
-                Some(Ok(Ok((stream, http2)))) => self.serve(stream, Some(http2), peer, watcher).await,
+                Some(Ok(Ok((stream, http2)))) => self.serve(stream, Some(http2), peer).await,
                 Some(Ok(Err(error))) => tracing::debug!(%peer, %error, "no handshake"),
                 Some(Err(_)) | None => tracing::debug!(%peer, "no handshake in time"),
             }
         } else {
-            self.serve(stream, None, peer, watcher).await;
+            self.serve(stream, None, peer).await;
         }
         drop(place);
     }
 
     /// Over TLS the version was agreed on: HTTP/2 or not.
-    async fn serve<I>(self, stream: I, http2: Option<bool>, peer: SocketAddr, watcher: Watcher)
+    async fn serve<I>(self, stream: I, http2: Option<bool>, peer: SocketAddr)
     where
         I: AsyncRead + AsyncWrite + Unpin + Send + 'static,
     {
-        let Self { bounds, builder, router, .. } = self;
+        let Self { bounds, builder, router, stopping, .. } = self;
         let builder = match http2 {
             None => builder,
             Some(true) => builder.http2_only(),
             Some(false) => builder.http1_only(),
         };
-        let io = TokioIo::new(Patient::new(stream, bounds.header, bounds.stall));
+        let http2 = CancellationToken::new();
+        let io = TokioIo::new(Patient::new(stream, bounds.header, http2.clone(), bounds.stall));
         let outgoing = Arc::new(Outgoing::default());
         let watching = Arc::clone(&outgoing);
         let service = service_fn(move |request| answer(router.clone(), request, peer, Arc::clone(&watching)));
+        // Over HTTP/1 hyper watches the time until the next request.
+        let idle = async {
+            http2.cancelled().await;
+            outgoing.idle(bounds.header).await;
+        };
+        let served = async {
+            let mut connection = pin!(builder.serve_connection(io, service));
+            tokio::select! {
+                served = connection.as_mut() => return served,
+                () = stopping.cancelled() => {}
+                () = idle => {}
+            }
+            connection.as_mut().graceful_shutdown();
+            connection.await
+        };
+        // A peer can put off even the end that was announced to it.
+        let unused = async {
+            http2.cancelled().await;
+            outgoing.idle(bounds.header).await;
+            outgoing.idle(bounds.stall).await;
+        };
         tokio::select! {
-            served = watcher.watch(builder.serve_connection(io, service)) => {
+            served = served => {
                 if let Err(error) = served {
                     tracing::debug!(%peer, %error, "a connection broke off");
                 }
             }
+            () = unused => tracing::debug!(%peer, "a connection is not used: cut"),
             () = outgoing.stalled(bounds.stall) => tracing::debug!(%peer, "an answer is not taken: cut"),
         }
     }
@@ -128,7 +151,8 @@ async fn answer(
     peer: SocketAddr,
     outgoing: Arc<Outgoing>,
 ) -> Result<Response<Watched>, Infallible> {
+    let under_way = outgoing.begin();
     request.extensions_mut().insert(ConnectInfo(peer));
     let response = router.oneshot(request.map(Body::new)).await?;
-    Ok(response.map(|body| outgoing.watch(body)))
+    Ok(response.map(|body| outgoing.watch(body, under_way)))
 }

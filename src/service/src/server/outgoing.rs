@@ -11,13 +11,21 @@ use std::time::{Duration, Instant};
 
 use axum::body::{Body, Bytes};
 use hyper::body::{Body as HttpBody, Buf, Frame, SizeHint};
+use tokio::sync::watch;
 
 /// More answers than this under way, and those that have arrived are forgotten first.
 const MANY: usize = 256;
 
 /// The answers of one connection.
 #[derive(Debug, Default)]
-pub(super) struct Outgoing(Mutex<Vec<Weak<Progress>>>);
+pub(super) struct Outgoing {
+    answers: Mutex<Vec<Weak<Progress>>>,
+    under_way: watch::Sender<usize>,
+}
+
+/// A request, from when it is there until the last byte of its answer is taken.
+#[derive(Debug)]
+pub(super) struct UnderWay(watch::Sender<usize>);
 
 /// How far one answer is.
 #[derive(Debug)]
@@ -27,14 +35,21 @@ struct Progress {
     moved: AtomicU64,
     /// What is handed over and not taken yet.
     waiting: AtomicUsize,
+    _under_way: UnderWay,
 }
 
 impl Outgoing {
-    /// Watches an answer's body from now on.
-    pub(super) fn watch(&self, body: Body) -> Watched {
+    /// A request has come.
+    pub(super) fn begin(&self) -> UnderWay {
+        self.under_way.send_modify(|under_way| *under_way += 1);
+        UnderWay(self.under_way.clone())
+    }
+
+    /// Watches the body of a request's answer from now on.
+    pub(super) fn watch(&self, body: Body, request: UnderWay) -> Watched {
         let (moved, waiting) = (AtomicU64::new(0), AtomicUsize::new(0));
-        let progress = Arc::new(Progress { begun: Instant::now(), moved, waiting });
-        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let progress = Arc::new(Progress { begun: Instant::now(), moved, waiting, _under_way: request });
+        let mut all = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
         if all.len() >= MANY {
             all.retain(|progress| progress.strong_count() > 0);
         }
@@ -42,16 +57,33 @@ impl Outgoing {
         Watched { body, progress, handed_over: false }
     }
 
+    /// Returns when no request has been under way for so long.
+    pub(super) async fn idle(&self, limit: Duration) {
+        let mut under_way = self.under_way.subscribe();
+        // The sender lives as long as this does.
+        while under_way.wait_for(|under_way| *under_way == 0).await.is_ok() {
+            if tokio::time::timeout(limit, under_way.changed()).await.is_err() {
+                return;
+            }
+        }
+    }
+
     /// Returns when the peer has taken nothing of an answer for so long, or up to half as long again.
     pub(super) async fn stalled(&self, limit: Duration) {
         loop {
             tokio::time::sleep(limit / 2).await;
-            let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut all = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
             all.retain(|progress| progress.strong_count() > 0);
             if all.iter().filter_map(Weak::upgrade).any(|progress| progress.has_stalled(limit)) {
                 return;
             }
         }
+    }
+}
+
+impl Drop for UnderWay {
+    fn drop(&mut self) {
+        self.0.send_modify(|under_way| *under_way -= 1);
     }
 }
 

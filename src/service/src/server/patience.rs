@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::time::{Sleep, sleep};
+use tokio_util::sync::CancellationToken;
 
 /// How HTTP/2 begins. Until a byte differs from it or all of it has come, hyper does not know the version and watches no
 /// clock; then its own limits hold.
@@ -17,6 +18,8 @@ pub(super) struct Patient<I> {
     io: I,
     /// Until when it is clear how the peer begins, and how much of the preface has come.
     opening: Option<(Pin<Box<Sleep>>, usize)>,
+    /// Cancelled when it begins as HTTP/2 does.
+    http2: CancellationToken,
     /// How long the peer may take nothing.
     stall: Duration,
     /// Until when it may, while it takes nothing.
@@ -24,16 +27,22 @@ pub(super) struct Patient<I> {
 }
 
 impl<I> Patient<I> {
-    /// Within `opening` it must be clear how the peer begins; for `stall` it may take nothing.
-    pub(super) fn new(io: I, opening: Duration, stall: Duration) -> Self {
-        Self { io, opening: Some((Box::pin(sleep(opening)), 0)), stall, stalled: None }
+    /// Within `opening` it must be clear how the peer begins, and `http2` is told if it is HTTP/2; for `stall` it may take
+    /// nothing.
+    pub(super) fn new(io: I, opening: Duration, http2: CancellationToken, stall: Duration) -> Self {
+        Self { io, opening: Some((Box::pin(sleep(opening)), 0)), http2, stall, stalled: None }
     }
 
     fn has_read(&mut self, bytes: &[u8]) {
         let Some((_, matched)) = &mut self.opening else { return };
         let expected = PREFACE.get(*matched..).unwrap_or_default();
         *matched += bytes.len();
-        if !expected.starts_with(bytes) || *matched >= PREFACE.len() {
+        let is_whole = *matched >= PREFACE.len();
+        let differs = !(expected.starts_with(bytes) || bytes.starts_with(expected));
+        if is_whole && !differs {
+            self.http2.cancel();
+        }
+        if is_whole || differs {
             self.opening = None;
         }
     }
