@@ -1,6 +1,7 @@
 //! The service on a socket: what clients may do to it, and how it ends.
 
 mod ending;
+mod full;
 mod slow;
 mod tls;
 mod versions;
@@ -74,20 +75,6 @@ async fn asked(stream: &mut TcpStream) -> bool {
         }
     }
     answer.starts_with(b"HTTP/1.1 200 OK\r\n")
-}
-
-#[tokio::test]
-async fn no_more_connections_are_open_than_allowed() {
-    let served = serve("--max-connections 2").await;
-    let (mut one, mut two) = (served.connect().await, served.connect().await);
-    assert!(asked(&mut one).await && asked(&mut two).await);
-    let mut three = served.connect().await;
-    assert!(!asked(&mut three).await);
-    assert!(asked(&mut one).await, "those that are open stay");
-    drop(two);
-    in_time(async { while !asked(&mut served.connect().await).await {} }).await;
-    drop(one);
-    served.end().await;
 }
 
 #[tokio::test]

@@ -66,6 +66,8 @@ pub(crate) const DOCUMENT: &str = include_str!("../../../openapi/openapi.json");
 pub struct Service {
     /// Ready for requests.
     pub router: Router,
+    /// Answers when all connections are taken.
+    probes: Router,
     state: Shared,
     gate: Gate,
 }
@@ -93,8 +95,11 @@ impl Service {
         let docs = browsers::pages(docs.into(), browsers::DOCS);
         let routes = routes.with_state(Arc::clone(&state)).merge(docs).merge(viewer::routes());
         let browsers = Browsers::of(config);
-        let router = layers::wrap(routes, requests, Duration::from_secs(config.timeout), &browsers);
-        Ok(Self { router, state, gate })
+        let wrapped = |routes| {
+            layers::wrap(routes, Arc::clone(&requests), Duration::from_secs(config.timeout), &browsers)
+        };
+        let probes = wrapped(router::probes(&gate).with_state(Arc::clone(&state)));
+        Ok(Self { router: wrapped(routes), probes, state, gate })
     }
 
     /// Reads the keys again, as at SIGHUP; if the file cannot be used, they stay as they are.
@@ -132,7 +137,8 @@ pub async fn serve_on(
         told.await;
         service.stop(limit).await;
     };
-    tokio::join!(stopped, server.serve(service.router.clone(), &service.state.stopping, limit));
+    let (router, probes) = (service.router.clone(), service.probes.clone());
+    tokio::join!(stopped, server.serve(router, probes, &service.state.stopping, limit));
     Ok(())
 }
 

@@ -49,7 +49,7 @@ pub struct ServeConfig {
     /// Address to listen on.
     #[arg(long, env = "VERNE_LISTEN", default_value = "127.0.0.1:8080")]
     pub listen: SocketAddr,
-    /// Most open connections, an address at most half of them; more are closed at once. Each is an open file.
+    /// Most open connections, an address at most half of them; on more, only probes are answered. Each is an open file.
     #[arg(long, env = "VERNE_MAX_CONNECTIONS", default_value_t = 10_000, value_name = "CONNECTIONS",
         value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_connections: usize,

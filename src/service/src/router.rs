@@ -1,5 +1,7 @@
 //! The one list of routes: the router and the OpenAPI document are both made from it.
 
+use axum::Router;
+use axum::routing::get;
 use utoipa::OpenApi;
 use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouter};
 use utoipa_axum::routes;
@@ -40,6 +42,15 @@ fn list() -> [(Access, UtoipaMethodRouter<Shared>); 22] {
         (Open, routes!(service::get_livez)),
         (Open, routes!(service::get_readyz)),
     ]
+}
+
+/// What is answered when all connections are taken: how the service fares.
+pub(crate) fn probes(gate: &Gate) -> Router<Shared> {
+    Router::new()
+        .route("/livez", get(service::get_livez))
+        .route("/readyz", get(service::get_readyz))
+        .route("/metrics", gate.before(get(service::get_metrics), For(Read, Watch)))
+        .fallback(service::no_place_here)
 }
 
 /// Every route behind the gate, with its documentation.

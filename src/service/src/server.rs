@@ -23,7 +23,7 @@ use tokio_util::sync::CancellationToken;
 
 use crate::config::ServeConfig;
 use connection::{Attendant, Bounds};
-use places::{Full, Places};
+use places::{Full, Places, SPARE};
 use tls::Tls;
 
 /// How long nothing is accepted after the system could not, for want of files, say.
@@ -36,6 +36,8 @@ const SELDOM: Duration = Duration::from_secs(10);
 pub(crate) struct Server {
     listener: TcpListener,
     places: Arc<Places>,
+    /// For what must be answered when all places are taken.
+    spare: Arc<Places>,
     bounds: Bounds,
     tls: Option<Arc<Tls>>,
 }
@@ -47,12 +49,13 @@ impl Server {
             (Some(certificate), Some(key)) => Some(Arc::new(Tls::read(certificate, key)?)),
             _ => None,
         };
-        files::ask_for(config.max_connections);
         let bounds = Bounds {
             header: Duration::from_secs(config.header_timeout),
             stall: Duration::from_secs(config.timeout),
         };
-        Ok(Self { listener, places: Places::new(config.max_connections), bounds, tls })
+        files::ask_for(config.max_connections.saturating_add(SPARE));
+        let places = Places::new(config.max_connections);
+        Ok(Self { listener, places, spare: Places::new(SPARE), bounds, tls })
     }
 
     /// Says where it listens, and what is open to others.
@@ -64,23 +67,34 @@ impl Server {
         Ok(())
     }
 
-    /// Serves until it is to stop. Then idle connections are closed at once, and what is open after the limit is cut: a
-    /// client that reads nothing must not keep the process.
-    pub(crate) async fn serve(self, router: Router, stopping: &CancellationToken, limit: Duration) {
+    /// Serves until it is to stop; `full` answers one request of each who comes when all places are taken. Then idle
+    /// connections are closed at once, and what is open after the limit is cut: a client that reads nothing must not keep
+    /// the process.
+    pub(crate) async fn serve(
+        self,
+        router: Router,
+        full: Router,
+        stopping: &CancellationToken,
+        limit: Duration,
+    ) {
         let open = watch::Sender::new(());
         let cut = CancellationToken::new();
-        let attendant = Attendant::new(self.bounds, router, self.tls.clone(), stopping.clone());
+        let usual = Attendant::new(self.bounds, router, self.tls.clone(), stopping.clone());
+        let brief = usual.for_one_request(full);
         let mut refusals = Refusals::default();
         let reloading = tokio::spawn(cut.clone().run_until_cancelled_owned(tls::keep_fresh(self.tls)));
         while let Some((stream, peer)) = next(&self.listener, stopping).await {
-            match self.places.take(peer.ip()) {
-                Ok(place) => {
-                    let (attended, open) = (attendant.clone().attend(stream, peer, place), open.subscribe());
-                    let attended = cut.clone().run_until_cancelled_owned(attended);
-                    tokio::spawn(attended.map(|_| drop(open)));
+            let (attendant, place) = match self.places.take(peer.ip()) {
+                Ok(place) => (&usual, place),
+                Err(full) => {
+                    refusals.log(peer, full);
+                    let Ok(place) = self.spare.take(peer.ip()) else { continue };
+                    (&brief, place)
                 }
-                Err(full) => refusals.log(peer, full),
-            }
+            };
+            let (attended, open) = (attendant.clone().attend(stream, peer, place), open.subscribe());
+            let attended = cut.clone().run_until_cancelled_owned(attended);
+            tokio::spawn(attended.map(|_| drop(open)));
         }
         drop(self.listener);
         if tokio::time::timeout(limit, open.closed()).await.is_err() {
@@ -111,7 +125,8 @@ fn is_of_one_connection(error: &io::Error) -> bool {
     matches!(error.kind(), ConnectionAborted | ConnectionRefused | ConnectionReset | Interrupted)
 }
 
-/// What is refused is closed without a word: an answer before the request is lost as often as not. The log says why.
+/// Beyond the spare places a connection is closed without a word: an answer before the request is lost as often as not. The
+/// log says why.
 #[derive(Default)]
 struct Refusals {
     told: Option<Instant>,

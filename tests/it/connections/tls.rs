@@ -78,3 +78,20 @@ async fn who_does_not_shake_hands_or_say_anything_after_is_cut() {
     assert!(!rest(&mut two).await.contains(" 200 "));
     served.end().await;
 }
+
+#[tokio::test]
+async fn probes_are_answered_when_all_connections_are_taken() {
+    let (served, connect) = secured("--max-connections 1").await;
+    let (mut first, _) = http2(connect(&["h2"]).await).await;
+    assert_eq!(in_time(first.send_request(question())).await.unwrap().status(), StatusCode::OK);
+    for (path, status) in [("/livez", "200 OK"), ("/readyz", "200 OK"), ("/machines", "503 ")] {
+        let mut stream = connect(&["h2", "http/1.1"]).await;
+        assert_eq!(stream.get_ref().1.alpn_protocol(), Some(b"http/1.1".as_slice()));
+        let request = format!("GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        stream.write_all(request.as_bytes()).await.unwrap();
+        let answer = rest(&mut stream).await;
+        assert!(answer.starts_with(&format!("HTTP/1.1 {status}")), "{answer}");
+    }
+    drop(first);
+    served.end().await;
+}

@@ -59,6 +59,11 @@ pub(crate) async fn get_metrics(State(state): State<Shared>) -> Result<impl Into
     state.metrics.answer()
 }
 
+/// What is asked for when all connections are taken.
+pub(crate) async fn no_place_here() -> Error {
+    Error::Overloaded
+}
+
 /// What is asked for where nothing lives.
 pub(crate) async fn nothing_here() -> Error {
     Error::NoSuchPath

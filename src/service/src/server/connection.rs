@@ -50,6 +50,7 @@ pub(super) struct Attendant {
     builder: Builder<TokioExecutor>,
     router: Router,
     tls: Option<Arc<Tls>>,
+    one_request: bool,
     stopping: CancellationToken,
 }
 
@@ -76,27 +77,44 @@ impl Attendant {
             .max_local_error_reset_streams(RESETS)
             .keep_alive_interval(bounds.header)
             .keep_alive_timeout(bounds.header);
-        Self { bounds, builder, router, tls, stopping }
+        Self { bounds, builder, router, tls, one_request: false, stopping }
+    }
+
+    /// Serves `router` in the same way, but one request on a connection, over HTTP/1, and in the time of its headers.
+    pub(super) fn for_one_request(&self, router: Router) -> Self {
+        let mut builder = self.builder.clone();
+        builder.http1().keep_alive(false);
+        Self { builder, router, one_request: true, ..self.clone() }
     }
 
     /// Serves a connection to its end. Failures are the peer's affair.
     pub(super) async fn attend(self, stream: TcpStream, peer: SocketAddr, place: Place) {
+        if self.one_request {
+            let limit = self.bounds.header;
+            drop(tokio::time::timeout(limit, self.open(stream, peer)).await);
+        } else {
+            self.open(stream, peer).await;
+        }
+        drop(place);
+    }
+
+    async fn open(self, stream: TcpStream, peer: SocketAddr) {
         // An answer is written whole: nothing is won by waiting for more of it.
         drop(stream.set_nodelay(true));
         if let Some(tls) = self.tls.clone() {
-            let shaking = tokio::time::timeout(self.bounds.header, tls.accept(stream));
+            let shaking = tokio::time::timeout(self.bounds.header, tls.accept(stream, !self.one_request));
             match self.stopping.run_until_cancelled(shaking).await {
                 Some(Ok(Ok((stream, http2)))) => self.serve(stream, Some(http2), peer).await,
                 Some(Ok(Err(error))) => tracing::debug!(%peer, %error, "no handshake"),
                 Some(Err(_)) | None => tracing::debug!(%peer, "no handshake in time"),
             }
         } else {
-            self.serve(stream, None, peer).await;
+            let http2 = self.one_request.then_some(false);
+            self.serve(stream, http2, peer).await;
         }
-        drop(place);
     }
 
-    /// Over TLS the version was agreed on: HTTP/2 or not.
+    /// HTTP/2 or not, where that is settled: over TLS it was agreed on.
     async fn serve<I>(self, stream: I, http2: Option<bool>, peer: SocketAddr)
     where
         I: AsyncRead + AsyncWrite + Unpin + Send + 'static,

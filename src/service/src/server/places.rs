@@ -8,6 +8,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// The part of all places that one address may have.
 const SHARE: usize = 2;
 
+/// Places above all others, in which only how the service fares is answered: who asks that must not take a full service
+/// for a dead one.
+pub(super) const SPARE: usize = 16;
+
 /// Why there is no place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Full {
@@ -20,8 +24,8 @@ pub(super) enum Full {
 impl fmt::Display for Full {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::All => "connections are refused: --max-connections are open",
-            Self::Share => "connections are refused: one address has half of --max-connections",
+            Self::All => "requests are refused: --max-connections are open",
+            Self::Share => "requests are refused: one address has half of --max-connections",
         })
     }
 }

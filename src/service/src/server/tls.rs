@@ -22,6 +22,9 @@ const FRESH: Duration = Duration::from_mins(1);
 /// HTTP/2 as ALPN calls it.
 const H2: &[u8] = b"h2";
 
+/// And HTTP/1.
+const H1: &[u8] = b"http/1.1";
+
 /// Why there is no TLS.
 #[derive(Debug)]
 pub enum TlsError {
@@ -68,9 +71,17 @@ impl Tls {
         Ok(Self { files, read: watch::Sender::new(pair), used })
     }
 
-    /// Shakes hands; with the stream, whether HTTP/2 was agreed on.
-    pub(super) async fn accept(&self, stream: TcpStream) -> io::Result<(TlsStream<TcpStream>, bool)> {
-        let acceptor = TlsAcceptor::from(Arc::clone(&self.used.borrow()));
+    /// Shakes hands, and offers HTTP/2 or not; with the stream, whether it was agreed on.
+    pub(super) async fn accept(
+        &self,
+        stream: TcpStream,
+        http2: bool,
+    ) -> io::Result<(TlsStream<TcpStream>, bool)> {
+        let mut config = Arc::clone(&self.used.borrow());
+        if !http2 {
+            Arc::make_mut(&mut config).alpn_protocols = vec![H1.to_vec()];
+        }
+        let acceptor = TlsAcceptor::from(config);
         let stream = acceptor.accept(stream).await?;
         let http2 = stream.get_ref().1.alpn_protocol() == Some(H2);
         Ok((stream, http2))
@@ -123,7 +134,7 @@ fn usable([certificate, key]: &[PathBuf; 2], [chain, secret]: &Pair) -> Result<S
         .with_no_client_auth()
         .with_single_cert(chain, secret)
         .map_err(unusable)?;
-    config.alpn_protocols = vec![H2.to_vec(), b"http/1.1".to_vec()];
+    config.alpn_protocols = vec![H2.to_vec(), H1.to_vec()];
     Ok(config)
 }
 
