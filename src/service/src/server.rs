@@ -53,8 +53,7 @@ impl Server {
             header: Duration::from_secs(config.header_timeout),
             stall: Duration::from_secs(config.timeout),
         };
-        files::ask_for(config.max_connections.saturating_add(SPARE));
-        let places = Places::new(config.max_connections);
+        let places = Places::new(files::room_for(config.max_connections));
         Ok(Self { listener, places, spare: Places::new(SPARE), bounds, tls })
     }
 
