@@ -18,7 +18,7 @@ use crate::config::ServeConfig;
 use crate::metrics::Metrics;
 use crate::readiness::Readiness;
 use crate::registry::{BadFile, Registry};
-use crate::server::{Server, TlsError};
+use crate::server::{Server, Terms, TlsError};
 use crate::state::{Shared, State};
 use crate::storage::{Storage, StorageError};
 use crate::workers::spare_a_core;
@@ -129,7 +129,7 @@ pub async fn serve_on(
     told: impl Future<Output = ()>,
 ) -> Result<(), StartError> {
     spare_a_core();
-    let server = Server::new(listener, config).map_err(StartError::Tls)?;
+    let server = Server::new(listener, &Terms::from(config)).map_err(StartError::Tls)?;
     let service = Service::open(config).await?;
     server.announce(config.keys.is_some()).map_err(|error| StartError::Listen(config.listen, error))?;
     let limit = Duration::from_secs(config.drain);

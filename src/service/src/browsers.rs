@@ -64,7 +64,7 @@ const RESOURCE_POLICY: HeaderName = HeaderName::from_static("cross-origin-resour
 const YEAR: &str = "max-age=31536000";
 
 /// What the operator wants browsers to be told.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Browsers {
     origins: Vec<Origin>,
     secure: bool,

@@ -6,8 +6,10 @@ mod files;
 mod outgoing;
 mod patience;
 mod places;
+mod terms;
 mod tls;
 
+pub(crate) use terms::Terms;
 pub(crate) use tls::TlsError;
 
 use std::io;
@@ -21,7 +23,6 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
 
-use crate::config::ServeConfig;
 use connection::{Attendant, Bounds};
 use places::{Full, Places, SPARE};
 use tls::Tls;
@@ -44,16 +45,13 @@ pub(crate) struct Server {
 
 impl Server {
     /// Reads the certificate, where there is one.
-    pub(crate) fn new(listener: TcpListener, config: &ServeConfig) -> Result<Self, TlsError> {
-        let tls = match (&config.tls_certificate, &config.tls_key) {
-            (Some(certificate), Some(key)) => Some(Arc::new(Tls::read(certificate, key)?)),
-            _ => None,
+    pub(crate) fn new(listener: TcpListener, terms: &Terms) -> Result<Self, TlsError> {
+        let tls = match &terms.tls {
+            Some([certificate, key]) => Some(Arc::new(Tls::read(certificate, key)?)),
+            None => None,
         };
-        let bounds = Bounds {
-            header: Duration::from_secs(config.header_timeout),
-            stall: Duration::from_secs(config.timeout),
-        };
-        let places = Places::new(files::room_for(config.max_connections));
+        let places = Places::new(files::room_for(terms.connections));
+        let bounds = Bounds { header: terms.header, stall: terms.stall };
         Ok(Self { listener, places, spare: Places::new(SPARE), bounds, tls })
     }
 

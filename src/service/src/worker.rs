@@ -1,6 +1,5 @@
 //! `verne worker`: runs the jobs that wait at a broker, and puts their results where all reach them.
 
-use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -9,15 +8,19 @@ use axum::extract::State;
 use axum::routing::get;
 use tokio::net::TcpListener;
 use tokio::runtime::Handle;
+use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 use verne_jobs::Backend;
 use verne_jobs::jetstream::{Worker, WorkerConfig as Threads};
 
 use crate::app::{StartError, told_to_stop};
+use crate::browsers::Browsers;
 use crate::config::worker::WorkerConfig;
 use crate::handlers::service;
+use crate::layers;
 use crate::metrics::{Computations, Metrics};
 use crate::readiness::Readiness;
+use crate::server::{Server, Terms};
 use crate::storage::{self, StorageError};
 use crate::tasks::Tasks;
 
@@ -47,31 +50,37 @@ pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
     metrics.tell_of_worker(worker.occupancy());
     let readiness = Readiness::new(results, Arc::clone(&jobs) as Arc<dyn Backend>, stopping.clone());
     let probed = Arc::new(Probed { readiness, metrics });
+    let limit = Duration::from_secs(config.drain);
     let serving = match config.listen {
-        Some(address) => Some(serve(address, probed, stopping.clone()).await?),
+        Some(address) => {
+            let listener = TcpListener::bind(address).await;
+            let listener = listener.map_err(|error| StartError::Listen(address, error))?;
+            tracing::info!("probes and metrics on http://{address}");
+            Some(serve(listener, &Terms::of_probes(), probed, stopping.clone(), limit)?)
+        }
         None => None,
     };
 
     told_to_stop().await;
     stopping.cancel();
-    let limit = Duration::from_secs(config.drain);
     worker.drain(limit).await;
     jobs.drain(limit).await;
     if let Some(serving) = serving {
-        serving.abort();
+        drop(serving.await);
     }
     Ok(())
 }
 
-async fn serve(
-    address: SocketAddr,
+/// Answers probes until it is to stop, and what is asked then for as long as the limit.
+fn serve(
+    listener: TcpListener,
+    terms: &Terms,
     probed: Arc<Probed>,
     stopping: CancellationToken,
-) -> Result<tokio::task::JoinHandle<()>, StartError> {
-    let failed = |error| StartError::Listen(address, error);
-    let listener = TcpListener::bind(address).await.map_err(failed)?;
-    tracing::info!("probes and metrics on http://{}", listener.local_addr().map_err(failed)?);
-    let router = Router::new()
+    limit: Duration,
+) -> Result<JoinHandle<()>, StartError> {
+    let requests = Arc::clone(&probed.metrics.requests);
+    let routes = Router::new()
         .route("/livez", get(service::get_livez))
         .route(
             "/readyz",
@@ -80,10 +89,66 @@ async fn serve(
         .route("/metrics", get(|State(probed): State<Arc<Probed>>| async move { probed.metrics.answer() }))
         .fallback(service::nothing_here)
         .with_state(probed);
-    let served = axum::serve(listener, router).with_graceful_shutdown(stopping.cancelled_owned());
-    Ok(tokio::spawn(async move {
-        if let Err(error) = served.await {
-            tracing::error!(%error, "probes are not answered any more");
+    let router = layers::wrap(routes, requests, terms.stall, &Browsers::default());
+    let server = Server::new(listener, terms).map_err(StartError::Tls)?;
+    // Where there are only probes, those that come when all connections are taken are answered the same.
+    Ok(tokio::spawn(async move { server.serve(router.clone(), router, &stopping, limit).await }))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use std::sync::Arc;
+    use std::time::Duration;
+
+    use clap::{Args, Command, FromArgMatches};
+    use tokio::io::{AsyncReadExt, AsyncWriteExt};
+    use tokio::net::{TcpListener, TcpStream};
+    use tokio_util::sync::CancellationToken;
+
+    use super::{Probed, serve};
+    use crate::config::ServeConfig;
+    use crate::metrics::Metrics;
+    use crate::readiness::Readiness;
+    use crate::server::Terms;
+    use crate::storage::Storage;
+
+    async fn probed(stopping: CancellationToken) -> Arc<Probed> {
+        let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
+        let config = ServeConfig::from_arg_matches(&command.get_matches_from(["--memory-only"])).unwrap();
+        let Storage { results, jobs, computations } = Storage::open(&config).await.unwrap();
+        let metrics = Metrics::of(Arc::clone(&jobs), results.store(), &computations);
+        Arc::new(Probed { readiness: Readiness::new(results, jobs, stopping), metrics })
+    }
+
+    /// What comes after these bytes, until the connection is closed.
+    async fn answer(listener: std::net::SocketAddr, bytes: &str) -> String {
+        let mut stream = TcpStream::connect(listener).await.unwrap();
+        stream.write_all(bytes.as_bytes()).await.unwrap();
+        let mut answer = String::new();
+        let reading = stream.read_to_string(&mut answer);
+        tokio::time::timeout(Duration::from_mins(1), reading).await.unwrap().unwrap();
+        answer
+    }
+
+    #[tokio::test]
+    async fn probes_are_answered_within_bounds() {
+        let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+        let address = listener.local_addr().unwrap();
+        let stopping = CancellationToken::new();
+        let terms = Terms { header: Duration::from_secs(1), connections: 1, ..Terms::of_probes() };
+        let limit = Duration::from_mins(1);
+        let serving =
+            serve(listener, &terms, probed(stopping.clone()).await, stopping.clone(), limit).unwrap();
+
+        let _taken = TcpStream::connect(address).await.unwrap();
+        for (path, status) in [("livez", 200), ("readyz", 200), ("metrics", 200), ("fk", 404)] {
+            let answer = answer(address, &format!("GET /{path} HTTP/1.1\r\nHost: verne\r\n\r\n")).await;
+            assert!(answer.starts_with(&format!("HTTP/1.1 {status} ")), "{answer}");
         }
-    }))
+        assert_eq!(answer(address, "").await, "", "who says nothing is cut");
+        assert_eq!(answer(address, "PRI * HTTP/2.0").await, "");
+        stopping.cancel();
+        tokio::time::timeout(Duration::from_mins(1), serving).await.unwrap().unwrap();
+    }
 }
