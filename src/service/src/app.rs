@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::net::SocketAddr;
+use std::pin::pin;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -19,6 +20,7 @@ use crate::metrics::Metrics;
 use crate::readiness::Readiness;
 use crate::registry::{BadFile, Registry};
 use crate::server::{Server, Terms, TlsError};
+use crate::signals::{outlive_hangups, told_to_stop};
 use crate::state::{Shared, State};
 use crate::storage::{Storage, StorageError};
 use crate::workers::spare_a_core;
@@ -121,52 +123,32 @@ pub async fn serve(config: &ServeConfig) -> Result<(), StartError> {
     serve_on(listener, config, told_to_stop()).await
 }
 
-/// Serves until `told` is over. Then requests under way are finished and jobs go back to the queue, all within a bounded
+/// Serves until `told` is over, which may be before the service is open. Then requests under way are finished and jobs go back to the queue, all within a bounded
 /// time.
 pub async fn serve_on(
     listener: TcpListener,
     config: &ServeConfig,
     told: impl Future<Output = ()>,
 ) -> Result<(), StartError> {
+    let mut told = pin!(told);
+    let hangups = pin!(outlive_hangups(config.keys.is_some()));
     spare_a_core();
     let server = Server::new(listener, &Terms::from(config)).map_err(StartError::Tls)?;
-    let service = Service::open(config).await?;
+    let service = tokio::select! {
+        service = Service::open(config) => service?,
+        // The broker may be waited for.
+        () = &mut told => return Ok(()),
+    };
     server.announce(config.keys.is_some()).map_err(|error| StartError::Listen(config.listen, error))?;
     let limit = Duration::from_secs(config.drain);
     let stopped = async {
-        told.await;
+        tokio::select! {
+            () = told => {}
+            () = hangups => {}
+        }
         service.stop(limit).await;
     };
     let (router, probes) = (service.router.clone(), service.probes.clone());
     tokio::join!(stopped, server.serve(router, probes, &service.state.stopping, limit));
     Ok(())
-}
-
-/// Returns when the process is to end: SIGTERM or ctrl-c.
-pub(crate) async fn told_to_stop() {
-    let interrupted = async {
-        // Without a handler the default remains: the signal ends the process.
-        if tokio::signal::ctrl_c().await.is_err() {
-            std::future::pending::<()>().await;
-        }
-    };
-    tokio::select! {
-        () = interrupted => {}
-        () = terminated() => {}
-    }
-    tracing::info!("stopping: requests under way are finished, jobs go back to the queue");
-}
-
-#[cfg(unix)]
-async fn terminated() {
-    use tokio::signal::unix::{SignalKind, signal};
-    match signal(SignalKind::terminate()) {
-        Ok(mut signals) => drop(signals.recv().await),
-        Err(_) => std::future::pending().await,
-    }
-}
-
-#[cfg(not(unix))]
-async fn terminated() {
-    std::future::pending().await
 }

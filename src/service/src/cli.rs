@@ -13,6 +13,7 @@ use workspace::WorkspaceCommand;
 
 use std::ffi::OsString;
 use std::io::Write;
+use std::time::Duration;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -82,6 +83,9 @@ impl Cli {
     }
 }
 
+/// How long threads have to finish what blocks them after all else has ended.
+const LAST: Duration = Duration::from_secs(5);
+
 fn on_runtime(
     telemetry: &TelemetryConfig,
     service: impl Future<Output = Result<(), StartError>>,
@@ -91,5 +95,8 @@ fn on_runtime(
         .enable_all()
         .build()
         .map_err(|error| format!("cannot start: {error}"))?;
-    runtime.block_on(service).map_err(|error| error.to_string())
+    let ended = runtime.block_on(service).map_err(|error| error.to_string());
+    // A name that the system still looks up must not keep the process.
+    runtime.shutdown_timeout(LAST);
+    ended
 }

@@ -30,6 +30,7 @@ mod result_id;
 mod results;
 mod router;
 mod server;
+mod signals;
 mod state;
 mod storage;
 mod tasks;

@@ -1,5 +1,6 @@
 //! `verne worker`: runs the jobs that wait at a broker, and puts their results where all reach them.
 
+use std::pin::pin;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -13,7 +14,7 @@ use tokio_util::sync::CancellationToken;
 use verne_jobs::Backend;
 use verne_jobs::jetstream::{Worker, WorkerConfig as Threads};
 
-use crate::app::{StartError, told_to_stop};
+use crate::app::StartError;
 use crate::browsers::Browsers;
 use crate::config::worker::WorkerConfig;
 use crate::handlers::service;
@@ -21,6 +22,7 @@ use crate::layers;
 use crate::metrics::{Computations, Metrics};
 use crate::readiness::Readiness;
 use crate::server::{Server, Terms};
+use crate::signals::{outlive_hangups, told_to_stop};
 use crate::storage::{self, StorageError};
 use crate::tasks::Tasks;
 
@@ -33,11 +35,19 @@ struct Probed {
     metrics: Metrics,
 }
 
-/// Runs jobs until SIGTERM or ctrl-c. Then those under way go back to the queue, within a bounded time.
+/// Runs jobs until SIGTERM or ctrl-c, which may come before it can. Then those under way go back to the queue, within a
+/// bounded time.
 pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
-    let results =
-        storage::open_store(&config.store, config.cache_bytes).await.map_err(StartError::Storage)?;
-    let jobs = storage::connect(&config.broker, QUEUE).await.map_err(StartError::Storage)?;
+    let mut told = pin!(told_to_stop());
+    let hangups = pin!(outlive_hangups(false));
+    let opening = async {
+        let results = storage::open_store(&config.store, config.cache_bytes).await?;
+        Ok((results, storage::connect(&config.broker, QUEUE).await?))
+    };
+    let (results, jobs) = tokio::select! {
+        opened = opening => opened.map_err(StartError::Storage)?,
+        () = &mut told => return Ok(()),
+    };
     let computations = Computations::default();
     let tasks = Arc::new(Tasks::new(results.clone(), computations.clone(), Handle::current()));
     let (threads, slots) = config.threads_and_slots();
@@ -61,7 +71,10 @@ pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
         None => None,
     };
 
-    told_to_stop().await;
+    tokio::select! {
+        () = told => {}
+        () = hangups => {}
+    }
     stopping.cancel();
     worker.drain(limit).await;
     jobs.drain(limit).await;

@@ -1,6 +1,8 @@
 //! A service on a socket that is told to stop.
 
+use tempfile::TempDir;
 use tokio::io::AsyncWriteExt;
+use tokio::net::TcpListener;
 
 use super::{asked, in_time, rest, serve};
 
@@ -41,4 +43,26 @@ async fn a_client_that_does_not_go_on_keeps_nothing_open() {
     stream.write_all(b"GET /livez HTTP/1.1\r\nx-slow: ").await.unwrap();
     served.end().await;
     assert_eq!(rest(&mut stream).await, "");
+}
+
+#[tokio::test]
+async fn who_waits_for_the_broker_stops_at_once() {
+    // Nobody listens there.
+    let broker = TcpListener::bind("127.0.0.1:0").await.unwrap().local_addr().unwrap();
+    let place = TempDir::new().unwrap();
+    let store = place.path().display();
+    serve(&format!("--broker nats://{broker} --store file://{store}")).await.end().await;
+}
+
+#[cfg(unix)]
+#[tokio::test]
+async fn a_hangup_harms_nobody_without_keys() {
+    let served = serve("").await;
+    let mut stream = served.connect().await;
+    assert!(asked(&mut stream).await);
+    let process = std::process::id().to_string();
+    assert!(std::process::Command::new("kill").args(["-HUP", &process]).status().unwrap().success());
+    assert!(asked(&mut stream).await);
+    drop(stream);
+    served.end().await;
 }
