@@ -25,6 +25,7 @@ use sharing::{BrokerConfig, StoreConfig};
 
 use crate::state::RequestLimits;
 use crate::telemetry::TelemetryConfig;
+use crate::wire::capped::MOST_ROWS;
 
 /// A year, in seconds: more than that is a mistake, and no clock overflows.
 const LONGEST: u64 = 365 * 86_400;
@@ -76,7 +77,7 @@ pub struct ServeConfig {
     pub max_body_bytes: usize,
     /// Most rows in a batch.
     #[arg(long, env = "VERNE_MAX_ROWS", default_value_t = 100_000,
-        value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..=MOST_ROWS as u64))]
     pub max_rows: usize,
     /// Most triangles of a mesh, by an estimate; what would have more is refused before it is computed.
     #[arg(long, env = "VERNE_MAX_TRIANGLES", default_value_t = 5_000_000, value_name = "TRIANGLES",
