@@ -42,7 +42,7 @@ impl Shape {
             Rows::Read(rows) => {
                 let row = &rows.kept()[i];
                 check(row).map(|()| row.clone())
-            },
+            }
             Rows::Text(rows) => self.read(rows.kept()[i]),
         }?;
         if self.lengths.contains(&row.len()) { Ok(row) } else { Err(self.expected()) }
