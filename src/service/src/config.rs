@@ -120,14 +120,15 @@ pub struct ServeConfig {
     /// Read again at SIGHUP.
     #[arg(long, env = "VERNE_KEYS", value_name = "FILE")]
     pub keys: Option<PathBuf>,
-    /// Requests a second that a key, or without --keys an address, may send; 0 for any number. Behind a proxy all come from
+    /// Requests a second that a key, or where none is asked for an address, may send; 0 for any number. Behind a proxy all come from
     /// the proxy's address: limit them there, or by keys.
     #[arg(long, env = "VERNE_RATE", default_value_t = 0, value_name = "REQUESTS")]
     pub rate: u32,
     /// Requests that may come at once where --rate limits them; by default a second's.
     #[arg(long, env = "VERNE_RATE_BURST", value_name = "REQUESTS")]
     pub rate_burst: Option<NonZeroU32>,
-    /// Most requests that are worked on at once, those that wait for a job not counted; the next are answered 503.
+    /// Most requests that are worked on at once, those that wait for a job not counted; a key, or without --keys an address,
+    /// has at most half of them. The next are answered 503.
     #[arg(long, env = "VERNE_MAX_REQUESTS", default_value_t = 4096, value_name = "REQUESTS",
         value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_requests: usize,
