@@ -44,14 +44,14 @@ pub(crate) fn wrap(
     )
 }
 
-/// Compresses what is small, and at the first level: a runtime's thread does it, in far less than half a millisecond.
+/// Compresses what is small, and at the first level: a runtime's thread does it, in less than half a millisecond.
 fn compression() -> CompressionLayer<impl Predicate> {
     let when = DefaultPredicate::new().and(Untagged).and(Small);
     CompressionLayer::new().quality(CompressionLevel::Fastest).compress_when(when)
 }
 
 /// Most bytes of a body that is compressed.
-const SMALL: u64 = 64 * 1024;
+const SMALL: u64 = 48 * 1024;
 
 /// Batches, for one, are sent as they are.
 #[derive(Clone, Copy)]

@@ -125,7 +125,10 @@ async fn pass(
     let response = next.run(request).await;
     // Not kept until the answer is sent: who reads slowly would be in the way of all. Memory is counted instead.
     drop(place);
-    let mut response = gate.admission.send(response, caller.sharer())?;
+    let mut response = match load {
+        Load::Watch => response,
+        Load::Question | Load::Work => gate.admission.send(response, caller.sharer())?,
+    };
     if gate.keys.is_some() && needed.is_some() {
         keep_from_others(response.headers_mut());
     }
