@@ -29,7 +29,7 @@ async fn what_is_the_same_for_everybody_has_a_tag_in_each_encoding() {
     let mut tags = vec![plain.headers[header::ETAG].clone()];
     for encoding in ["gzip", "br"] {
         let accepted = (header::ACCEPT_ENCODING, encoding);
-        let reply = get_from(&service, "/openapi.json", &[accepted.clone()]).await;
+        let reply = get_from(&service, "/openapi.json", std::slice::from_ref(&accepted)).await;
         assert_eq!(reply.headers[header::CONTENT_ENCODING], encoding);
         assert_eq!(reply.headers[header::VARY], "accept-encoding");
         assert!(reply.bytes.len() * 4 < plain.bytes.len(), "{encoding}: {}", reply.bytes.len());
