@@ -18,6 +18,7 @@ mod kinematics;
 mod machines;
 mod part_frame;
 mod rates;
+mod shares;
 mod transport;
 mod viewer;
 mod workspace;

@@ -50,6 +50,7 @@ fn what_makes_no_sense_is_refused_at_once() {
         ("queue = 0", "queue: invalid value '0'"),
         ("queue = 'many'", "queue: invalid value 'many'"),
         ("max_rows = 0", "max_rows: invalid value '0'"),
+        ("max_rows = 1000001", "max_rows: invalid value '1000001'"),
         ("max_body_bytes = 0", "max_body_bytes: invalid value '0'"),
         ("cache_bytes = 0", "cache_bytes: invalid value '0'"),
         ("disk_bytes = -1", "disk_bytes: invalid value '-1'"),

@@ -2,17 +2,28 @@
 //!
 //! A request has a [`Place`] while it is worked on. Single questions may take all places, everything else three in four
 //! of them; so a question is not refused because others are computed. While a request waits for a job it gives its place
-//! back. Batches have a share of their own, from the reading of their bodies to the end of their work: those beyond what
-//! the worker threads do at once wait for them in order. Where there is no place the answer is 503 at once.
+//! back. Batches have a share of their own, from the end of their bodies until their answers are sent: those beyond what
+//! the worker threads do at once wait for them in order. Bodies that are still read, and answers on their way, are
+//! counted by the memory that they have. Of each of these one client may have half. Where there is no place the answer is
+//! 503 at once.
+
+mod outgoing;
+mod shares;
 
 use std::future::Future;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use axum::body::Body;
+use axum::http::Response;
 
 use crate::error::Error;
+use outgoing::Counted;
+pub(crate) use outgoing::with_share;
+pub(crate) use shares::Share;
+use shares::Shares;
 
-/// Most batches that are read, wait or are computed: with the default limit their bodies have half a gibibyte.
+/// Most batches that wait, are computed or are sent; bodies have as much memory as so many of the largest: with the
+/// default limit half a gibibyte.
 const BATCHES: usize = 32;
 
 /// Most requests that wait for their jobs at once; each is some ten kilobytes, most of them its connection's. One beyond
@@ -21,6 +32,12 @@ const WAITING: usize = 16_384;
 
 /// Most streams of events at once; about as large as a request that waits.
 const STREAMS: usize = 16_384;
+
+/// Most pages of memory that answers have while they are sent: 2 GiB, a thousand large meshes that are read slowly.
+const OUTGOING: usize = 128 * 1024;
+
+/// Bytes of a page, by which memory is counted.
+const PAGE: u64 = 16 * 1024;
 
 /// What a request is to the service.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,77 +50,114 @@ pub(crate) enum Load {
     Watch,
 }
 
-/// Places, and who has them.
+/// Places, and who has them. A client is given where it is bounded.
 #[derive(Debug)]
 pub(crate) struct Admission {
-    all: Arc<Semaphore>,
+    all: Arc<Shares>,
     /// Of them, those that are not kept for questions.
-    work: Arc<Semaphore>,
-    batches: Arc<Semaphore>,
-    waiting: Arc<Semaphore>,
-    streams: Arc<Semaphore>,
+    work: Arc<Shares>,
+    bodies: Arc<Shares>,
+    batches: Arc<Shares>,
+    waiting: Arc<Shares>,
+    streams: Arc<Shares>,
+    outgoing: Arc<Shares>,
 }
 
 impl Admission {
-    /// At most so many requests are worked on.
-    pub(crate) fn new(requests: usize) -> Arc<Self> {
-        let room = |places: usize| Arc::new(Semaphore::new(places.clamp(1, Semaphore::MAX_PERMITS)));
+    /// At most so many requests are worked on, with bodies of at most so many bytes.
+    pub(crate) fn new(requests: usize, body_bytes: usize) -> Arc<Self> {
+        let batches = BATCHES.min(requests / 2);
+        // One client may have half: one body at least.
+        let bodies = batches.max(2).saturating_mul(pages(body_bytes as u64));
         Arc::new(Self {
-            all: room(requests),
-            work: room(requests - requests / 4),
-            batches: room(BATCHES.min(requests / 2)),
-            waiting: room(WAITING),
-            streams: room(STREAMS),
+            all: Shares::new(requests),
+            work: Shares::new(requests - requests / 4),
+            bodies: Shares::new(bodies),
+            batches: Shares::new(batches),
+            waiting: Shares::new(WAITING),
+            streams: Shares::new(STREAMS),
+            outgoing: Shares::new(OUTGOING),
         })
     }
 
     /// A place for a request; there is one in any case for who only watches.
-    pub(crate) fn enter(self: &Arc<Self>, load: Load) -> Result<Arc<Place>, Error> {
-        let work = if load == Load::Work { Some(taken(&self.work)?) } else { None };
-        let place = if load == Load::Watch { None } else { Some(taken(&self.all)?) };
-        Ok(Arc::new(Place { admission: Arc::clone(self), taken: Mutex::new((work, place)) }))
+    pub(crate) fn enter(self: &Arc<Self>, load: Load, client: Option<&str>) -> Result<Arc<Place>, Error> {
+        let work = if load == Load::Work { Some(self.work.take(client)?) } else { None };
+        let place = if load == Load::Watch { None } else { Some(self.all.take(client)?) };
+        let client = client.map(str::to_owned);
+        Ok(Arc::new(Place { admission: Arc::clone(self), client, taken: Mutex::new((work, place)) }))
+    }
+
+    /// The memory of a body of which nothing is read yet.
+    pub(crate) fn body(&self, client: Option<&str>) -> Result<Memory, Error> {
+        self.bodies.take(client).map(Memory)
     }
 
     /// A share of the batches.
-    pub(crate) fn batch(&self) -> Result<OwnedSemaphorePermit, Error> {
-        taken(&self.batches)
+    pub(crate) fn batch(&self, client: Option<&str>) -> Result<Share, Error> {
+        self.batches.take(client)
     }
 
     /// A stream of events.
-    pub(crate) fn stream(&self) -> Result<OwnedSemaphorePermit, Error> {
-        taken(&self.streams)
+    pub(crate) fn stream(&self, client: Option<&str>) -> Result<Share, Error> {
+        self.streams.take(client)
+    }
+
+    /// Counts the memory of an answer until it is sent.
+    pub(crate) fn send(&self, answer: Response<Body>, client: Option<&str>) -> Result<Response<Body>, Error> {
+        match outgoing::bytes_of(&answer) {
+            Some(0) | None => Ok(answer),
+            Some(bytes) => {
+                let share = self.outgoing.take_many(client, pages(bytes))?;
+                Ok(answer.map(|body| Body::new(Counted::new(body, share))))
+            }
+        }
     }
 }
 
-fn taken(room: &Arc<Semaphore>) -> Result<OwnedSemaphorePermit, Error> {
-    Arc::clone(room).try_acquire_owned().map_err(|_| Error::Overloaded)
+fn pages(bytes: u64) -> usize {
+    usize::try_from(bytes.div_ceil(PAGE)).unwrap_or(usize::MAX).max(1)
 }
 
-type Permits = (Option<OwnedSemaphorePermit>, Option<OwnedSemaphorePermit>);
+/// The memory that a body has.
+#[derive(Debug)]
+pub(crate) struct Memory(Share);
+
+impl Memory {
+    /// The body has grown to so many bytes.
+    pub(crate) fn hold(&mut self, bytes: usize) -> Result<(), Error> {
+        match pages(bytes as u64).checked_sub(self.0.count()) {
+            None | Some(0) => Ok(()),
+            Some(more) => self.0.grow(more),
+        }
+    }
+}
 
 /// A request's place. Given back when the last handle is dropped.
 #[derive(Debug)]
 pub(crate) struct Place {
     admission: Arc<Admission>,
-    taken: Mutex<Permits>,
+    client: Option<String>,
+    taken: Mutex<(Option<Share>, Option<Share>)>,
 }
 
 impl Place {
     /// Waits without a place and takes one again, before those that come anew. `None`: too many wait already.
     pub(crate) async fn aside<T>(&self, wait: impl Future<Output = T>) -> Option<T> {
-        let waiting = taken(&self.admission.waiting).ok()?;
+        let client = self.client.as_deref();
+        let waiting = self.admission.waiting.take(client).ok()?;
         drop(self.replace((None, None)));
         let outcome = wait.await;
-        let work = Arc::clone(&self.admission.work).acquire_owned().await;
-        let place = Arc::clone(&self.admission.all).acquire_owned().await;
-        self.replace((work.ok(), place.ok()));
+        let work = self.admission.work.wait(client).await;
+        let place = self.admission.all.wait(client).await;
+        self.replace((work, place));
         drop(waiting);
         Some(outcome)
     }
 
-    fn replace(&self, permits: Permits) -> Permits {
+    fn replace(&self, shares: (Option<Share>, Option<Share>)) -> (Option<Share>, Option<Share>) {
         let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
-        std::mem::replace(&mut *taken, permits)
+        std::mem::replace(&mut *taken, shares)
     }
 }
 
@@ -112,16 +166,16 @@ impl Place {
 mod tests {
     use std::sync::Arc;
 
-    use super::{Admission, Load, taken};
+    use super::{Admission, Load};
 
     fn free(admission: &Admission) -> (usize, usize) {
-        (admission.all.available_permits(), admission.work.available_permits())
+        (admission.all.left(), admission.work.left())
     }
 
     #[tokio::test]
     async fn who_waits_gives_the_place_back_and_takes_one_again() {
-        let admission = Admission::new(4);
-        let place = admission.enter(Load::Work).unwrap();
+        let admission = Admission::new(4, 1);
+        let place = admission.enter(Load::Work, None).unwrap();
         assert_eq!(free(&admission), (3, 2));
         let seen = place.aside(async { free(&admission) }).await;
         assert_eq!((seen, free(&admission)), (Some((4, 3)), (3, 2)));
@@ -131,9 +185,9 @@ mod tests {
 
     #[tokio::test]
     async fn not_more_than_may_wait() {
-        let admission = Admission::new(4);
-        let place = admission.enter(Load::Work).unwrap();
-        let waiting: Vec<_> = std::iter::from_fn(|| taken(&admission.waiting).ok()).collect();
+        let admission = Admission::new(4, 1);
+        let place = admission.enter(Load::Work, None).unwrap();
+        let waiting: Vec<_> = std::iter::from_fn(|| admission.waiting.take(None).ok()).collect();
         assert_eq!(place.aside(async {}).await, None);
         assert_eq!(free(&admission), (3, 2), "the place is kept");
         drop(waiting);
@@ -142,10 +196,34 @@ mod tests {
 
     #[test]
     fn one_place_is_for_anything() {
-        let admission = Admission::new(0);
-        drop(admission.enter(Load::Work).unwrap());
-        let place = admission.enter(Load::Question).unwrap();
-        assert!(admission.enter(Load::Question).is_err() && admission.enter(Load::Watch).is_ok());
-        assert!(admission.batch().is_ok() && Arc::strong_count(&place) == 1);
+        let admission = Admission::new(0, 1);
+        drop(admission.enter(Load::Work, None).unwrap());
+        let place = admission.enter(Load::Question, None).unwrap();
+        assert!(admission.enter(Load::Question, None).is_err() && admission.enter(Load::Watch, None).is_ok());
+        assert!(admission.batch(None).is_ok() && Arc::strong_count(&place) == 1);
+    }
+
+    #[test]
+    fn a_body_has_what_has_come_of_it_and_no_client_takes_all() {
+        let admission = Admission::new(8, 1_000_000);
+        let mut body = admission.body(Some("a")).unwrap();
+        for bytes in [0, 1, 500_000, 1_000_000] {
+            body.hold(bytes).unwrap();
+        }
+        let mut second = admission.body(Some("a")).unwrap();
+        second.hold(1_000_000).unwrap();
+        assert!(admission.body(Some("a")).is_err());
+        let mut other = admission.body(Some("b")).unwrap();
+        other.hold(1_000_000).unwrap();
+        drop(second);
+        assert!(admission.body(Some("a")).is_ok());
+    }
+
+    #[test]
+    fn no_client_has_all_streams() {
+        let admission = Admission::new(8, 1);
+        let streams: Vec<_> = std::iter::from_fn(|| admission.stream(Some("a")).ok()).collect();
+        assert_eq!(streams.len(), super::STREAMS / 2);
+        assert!(admission.stream(Some("b")).is_ok());
     }
 }

@@ -57,7 +57,7 @@ impl std::error::Error for StartError {}
 
 /// The OpenAPI document, generated from the handlers.
 pub fn document() -> Value {
-    openapi::complete(router::routes(&Gate::for_all(Admission::new(1))).get_openapi())
+    openapi::complete(router::routes(&Gate::for_all(Admission::new(1, 1))).get_openapi())
 }
 
 /// The document as it is sent: the committed copy, which the tests hold equal to [`document`]. Its examples are the
@@ -81,7 +81,7 @@ impl Service {
         if let Some(directory) = &config.machines {
             machines.publish_directory(directory).map_err(StartError::Machine)?;
         }
-        let admission = Admission::new(config.max_requests);
+        let admission = Admission::new(config.max_requests, config.max_body_bytes);
         let gate = Gate::open(config, Arc::clone(&admission)).await.map_err(StartError::Keys)?;
         let (routes, _) = router::routes(&gate).split_for_parts();
         let Storage { results, jobs, computations } =
@@ -95,7 +95,8 @@ impl Service {
             Arc::new(State { machines, limits, admission, results, jobs, readiness, metrics, stopping });
         let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
         let docs = browsers::pages(docs.into(), browsers::DOCS);
-        let routes = routes.with_state(Arc::clone(&state)).merge(docs).merge(viewer::routes());
+        let pages = gate.before_pages(docs.merge(viewer::routes()));
+        let routes = routes.with_state(Arc::clone(&state)).merge(pages);
         let browsers = Browsers::of(config);
         let wrapped = |routes| {
             layers::wrap(routes, Arc::clone(&requests), Duration::from_secs(config.timeout), &browsers)

@@ -25,6 +25,7 @@ use sharing::{BrokerConfig, StoreConfig};
 
 use crate::state::RequestLimits;
 use crate::telemetry::TelemetryConfig;
+use crate::wire::capped::MOST_ROWS;
 
 /// A year, in seconds: more than that is a mistake, and no clock overflows.
 const LONGEST: u64 = 365 * 86_400;
@@ -76,7 +77,7 @@ pub struct ServeConfig {
     pub max_body_bytes: usize,
     /// Most rows in a batch.
     #[arg(long, env = "VERNE_MAX_ROWS", default_value_t = 100_000,
-        value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..=MOST_ROWS as u64))]
     pub max_rows: usize,
     /// Most triangles of a mesh, by an estimate; what would have more is refused before it is computed.
     #[arg(long, env = "VERNE_MAX_TRIANGLES", default_value_t = 5_000_000, value_name = "TRIANGLES",
@@ -119,14 +120,15 @@ pub struct ServeConfig {
     /// Read again at SIGHUP.
     #[arg(long, env = "VERNE_KEYS", value_name = "FILE")]
     pub keys: Option<PathBuf>,
-    /// Requests a second that a key, or without --keys an address, may send; 0 for any number. Behind a proxy all come from
+    /// Requests a second that a key, or where none is asked for an address, may send; 0 for any number. Behind a proxy all come from
     /// the proxy's address: limit them there, or by keys.
     #[arg(long, env = "VERNE_RATE", default_value_t = 0, value_name = "REQUESTS")]
     pub rate: u32,
     /// Requests that may come at once where --rate limits them; by default a second's.
     #[arg(long, env = "VERNE_RATE_BURST", value_name = "REQUESTS")]
     pub rate_burst: Option<NonZeroU32>,
-    /// Most requests that are worked on at once, those that wait for a job not counted; the next are answered 503.
+    /// Most requests that are worked on at once, those that wait for a job not counted; a key, or without --keys an address,
+    /// has at most half of them. The next are answered 503.
     #[arg(long, env = "VERNE_MAX_REQUESTS", default_value_t = 4096, value_name = "REQUESTS",
         value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_requests: usize,

@@ -1,14 +1,15 @@
 //! Reads queries and bodies; every failure is an [`Error`].
 
-use axum::body::{Bytes, to_bytes};
+use axum::body::{Body, Bytes, to_bytes};
 use axum::extract::{FromRequest, FromRequestParts, Request};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, header};
-use http_body_util::LengthLimitError;
+use http_body_util::{BodyExt, LengthLimitError, Limited};
 use serde::de::DeserializeOwned;
-use tokio::sync::OwnedSemaphorePermit;
 use verne_solver::workspace::Observer;
 
+use crate::access::Caller;
+use crate::admission::{Memory, Share, with_share};
 use crate::error::Error;
 use crate::state::Shared;
 use crate::wire::parse::{parse_body, parse_query};
@@ -41,21 +42,23 @@ impl<T: DeserializeOwned> FromRequest<Shared> for Single<T> {
 
 /// The JSON body of a batch, still to be parsed: that is work for the worker threads.
 pub(crate) struct Batch {
-    body: Bytes,
-    share: OwnedSemaphorePermit,
+    body: Vec<u8>,
+    memory: Memory,
+    share: Share,
 }
 
 impl Batch {
-    /// The answer, from the worker threads. The batch counts as one until it is computed, whether anybody waits or not.
+    /// The answer, from the worker threads. The batch counts as one until it is sent or given up, and at least until it is
+    /// computed, whether anybody waits or not.
     pub(crate) async fn answer(
         self,
         work: impl FnOnce(&[u8], &dyn Observer) -> Result<Vec<u8>, Error> + Send + 'static,
-    ) -> Result<Vec<u8>, Error> {
-        let Self { body, share } = self;
+    ) -> Result<Bytes, Error> {
+        let Self { body, memory, share } = self;
         on_workers_while_waited_for(move |observer| {
             let answer = work(&body, observer);
-            drop(share);
-            answer
+            drop((body, memory));
+            answer.map(|answer| with_share(answer, share))
         })
         .await
     }
@@ -65,22 +68,40 @@ impl FromRequest<Shared> for Batch {
     type Rejection = Error;
 
     async fn from_request(request: Request, state: &Shared) -> Result<Self, Error> {
-        let share = state.admission.batch()?;
-        let body = json_bytes(request, state.limits.body_bytes).await?;
-        Ok(Self { body, share })
+        require_json(request.headers())?;
+        let caller = request.extensions().get::<Caller>().cloned().ok_or(Error::Internal)?;
+        let mut memory = state.admission.body(caller.sharer())?;
+        let body = counted_bytes(request.into_body(), state.limits.body_bytes, &mut memory).await?;
+        // Not before: who sends slowly would have the shares of all.
+        let share = state.admission.batch(caller.sharer())?;
+        Ok(Self { body, memory, share })
     }
 }
 
 async fn json_bytes(request: Request, limit: usize) -> Result<Bytes, Error> {
     require_json(request.headers())?;
-    to_bytes(request.into_body(), limit).await.map_err(|error| {
-        let cause = error.into_inner();
-        if cause.is::<LengthLimitError>() {
-            Error::BodyTooLarge(limit)
-        } else {
-            Error::BodyLost(cause.to_string())
+    to_bytes(request.into_body(), limit).await.map_err(|error| lost(&*error.into_inner(), limit))
+}
+
+/// A body whose memory is counted as it comes.
+async fn counted_bytes(body: Body, limit: usize, memory: &mut Memory) -> Result<Vec<u8>, Error> {
+    let mut body = Limited::new(body, limit);
+    let mut bytes = Vec::new();
+    while let Some(frame) = body.frame().await {
+        if let Ok(data) = frame.map_err(|error| lost(&*error, limit))?.into_data() {
+            memory.hold(bytes.len() + data.len())?;
+            bytes.extend_from_slice(&data);
         }
-    })
+    }
+    Ok(bytes)
+}
+
+fn lost(cause: &(dyn std::error::Error + 'static), limit: usize) -> Error {
+    if cause.is::<LengthLimitError>() {
+        Error::BodyTooLarge(limit)
+    } else {
+        Error::BodyLost(cause.to_string())
+    }
 }
 
 fn require_json(headers: &HeaderMap) -> Result<(), Error> {

@@ -14,6 +14,7 @@ mod drawing;
 mod error;
 mod extract;
 mod faults;
+mod fixed;
 mod handlers;
 mod layers;
 mod machine_hash;

@@ -6,7 +6,7 @@ use utoipa::OpenApi;
 use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouter};
 use utoipa_axum::routes;
 
-use crate::access::Access::{self, For, Open};
+use crate::access::Access::{self, For, Open, Probe};
 use crate::access::Gate;
 use crate::access::Role::{Compute, Read};
 use crate::admission::Load::{Question, Watch, Work};
@@ -39,8 +39,8 @@ fn list() -> [(Access, UtoipaMethodRouter<Shared>); 22] {
         (For(Read, Question), routes!(machines::get_machine)),
         (For(Read, Watch), routes!(service::get_metrics)),
         (Open, routes!(service::get_openapi)),
-        (Open, routes!(service::get_livez)),
-        (Open, routes!(service::get_readyz)),
+        (Probe, routes!(service::get_livez)),
+        (Probe, routes!(service::get_readyz)),
     ]
 }
 

@@ -3,6 +3,7 @@
 pub(crate) mod alphas;
 pub(crate) mod answer;
 pub(crate) mod batch;
+pub(crate) mod capped;
 pub(crate) mod catalogue;
 pub(crate) mod contains;
 pub(crate) mod degrees;

@@ -39,7 +39,8 @@ async fn an_address_that_asks_too_fast_is_told_when_to_come_back() {
     assert!(until_refused(async || from(&service, "10.0.0.1:1", "/machines").await).await >= 3);
     // Ports are one client's; the probes answer in any case.
     assert!(until_refused(async || from(&service, "10.0.0.1:2", "/machines").await).await < 1000);
-    for uri in ["/livez", "/readyz", "/metrics", "/openapi.json"] {
+    assert!(until_refused(async || from(&service, "10.0.0.1:2", "/openapi.json").await).await < 1000);
+    for uri in ["/livez", "/readyz", "/metrics"] {
         assert_eq!(from(&service, "10.0.0.1:1", uri).await.status, StatusCode::OK, "{uri}");
     }
     assert_eq!(from(&service, "10.0.0.2:1", "/machines").await.status, StatusCode::OK);
@@ -67,6 +68,9 @@ async fn a_key_has_its_own_rate_wherever_it_is_used() {
     for _ in 0..1000 {
         assert_eq!(keys.get(&service, 1, "/machines").await.status, StatusCode::OK);
     }
+    // What takes no key is limited by address.
+    assert!(until_refused(async || from(&service, "10.0.0.1:1", "/openapi.json").await).await < 500);
+    assert_eq!(from(&service, "10.0.0.2:1", "/openapi.json").await.status, StatusCode::OK);
     // Who has no key uses up nobody's.
     let (unknown, _) = fresh("slow", "read");
     let request = Request::get("/machines").header("authorization", format!("Bearer {unknown}"));

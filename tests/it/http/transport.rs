@@ -1,9 +1,10 @@
 //! Around the answers: compression, ids, probes, the docs page, stopping.
 
 use axum::body::Body;
-use axum::http::{Request, StatusCode, header};
+use axum::http::{HeaderValue, Method, Request, StatusCode, header};
+use serde_json::json;
 
-use super::{get, send};
+use super::{get, get_from, json_request, post, send, service};
 
 const QUESTION: &str = "/ik?frame=platform&x=-240&y=-86&z=1000&solutions=all";
 
@@ -18,6 +19,40 @@ async fn answers_are_compressed_on_request() {
         assert_eq!(reply.headers[header::CONTENT_ENCODING], encoding);
         assert!(reply.bytes.len() * 2 < plain.bytes.len(), "{encoding}: {}", reply.bytes.len());
     }
+}
+
+#[tokio::test]
+async fn what_is_the_same_for_everybody_has_a_tag_in_each_encoding() {
+    let service = service().await;
+    let plain = get_from(&service, "/openapi.json", &[]).await;
+    assert!(!plain.headers.contains_key(header::CONTENT_ENCODING));
+    let mut tags = vec![plain.headers[header::ETAG].clone()];
+    for encoding in ["gzip", "br"] {
+        let accepted = (header::ACCEPT_ENCODING, encoding);
+        let reply = get_from(&service, "/openapi.json", std::slice::from_ref(&accepted)).await;
+        assert_eq!(reply.headers[header::CONTENT_ENCODING], encoding);
+        assert_eq!(reply.headers[header::VARY], "accept-encoding");
+        assert!(reply.bytes.len() * 4 < plain.bytes.len(), "{encoding}: {}", reply.bytes.len());
+        let tag = reply.headers[header::ETAG].clone();
+        let known = [accepted, (header::IF_NONE_MATCH, tag.to_str().unwrap())];
+        let again = get_from(&service, "/openapi.json", &known).await;
+        assert_eq!((again.status, again.bytes.len()), (StatusCode::NOT_MODIFIED, 0));
+        tags.push(tag);
+    }
+    assert!(tags[0] != tags[1] && tags[1] != tags[2] && tags[2] != tags[0], "{tags:?}");
+}
+
+#[tokio::test]
+async fn what_would_take_long_to_compress_is_sent_as_it_is() {
+    let poses = vec![[0.0, 0.0, 1200.0]; 2_000];
+    let body = json!({"frame": "platform", "poses": poses});
+    let plain = post("/ik/batch", &body).await;
+    assert!(plain.bytes.len() > 64 * 1024);
+    let mut request = json_request(Method::POST, "/ik/batch", &body);
+    request.headers_mut().insert(header::ACCEPT_ENCODING, HeaderValue::from_static("br, gzip, zstd"));
+    let reply = send(request).await;
+    assert!(!reply.headers.contains_key(header::CONTENT_ENCODING));
+    assert_eq!(reply.bytes, plain.bytes);
 }
 
 #[tokio::test]

@@ -30,13 +30,15 @@ async fn the_root_is_the_viewer_or_says_how_to_get_it() {
                 _ => "image/svg+xml",
             };
             assert_eq!(media, wanted, "{asset}");
+            assert_eq!(file.headers[header::CONTENT_ENCODING], "br", "{asset}");
+            assert_eq!(file.headers[header::VARY], "accept-encoding", "{asset}");
         }
     }
 }
 
 #[tokio::test]
 async fn a_file_that_the_viewer_does_not_have_is_a_problem() {
-    for path in ["/assets/none.js", "/assets/..%2Findex.html", "/index.html"] {
+    for path in ["/assets/none.js", "/assets/..%2Findex.html", "/assets/%ff", "/index.html"] {
         let reply = get(path).await;
         assert_eq!(reply.status, StatusCode::NOT_FOUND, "{path}");
         assert_eq!(reply.headers[header::CONTENT_TYPE], "application/problem+json", "{path}");

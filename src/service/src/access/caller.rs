@@ -18,12 +18,19 @@ pub(crate) struct Caller {
     pub client: String,
     /// What it may. Without keys anybody may everything.
     pub role: Role,
+    /// Whether it may have but a part of what is there for all at once.
+    pub bounded: bool,
 }
 
 impl Caller {
     /// Fails for a role that does not suffice.
     pub(crate) fn must_be(&self, needed: Role) -> Result<(), Error> {
         if self.role >= needed { Ok(()) } else { Err(Error::Forbidden(needed)) }
+    }
+
+    /// Who has a part of what is there for all at once; `None`: as much as there is.
+    pub(crate) fn sharer(&self) -> Option<&str> {
+        self.bounded.then_some(self.client.as_str())
     }
 
     /// Whose jobs it sees; `None`: those of all.
@@ -46,10 +53,13 @@ impl FromRequestParts<Shared> for Caller {
     }
 }
 
-/// The address that a request comes from, as a client of the queue.
-pub(super) fn address(extensions: &Extensions) -> String {
-    let address = extensions.get::<ConnectInfo<SocketAddr>>();
-    address.map_or_else(|| "local".to_owned(), |ConnectInfo(peer)| network(peer.ip()))
+/// The address that a request comes from, as a client of the queue; and whether it is bounded. This machine itself is not:
+/// what it sends may come from a proxy, for everybody.
+pub(super) fn address(extensions: &Extensions) -> (String, bool) {
+    match extensions.get::<ConnectInfo<SocketAddr>>() {
+        Some(ConnectInfo(peer)) => (network(peer.ip()), !peer.ip().to_canonical().is_loopback()),
+        None => ("local".to_owned(), false),
+    }
 }
 
 /// One client of the queue: an address, or the network that an IPv6 subscriber has for himself.

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use axum::Router;
+use axum::body::Body;
 use axum::extract::{Request, State};
 use axum::http::header::CACHE_CONTROL;
 use axum::http::{Extensions, HeaderMap, HeaderValue, Response};
@@ -23,6 +25,8 @@ use crate::state::Shared;
 /// Who may use a route where the service has keys, and what it is to the service.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Access {
+    /// Anybody, without limit: probes.
+    Probe,
     /// Anybody.
     Open,
     /// Keys of this role, and of those above, for what is this to the service.
@@ -34,7 +38,7 @@ pub(crate) enum Access {
 pub(crate) struct Gate {
     /// Without them everybody may everything.
     keys: Option<Arc<Keys>>,
-    /// Limits who has no key.
+    /// Limits those whose keys are not asked for.
     addresses: Option<Addresses>,
     admission: Arc<Admission>,
 }
@@ -48,13 +52,11 @@ impl Gate {
     /// As the settings have it.
     pub(crate) async fn open(config: &ServeConfig, admission: Arc<Admission>) -> Result<Self, BadKeys> {
         let rate = Rate::new(config.rate, config.rate_burst);
-        match &config.keys {
-            Some(path) => {
-                let keys = Some(Keys::open(path.clone(), rate).await?);
-                Ok(Self { keys, ..Self::for_all(admission) })
-            }
-            None => Ok(Self { addresses: rate.map(Addresses::new), ..Self::for_all(admission) }),
-        }
+        let keys = match &config.keys {
+            Some(path) => Some(Keys::open(path.clone(), rate).await?),
+            None => None,
+        };
+        Ok(Self { keys, addresses: rate.map(Addresses::new), admission })
     }
 
     /// Reads the keys again; if that fails, they stay as they are.
@@ -68,39 +70,66 @@ impl Gate {
     /// The route with the gate before it; also before the methods that it does not have.
     pub(crate) fn before(&self, route: MethodRouter<Shared>, access: Access) -> MethodRouter<Shared> {
         match access {
-            Access::Open => route,
-            Access::For(role, load) => route.layer(from_fn_with_state((self.clone(), role, load), pass)),
+            Access::Probe => route,
+            Access::Open => route.layer(from_fn_with_state(self.open_to_all(), pass)),
+            Access::For(role, load) => {
+                route.layer(from_fn_with_state((self.clone(), Some(role), load), pass))
+            }
         }
     }
 
-    /// Who asks; fails for who is not known, or asks too fast for what has a limit.
-    fn caller(&self, headers: &HeaderMap, extensions: &Extensions, load: Load) -> Result<Caller, Error> {
+    /// Pages with the gate before them: they are open to anybody.
+    pub(crate) fn before_pages(&self, pages: Router) -> Router {
+        pages.layer(from_fn_with_state(self.open_to_all(), pass))
+    }
+
+    fn open_to_all(&self) -> Before {
+        (self.clone(), None, Load::Work)
+    }
+
+    /// Who asks; fails for who is not known and should be, or asks too fast for what has a limit.
+    fn caller(
+        &self,
+        needed: Option<Role>,
+        headers: &HeaderMap,
+        extensions: &Extensions,
+        load: Load,
+    ) -> Result<Caller, Error> {
         let limited = load != Load::Watch;
-        let Some(keys) = &self.keys else {
-            let client = address(extensions);
+        let Some(keys) = self.keys.as_ref().filter(|_| needed.is_some()) else {
+            let (client, bounded) = address(extensions);
             self.addresses.iter().filter(|_| limited).try_for_each(|addresses| addresses.take(&client))?;
-            return Ok(Caller { client, role: Role::Admin });
+            let role = if self.keys.is_some() { Role::Read } else { Role::Admin };
+            return Ok(Caller { client, role, bounded });
         };
         let sent = headers.typed_get::<Authorization<Bearer>>().ok_or(Error::Unauthorized)?;
         let holder = keys.holder(sent.token()).ok_or(Error::Unauthorized)?;
         holder.bucket.iter().filter(|_| limited).try_for_each(Bucket::take)?;
-        Ok(Caller { client: holder.name.clone(), role: holder.role })
+        Ok(Caller { client: holder.name.clone(), role: holder.role, bounded: true })
     }
 }
 
+/// A gate, the role that it asks for, and what stands behind it.
+type Before = (Gate, Option<Role>, Load);
+
 async fn pass(
-    State((gate, needed, load)): State<(Gate, Role, Load)>,
+    State((gate, needed, load)): State<Before>,
     mut request: Request,
     next: Next,
-) -> Result<Response<axum::body::Body>, Error> {
-    let caller = gate.caller(request.headers(), request.extensions(), load)?;
-    caller.must_be(needed)?;
-    let place = gate.admission.enter(load)?;
-    request.extensions_mut().insert(caller);
+) -> Result<Response<Body>, Error> {
+    let caller = gate.caller(needed, request.headers(), request.extensions(), load)?;
+    needed.map_or(Ok(()), |needed| caller.must_be(needed))?;
+    let place = gate.admission.enter(load, caller.sharer())?;
+    request.extensions_mut().insert(caller.clone());
     request.extensions_mut().insert(Arc::clone(&place));
-    let mut response = next.run(request).await;
+    let response = next.run(request).await;
+    // Not kept until the answer is sent: who reads slowly would be in the way of all. Memory is counted instead.
     drop(place);
-    if gate.keys.is_some() {
+    let mut response = match load {
+        Load::Watch => response,
+        Load::Question | Load::Work => gate.admission.send(response, caller.sharer())?,
+    };
+    if gate.keys.is_some() && needed.is_some() {
         keep_from_others(response.headers_mut());
     }
     Ok(response)

@@ -39,8 +39,11 @@ impl Shape {
     /// One of the rows, or what is wrong with it.
     pub(super) fn row(self, rows: &Rows<'_>, i: usize) -> Result<Row, String> {
         let row = match rows {
-            Rows::Read(rows) => check(&rows[i]).map(|()| rows[i].clone()),
-            Rows::Text(rows) => self.read(rows[i]),
+            Rows::Read(rows) => {
+                let row = &rows.kept()[i];
+                check(row).map(|()| row.clone())
+            }
+            Rows::Text(rows) => self.read(rows.kept()[i]),
         }?;
         if self.lengths.contains(&row.len()) { Ok(row) } else { Err(self.expected()) }
     }

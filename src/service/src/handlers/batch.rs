@@ -1,5 +1,6 @@
 //! `/fk/batch` and `/ik/batch`.
 
+use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::header::{CONTENT_TYPE, HeaderName};
 
@@ -10,9 +11,9 @@ use crate::openapi::problems::BatchProblems;
 use crate::state::Shared;
 use crate::wire::batch::{FkBatchAnswer, FkBatchRequest, IkBatchAnswer, IkBatchRequest};
 
-type JsonBytes = ([(HeaderName, &'static str); 1], Vec<u8>);
+type JsonBytes = ([(HeaderName, &'static str); 1], Bytes);
 
-fn json(body: Vec<u8>) -> JsonBytes {
+fn json(body: Bytes) -> JsonBytes {
     ([(CONTENT_TYPE, "application/json")], body)
 }
 

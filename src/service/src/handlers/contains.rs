@@ -1,5 +1,6 @@
 //! `/workspace/contains`.
 
+use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::header::{CONTENT_TYPE, HeaderName};
 
@@ -22,7 +23,7 @@ use crate::wire::contains::{ContainsAnswer, ContainsRequest};
 pub(crate) async fn post_contains(
     State(state): State<Shared>,
     batch: Batch,
-) -> Result<([(HeaderName, &'static str); 1], Vec<u8>), Error> {
+) -> Result<([(HeaderName, &'static str); 1], Bytes), Error> {
     let answer = batch
         .answer(move |body, observer| answer_contains(body, &state.machines, state.limits.rows, observer));
     Ok(([(CONTENT_TYPE, "application/json")], answer.await?))

@@ -92,7 +92,7 @@ pub(crate) async fn get_events(
     let Job { id, .. } = visible(&state, &caller, id).await?;
     let watcher = state.jobs.watch(id).await?.ok_or_else(|| Error::NoSuchJob(id.to_string()))?;
     let stopping = state.stopping.clone().cancelled_owned();
-    let stream = state.admission.stream()?;
+    let stream = state.admission.stream(caller.sharer())?;
     let events = watcher.take_until(stopping).filter_map(move |job| {
         // Counted until it is dropped.
         let _stream = &stream;

@@ -22,10 +22,14 @@ pub(crate) fn with_scheme(mut document: OpenApi) -> OpenApi {
 
 /// The operations of a route with what its access adds to them.
 pub(crate) fn documented(mut paths: Paths, access: Access) -> Paths {
-    let Access::For(role, load) = access else { return paths };
     for item in paths.paths.values_mut() {
-        let operations = [&mut item.get, &mut item.post, &mut item.delete];
-        operations.into_iter().flatten().for_each(|operation| ask_for_key(operation, role, load));
+        for operation in [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten() {
+            match access {
+                Access::Probe => {}
+                Access::Open => operation.responses.responses.extend(RateProblems::responses()),
+                Access::For(role, load) => ask_for_key(operation, role, load),
+            }
+        }
     }
     paths
 }

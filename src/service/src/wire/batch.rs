@@ -6,6 +6,7 @@ use serde_json::value::RawValue;
 use utoipa::ToSchema;
 
 use super::answer::MachineId;
+use super::capped::Capped;
 use super::limit::{ConstraintName, ElementName};
 use super::machine_ref::MachineRef;
 use super::request::Frame;
@@ -30,7 +31,7 @@ pub(crate) struct IkBatchRequest<'a> {
     /// answered as `invalid`.
     #[serde(borrow)]
     #[schema(value_type = Vec<Option<Vec<Option<f64>>>>)]
-    pub poses: Vec<&'a RawValue>,
+    pub poses: Capped<&'a RawValue>,
 }
 
 /// The working solution for many joint positions.
@@ -48,7 +49,7 @@ pub(crate) struct FkBatchRequest<'a> {
     /// `invalid`.
     #[serde(borrow)]
     #[schema(value_type = Vec<Option<Vec<Option<f64>>>>)]
-    pub joints: Vec<&'a RawValue>,
+    pub joints: Capped<&'a RawValue>,
 }
 
 /// Numbers of one row.
@@ -65,7 +66,7 @@ pub(crate) struct IkBatchNumbers {
     pub frame: Frame,
     #[serde(default)]
     pub tool_length: f64,
-    pub poses: Vec<Row>,
+    pub poses: Capped<Row>,
 }
 
 /// An [`FkBatchRequest`] all of whose rows are numbers.
@@ -76,16 +77,16 @@ pub(crate) struct FkBatchNumbers {
     pub machine: MachineRef,
     #[serde(default)]
     pub tool_length: f64,
-    pub joints: Vec<Row>,
+    pub joints: Capped<Row>,
 }
 
 /// The rows of a batch.
 #[derive(Debug)]
 pub(crate) enum Rows<'a> {
     /// Every one was read.
-    Read(Vec<Row>),
+    Read(Capped<Row>),
     /// At least one cannot be read; each is still text.
-    Text(Vec<&'a RawValue>),
+    Text(Capped<&'a RawValue>),
 }
 
 impl Rows<'_> {

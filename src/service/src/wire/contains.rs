@@ -6,6 +6,7 @@ use utoipa::ToSchema;
 
 use super::answer::MachineId;
 use super::batch::RowError;
+use super::capped::Capped;
 use super::limit::{ConstraintName, ElementName, Unit};
 use super::machine_ref::MachineRef;
 use super::workspace::KindName;
@@ -37,7 +38,7 @@ pub(crate) struct ContainsRequest<'a> {
     /// Points `[x, y, z]` in the kind's frame, mm. One that cannot be read is answered with null.
     #[serde(borrow)]
     #[schema(value_type = Vec<Option<Vec<Option<f64>>>>)]
-    pub points: Vec<&'a RawValue>,
+    pub points: Capped<&'a RawValue>,
 }
 
 /// How each point stands to the workspace: columns in the order of the points.
