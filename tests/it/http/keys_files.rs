@@ -10,7 +10,8 @@ async fn refusal(text: &str) -> String {
     keys.write(text);
     let refusal = Service::open(&keys.asked_for_by(config(None))).await.err().unwrap().to_string();
     let file = keys.file();
-    let rest = refusal.strip_prefix(file.to_str().unwrap()).unwrap_or_else(|| panic!("{refusal}"));
+    let rest = refusal.strip_prefix("keys: ").and_then(|rest| rest.strip_prefix(file.to_str().unwrap()));
+    let rest = rest.unwrap_or_else(|| panic!("{refusal}"));
     rest.strip_prefix(": ").unwrap().to_owned()
 }
 
