@@ -18,21 +18,21 @@ async fn refusal(text: &str) -> String {
 #[tokio::test]
 async fn what_is_wrong_is_named() {
     let (_, good) = fresh("cam", "read");
-    let (key, second) = fresh("cad", "compute");
+    let (key, second) = fresh("cut", "compute");
     let hash = second.lines().find(|line| line.starts_with("hash")).unwrap();
     for (text, place) in [
         (String::new(), "has no entry [[key]]"),
         ("\n\n[[key]".to_owned(), "line 3: "),
-        (format!("{good}\n[[keys]]\nname = \"cad\""), "line 6: unknown field `keys`"),
-        (second.replace("compute", "write"), "key 1 (cad): role: unknown variant `write`"),
-        (format!("{good}\n{}", second.replace("cad", "10.0.0.1")), "key 2: name: must be"),
-        (format!("{good}\n{}", second.replace(hash, "")), "key 2 (cad): missing field `hash`"),
-        (second.replace(hash, &format!("hash = \"{key}\"")), "key 1 (cad): hash: must be the 64 hexa"),
-        (format!("{second}rate = -1"), "key 1 (cad): rate: "),
-        (format!("{second}rate_burst = 5"), "key 1 (cad): rate_burst: needs a rate"),
-        (format!("{second}rate = 5\nrate_burst = 0"), "key 1 (cad): rate_burst: "),
-        (format!("{second}extra = 1"), "key 1 (cad): extra: unknown field `extra`"),
-        (format!("{second}\n{second}"), "key 2 (cad): the hash of an earlier entry"),
+        (format!("{good}\n[[keys]]\nname = \"cut\""), "line 6: unknown field `keys`"),
+        (second.replace("compute", "write"), "key 1 (cut): role: unknown variant `write`"),
+        (format!("{good}\n{}", second.replace("cut", "10.0.0.1")), "key 2: name: must be"),
+        (format!("{good}\n{}", second.replace(hash, "")), "key 2 (cut): missing field `hash`"),
+        (second.replace(hash, &format!("hash = \"{key}\"")), "key 1 (cut): hash: must be the 64 hexa"),
+        (format!("{second}rate = -1"), "key 1 (cut): rate: "),
+        (format!("{second}rate_burst = 5"), "key 1 (cut): rate_burst: needs a rate"),
+        (format!("{second}rate = 5\nrate_burst = 0"), "key 1 (cut): rate_burst: "),
+        (format!("{second}extra = 1"), "key 1 (cut): extra: unknown field `extra`"),
+        (format!("{second}\n{second}"), "key 2 (cut): the hash of an earlier entry"),
     ] {
         let refusal = refusal(&text).await;
         assert!(refusal.starts_with(place), "{text}\n{refusal}");
