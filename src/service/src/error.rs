@@ -83,6 +83,8 @@ pub(crate) enum Error {
     NoRoom,
     /// None of the media types that Accept names can be had; these can.
     NotAcceptable(Vec<&'static str>),
+    /// Accept-Encoding forbids every encoding, the plain one too.
+    NoEncoding,
     /// The range starts beyond the end of so many bytes.
     RangeNotSatisfiable(u64),
     /// Nothing lives at this path.
@@ -152,6 +154,7 @@ impl fmt::Display for Error {
                 write!(f, "Another version of the service was asked this; ask again, the id will be another.")
             }
             Self::NoRoom => write!(f, "The result is larger than all the room there is for results."),
+            Self::NoEncoding => write!(f, "Accept-Encoding leaves none of br, gzip, zstd and identity."),
             Self::NotAcceptable(media) => {
                 write!(f, "Accept names nothing that can be had here: {}.", media.join(", "))
             }

@@ -37,8 +37,8 @@ pub(crate) fn wrap(
             .layer(PropagateRequestIdLayer::x_request_id())
             .option_layer(browsers.cors())
             .map_response(browsers.protect())
-            .layer(compression())
             .map_response(give_every_failure_a_document)
+            .layer(compression())
             .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, time_limit))
             .layer(CatchPanicLayer::new()),
     )

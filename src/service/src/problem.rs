@@ -1,9 +1,9 @@
 //! The one map from errors to HTTP: status, stable `code`, and the problem document (RFC 9457).
 
-use axum::BoxError;
 use axum::body::{Body, Bytes, HttpBody};
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use axum::{BoxError, Extension};
 use headers::{ContentRange, HeaderMapExt};
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -78,7 +78,7 @@ fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
         Error::JobTooLong => (StatusCode::SERVICE_UNAVAILABLE, "job_too_long"),
         Error::OtherVersion => (StatusCode::CONFLICT, "other_version"),
         Error::NoRoom => (StatusCode::INSUFFICIENT_STORAGE, "no_room"),
-        Error::NotAcceptable(_) => (StatusCode::NOT_ACCEPTABLE, "not_acceptable"),
+        Error::NotAcceptable(_) | Error::NoEncoding => (StatusCode::NOT_ACCEPTABLE, "not_acceptable"),
         Error::RangeNotSatisfiable(_) => (StatusCode::RANGE_NOT_SATISFIABLE, "range_not_satisfiable"),
         Error::NoSuchPath => (StatusCode::NOT_FOUND, "not_found"),
         Error::MethodNotAllowed => (StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed"),
@@ -99,6 +99,7 @@ fn error_behind(status: StatusCode) -> Error {
     match status {
         StatusCode::METHOD_NOT_ALLOWED => Error::MethodNotAllowed,
         StatusCode::NOT_FOUND => Error::NoSuchPath,
+        StatusCode::NOT_ACCEPTABLE => Error::NoEncoding,
         StatusCode::SERVICE_UNAVAILABLE => Error::TimedOut,
         StatusCode::INTERNAL_SERVER_ERROR => Error::Internal,
         _ => Error::BodyLost(status.to_string()),
@@ -118,11 +119,16 @@ impl From<Error> for Problem {
     }
 }
 
+/// The status that a response's document speaks of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Documented(StatusCode);
+
 impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
         let body = serde_json::to_vec(&self).unwrap_or_default();
-        (status, [(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON))], body).into_response()
+        let media = [(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON))];
+        (status, Extension(Documented(status)), media, body).into_response()
     }
 }
 
@@ -151,24 +157,27 @@ impl IntoResponse for Error {
 }
 
 /// Gives a problem document to every failure that the framework answered without one (a method
-/// that is not allowed, a time-out, a panic); headers such as Allow stay.
+/// that is not allowed, a time-out, a panic, no encoding that is accepted); headers such as Allow stay.
 pub(crate) fn give_every_failure_a_document<B>(response: axum::http::Response<B>) -> Response
 where
     B: HttpBody<Data = Bytes> + Send + 'static,
     B::Error: Into<BoxError>,
 {
     let status = response.status();
-    if !(status.is_client_error() || status.is_server_error()) || is_problem(response.headers()) {
+    if !(status.is_client_error() || status.is_server_error()) || is_documented(&response) {
         return response.map(Body::new);
     }
     let (mut parts, _) = response.into_parts();
     let (document, body) = error_behind(status).into_response().into_parts();
-    parts.headers.remove(header::CONTENT_LENGTH);
+    // Those of the answer that is not sent.
+    for name in [header::CONTENT_LENGTH, header::CACHE_CONTROL, header::ETAG] {
+        parts.headers.remove(name);
+    }
     parts.headers.extend(document.headers);
     parts.status = document.status;
     Response::from_parts(parts, body)
 }
 
-fn is_problem(headers: &HeaderMap) -> bool {
-    headers.get(header::CONTENT_TYPE).is_some_and(|found| found == PROBLEM_JSON)
+fn is_documented<B>(response: &axum::http::Response<B>) -> bool {
+    response.extensions().get() == Some(&Documented(response.status()))
 }

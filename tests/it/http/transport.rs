@@ -22,6 +22,17 @@ async fn answers_are_compressed_on_request() {
 }
 
 #[tokio::test]
+async fn a_client_that_accepts_no_encoding_is_told_so() {
+    for uri in [QUESTION, "/fk?rho=x"] {
+        let request =
+            Request::get(uri).header(header::ACCEPT_ENCODING, "identity;q=0").body(Body::empty()).unwrap();
+        let reply = send(request).await;
+        reply.assert_problem(406, "not_acceptable");
+        assert!(!reply.headers.contains_key(header::CACHE_CONTROL), "{:?}", reply.headers);
+    }
+}
+
+#[tokio::test]
 async fn what_is_the_same_for_everybody_has_a_tag_in_each_encoding() {
     let service = service().await;
     let plain = get_from(&service, "/openapi.json", &[]).await;

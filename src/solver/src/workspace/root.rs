@@ -12,7 +12,7 @@ pub(super) fn zero(start: f64, end: f64, resolution: f64, mut f: impl FnMut(f64)
     }
     let (mut a, mut fa, mut b, mut fb) = (0.0, start, 1.0, end);
     // The first step is the secant's: most of these functions are nearly linear.
-    let mut t = (fa / (fa - fb)).clamp(0.0, 1.0);
+    let mut t = within(fa / (fa - fb), 0.0);
     for _ in 0..STEPS {
         let at = a + t * (b - a);
         let value = f(at);
@@ -30,9 +30,14 @@ pub(super) fn zero(start: f64, end: f64, resolution: f64, mut f: impl FnMut(f64)
             return best;
         }
         let least = resolution / width;
-        t = step([a, b, c], [fa, fb, fc]).clamp(least, 1.0 - least);
+        t = within(step([a, b, c], [fa, fb, fc]), least);
     }
     if fa.abs() < fb.abs() { a } else { b }
+}
+
+/// A fraction at least so far from both ends; half where values of the function that are not finite give none.
+fn within(t: f64, least: f64) -> f64 {
+    if t.is_nan() { 0.5 } else { t.clamp(least, 1.0 - least) }
 }
 
 /// Fraction of the way from a to b.
@@ -42,5 +47,20 @@ fn step([a, b, c]: [f64; 3], [fa, fb, fc]: [f64; 3]) -> f64 {
         fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
     } else {
         0.5
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::zero;
+
+    #[test]
+    fn what_is_not_finite_has_some_zero_between_the_ends() {
+        for [start, end] in [[f64::NAN, 1.0], [1.0, f64::NAN], [f64::INFINITY, f64::NEG_INFINITY]] {
+            for middle in [f64::NAN, f64::INFINITY, -1.0] {
+                let found = zero(start, end, 1e-9, |_| middle);
+                assert!((0.0..=1.0).contains(&found), "{start} {middle} {end}: {found}");
+            }
+        }
     }
 }

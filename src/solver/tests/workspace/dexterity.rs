@@ -160,6 +160,17 @@ fn too_much_is_refused() {
     }
 }
 
+/// The eleventh quarter of a turn divided by a quarter is less than eleven, in double precision.
+#[test]
+fn inclinations_some_turns_away_are_the_same() {
+    let machine = changed(|data| data.limits.rotary = [-7.0, 7.0]);
+    let [near, far] = [0.0, 3.0 * std::f64::consts::TAU].map(|turns| {
+        let request = asked(turns - 1.9, turns - 1.2, 150.0);
+        Grid::new(&machine, &request, &Unobserved).unwrap()
+    });
+    assert_eq!(near.counts, far.counts);
+}
+
 #[test]
 fn every_node_is_a_look() {
     let machine = Machine::verne();

@@ -1,5 +1,7 @@
 //! The grid of nodes over the reachable set.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::super::observer::{Observer, go_on};
 use super::super::request::WorkspaceError;
 use super::section::{Piece, Setting};
@@ -112,16 +114,18 @@ fn flat_extent(setting: &Setting<'_>, piece: &Piece, [from, to]: [f64; 2]) -> [[
             let (radius, beta) = (eta.hypot(zeta), eta.atan2(-zeta));
             // psi = beta - alpha + phi1: the arc's ends, and the axes that it crosses.
             let [first, last] = [from, to].map(|phi1| beta - alpha + phi1);
-            let mut psi = first;
-            loop {
+            let mut reach = |psi: f64| {
                 meet(&mut v1, -radius * psi.sin());
                 meet(&mut z, setting.machine.table().dt + radius * psi.cos());
-                if psi >= last {
-                    break;
-                }
-                let quarter = std::f64::consts::FRAC_PI_2;
-                psi = (((psi / quarter).floor() + 1.0) * quarter).min(last);
+            };
+            reach(first);
+            // Counted: the angle of a quarter, divided by a quarter, may be rounded below its number.
+            let mut quarter = (first / FRAC_PI_2).floor() + 1.0;
+            while quarter * FRAC_PI_2 < last {
+                reach(quarter * FRAC_PI_2);
+                quarter += 1.0;
             }
+            reach(last);
         }
     }
     [v1, z]

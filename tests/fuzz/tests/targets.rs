@@ -1,0 +1,16 @@
+//! Each target's corpus, and a campaign.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+use verne_fuzz::{campaign, target};
+
+macro_rules! campaigns {
+    ($($name:ident)*) => { $(
+        #[test]
+        fn $name() {
+            campaign::run(&target(stringify!($name)).unwrap());
+        }
+    )* };
+}
+
+campaigns! { body headers machine mesh query settings solver store workspaces }
