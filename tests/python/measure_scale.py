@@ -96,7 +96,7 @@ def watchers(verne):
         for stream in streams:
             assert stream.recv(15) == b"HTTP/1.1 200 OK"
         open_ones = node.rss()
-        client.ask("DELETE", path)
+        Client(node.port).ask("DELETE", path)  # The other connection was closed: nothing was asked for long.
         for stream in streams:
             while stream.recv(65536):
                 pass

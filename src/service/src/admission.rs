@@ -26,7 +26,7 @@ use shares::Shares;
 /// default limit half a gibibyte.
 const BATCHES: usize = 32;
 
-/// Most requests that wait for their jobs at once; each is some ten kilobytes, most of them its connection's. One beyond
+/// Most requests that wait for their jobs at once; each is some sixty kilobytes, most of them its connection's. One beyond
 /// them is answered the address of its job, as one that does not want to wait.
 const WAITING: usize = 16_384;
 
