@@ -172,7 +172,10 @@ impl Work for Tasks {
         let pieces = self.pieces(&question).into_iter();
         // The job's own deadline holds for all of them.
         let submission = |piece| Question::Piece(piece).submission(String::new(), None);
-        pieces.map(submission).collect::<Result<_, Error>>().map_err(stop)
+        let mut pieces = pieces.map(submission).collect::<Result<Vec<_>, Error>>().map_err(stop)?;
+        // The longest first: at the end one worker would have it while the others had nothing.
+        pieces.sort_by(|one, other| other.cost.total_cmp(&one.cost));
+        Ok(pieces)
     }
 
     fn run(&self, job: &JobId, payload: &[u8], watch: &dyn Watch) -> Result<(), Stop> {
