@@ -1,4 +1,4 @@
-"""Many clients' questions, and what they were answered. Used by kills.py and scale.py."""
+"""Many clients' questions, and what they were answered. Used by kills.py, scale.py and measure_scale.py."""
 
 import hashlib
 import http.client
@@ -9,6 +9,9 @@ import threading
 import time
 
 from served import Client
+
+# A job that does not end while a test looks at it.
+LONG = {"kind": "part", "tool_length": {"from": 1, "to": 500, "step": 1}, "tolerance": 0.05}
 
 
 def question(i):

@@ -8,11 +8,10 @@ import sqlite3
 import tempfile
 import time
 
-from asking import Asking, check, listed
+from asking import LONG, Asking, check, listed
 from served import Client, Served
 
 DRAIN = 10  # Seconds, the service's default.
-LONG = {"kind": "part", "tool_length": {"from": 1, "to": 500, "step": 1}, "tolerance": 0.05}
 
 
 def run(served, jobs, clients, kills):

@@ -13,12 +13,12 @@ import sys
 import tempfile
 import time
 
+from asking import LONG
 from cluster import Cluster
 from served import Client, Served
 
 STREAMS = 10_000
 MEBI = 1 << 20
-LONG = {"kind": "part", "tool_length": {"from": 1, "to": 500, "step": 1}, "tolerance": 0.05}
 
 
 def dexterity(tool_length, cell):

@@ -9,13 +9,12 @@ import tempfile
 import threading
 import time
 
-from asking import Asking, check, listed
+from asking import LONG, Asking, check, listed
 from cluster import Cluster
 from served import Client, Served
 
 MAP = {"tool_length": 50, "phi1": {"from": -30, "to": 30}, "cell": 120}
 FAMILY = {"kind": "part", "tool_length": [20, 40, 60], "phi1": {"from": -20, "to": 20, "step": 10}, "tolerance": 5}
-LONG = {"kind": "part", "tool_length": {"from": 1, "to": 500, "step": 1}, "tolerance": 0.05}
 SHARE = 0.1
 
 

@@ -42,23 +42,17 @@ pub(crate) const CELLS: &str = "cells";
 #[derive(Clone)]
 pub(crate) struct Results {
     store: Store,
-    shared: bool,
 }
 
 impl Results {
-    /// The results of a store of this process's own.
+    /// The results of a store.
     pub(crate) fn new(store: Store) -> Self {
-        Self { store, shared: false }
-    }
-
-    /// The results of a store in which other processes look for them.
-    pub(crate) fn shared(store: Store) -> Self {
-        Self { store, shared: true }
+        Self { store }
     }
 
     /// Whether other processes look for results here.
     pub(crate) fn are_shared(&self) -> bool {
-        self.shared
+        self.store.is_shared()
     }
 
     /// Where they are kept.
@@ -101,7 +95,7 @@ impl Results {
     /// Keeps a part of a result. Where other processes look for it, memory is not enough.
     pub(crate) async fn keep_part(&self, id: ResultId, name: &str, bytes: Vec<u8>) -> Result<Content, Error> {
         match self.store.put(&id.key(name), bytes.into()).await {
-            (_, Durability::MemoryOnly) if self.shared => Err(Error::DiskFailing),
+            (_, Durability::MemoryOnly) if self.are_shared() => Err(Error::DiskFailing),
             (content, _) => Ok(content),
         }
     }

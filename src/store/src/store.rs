@@ -147,7 +147,7 @@ impl Store {
     /// others do not find it.
     pub async fn put(&self, key: &Key, bytes: Bytes) -> (Content, Kept) {
         let content = self.held.share(*key, Content::of(bytes).await);
-        if !self.below.as_ref().is_some_and(Below::is_shared) {
+        if !self.is_shared() {
             self.memory.insert(*key, content.clone()).await;
             let kept = self.write(*key, &content).await;
             return (content, kept);
@@ -184,6 +184,11 @@ impl Store {
             self.counts.memory_hits.add(1);
         }
         content
+    }
+
+    /// Whether other processes look for what is put here.
+    pub fn is_shared(&self) -> bool {
+        self.below.as_ref().is_some_and(Below::is_shared)
     }
 
     /// What the store has done, and how large it is.

@@ -33,12 +33,11 @@ pub(super) async fn records(client: Arc<Client>, caught_up: watch::Sender<bool>)
 }
 
 async fn follow(client: &Client, caught_up: &watch::Sender<bool>) -> Result<Infallible, String> {
-    let told = |fault: &dyn std::fmt::Display| fault.to_string();
     if last_revision(client).await? == 0 {
         catch_up(client, caught_up);
     }
     // What is there, and then what comes. Again after each interruption: what came meanwhile is not lost.
-    let mut entries = client.bus.records.watch_with_history(">").await.map_err(|fault| told(&fault))?;
+    let mut entries = client.bus.records.watch_with_history(">").await.map_err(|fault| fault.to_string())?;
     let mut silences = 0_u32;
     loop {
         let next = timeout(SILENCE, entries.next()).await;
@@ -52,7 +51,7 @@ async fn follow(client: &Client, caught_up: &watch::Sender<bool>) -> Result<Infa
             continue;
         };
         let entry = entry.ok_or("the broker has gone")?;
-        let entry = entry.map_err(|fault| told(&fault))?;
+        let entry = entry.map_err(|fault| fault.to_string())?;
         let id = entry.key.parse::<JobId>().ok();
         match (entry.operation, id, Record::decode(&entry.value)) {
             (Operation::Put, Some(_), Some(record)) => client.mirror.apply(record, entry.revision),

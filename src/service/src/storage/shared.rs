@@ -25,7 +25,7 @@ pub(crate) async fn open_store(config: &StoreConfig, memory_bytes: u64) -> Resul
     let url = config.store.as_ref().ok_or(StorageError::NoStore)?;
     let store = Store::open_shared(url, memory_bytes).await.map_err(StorageError::Results)?;
     tracing::info!("results are kept in {url}");
-    Ok(Results::shared(store))
+    Ok(Results::new(store))
 }
 
 /// Connects to the broker that the settings name.
