@@ -54,22 +54,16 @@ impl Memory {
         self.let_go().await;
     }
 
-    /// The content of a key, and whether this caller's `find` was run for it. Of many callers at once one
-    /// finds; if it finds nothing, so do the others.
+    /// The content of a key. Of many callers at once one finds; if it finds nothing, so do the others.
     pub(crate) async fn get_or_find(
         &self,
         key: Key,
         find: impl Future<Output = Option<Content>>,
-    ) -> (Option<Content>, bool) {
+    ) -> Option<Content> {
         // moka moves it several times, and every caller's future has room for each.
-        let (mut ran, find) = (false, Box::pin(find));
-        let found = self.0.optionally_get_with(key, async {
-            ran = true;
-            find.await
-        });
-        let found = found.await;
+        let found = self.0.optionally_get_with(key, Box::pin(find)).await;
         self.let_go().await;
-        (found, ran)
+        found
     }
 
     /// The same where what is not there is made. A failure is that of all who waited.
@@ -77,15 +71,10 @@ impl Memory {
         &self,
         key: Key,
         make: impl Future<Output = Result<Content, E>>,
-    ) -> (Result<Content, E>, bool) {
-        let (mut ran, make) = (false, Box::pin(make));
-        let made = self.0.try_get_with(key, async {
-            ran = true;
-            make.await
-        });
-        let made = made.await.map_err(Arc::unwrap_or_clone);
+    ) -> Result<Content, E> {
+        let made = self.0.try_get_with(key, Box::pin(make)).await;
         self.let_go().await;
-        (made, ran)
+        made.map_err(Arc::unwrap_or_clone)
     }
 
     /// Lets go of what does not fit. moka would evict with some later call, and destroy what it evicted with

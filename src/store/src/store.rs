@@ -121,8 +121,9 @@ impl Store {
         if let Some(content) = self.remembered(key).await {
             return Some(content);
         }
-        let (content, ran) = self.memory.get_or_find(*key, self.read(*key)).await;
-        self.count(content.is_some(), ran);
+        let mut looked = false;
+        let content = self.memory.get_or_find(*key, self.read(*key, &mut looked)).await;
+        self.count(content.is_some(), looked);
         content
     }
 
@@ -132,13 +133,14 @@ impl Store {
         if let Some(content) = self.remembered(key).await {
             return Some(content.into());
         }
-        let (small, ran) = self.memory.get_or_make(*key, self.read_small(*key)).await;
+        let mut looked = false;
+        let small = self.memory.get_or_make(*key, self.read_small(*key, &mut looked)).await;
         let found = match (small, &self.below) {
             (Ok(content), _) => Some(content.into()),
             (Err(NotRead::Large(object)), Some(below)) => Some(Found::below(object, below.clone())),
             _ => None,
         };
-        self.count(found.is_some(), ran);
+        self.count(found.is_some(), looked);
         found
     }
 
@@ -171,7 +173,9 @@ impl Store {
         if let Some(content) = self.remembered(key).await {
             return Ok(content);
         }
+        let mut asked = false;
         let found_or_made = async {
+            asked = true;
             if let Some(content) = self.get(key).await {
                 return Ok(content);
             }
@@ -179,8 +183,8 @@ impl Store {
             self.write(*key, &content).await;
             Ok(content)
         };
-        let (content, ran) = self.memory.get_or_make(*key, found_or_made).await;
-        if content.is_ok() && !ran {
+        let content = self.memory.get_or_make(*key, found_or_made).await;
+        if content.is_ok() && !asked {
             self.counts.memory_hits.add(1);
         }
         content
@@ -227,8 +231,12 @@ impl Store {
         Some(content)
     }
 
-    /// What lies below.
-    async fn read(&self, key: Key) -> Option<Content> {
+    /// What lies below, unless somebody holds it since its turn was waited for; whether it was looked for there.
+    async fn read(&self, key: Key, looked: &mut bool) -> Option<Content> {
+        if let Some(content) = self.held.get(&key) {
+            return Some(content);
+        }
+        *looked = true;
         let below = self.below.as_ref()?;
         let object = below.open(key).await?;
         let content = below.content(&object).await?;
@@ -236,8 +244,12 @@ impl Store {
         Some(self.held.share(key, content))
     }
 
-    /// What lies below and is small.
-    async fn read_small(&self, key: Key) -> Result<Content, NotRead> {
+    /// The same of what is small.
+    async fn read_small(&self, key: Key, looked: &mut bool) -> Result<Content, NotRead> {
+        if let Some(content) = self.held.get(&key) {
+            return Ok(content);
+        }
+        *looked = true;
         let below = self.below.as_ref().ok_or(NotRead::Missing)?;
         let object = below.open(key).await.ok_or(NotRead::Missing)?;
         below.touch(key).await;

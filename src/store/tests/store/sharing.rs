@@ -2,6 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
+use futures_util::poll;
 use tokio::task::JoinSet;
 use verne_store::{Content, Store};
 
@@ -66,4 +67,31 @@ async fn first_readers_at_once_read_the_disk_once() {
     assert!(contents.iter().all(|content| same_buffer(content, &contents[0])));
     assert_eq!(objects.gets.load(Ordering::Relaxed), 1);
     assert_eq!(store.stats().disk_hits, 1);
+}
+
+#[tokio::test]
+async fn a_reader_whose_turn_comes_late_finds_what_is_held_by_then() {
+    let place = Place::new();
+    place.open().await.put(&key(1), bytes(1, 1000)).await;
+    let objects = place.objects();
+    let (store, key) = (place.open_over(&objects, 1 << 30).await, key(1));
+    objects.close_gate();
+    let mut first = Box::pin(store.get(&key));
+    tokio::select! {
+        _ = &mut first => panic!("the gate is closed"),
+        () = objects.arrival() => {}
+    }
+    let mut second = Box::pin(store.get(&key));
+    assert!(poll!(&mut second).is_pending(), "it has looked, and waits for the first");
+    let mut writer = Box::pin(store.put(&key, bytes(1, 1000)));
+    tokio::select! {
+        _ = &mut writer => panic!("the gate is closed"),
+        () = objects.arrival() => {}
+    }
+    drop(first);
+    objects.open_gate();
+    let found = second.await.unwrap();
+    assert_eq!(objects.gets.load(Ordering::Relaxed), 1, "of the first");
+    assert!(same_buffer(&found, &writer.await.0));
+    assert_eq!(store.stats().memory_hits, 1);
 }
