@@ -105,7 +105,8 @@ impl Keeper {
         match board.entry(submission.id, life).filter(|entry| !entry.is_wanted()) {
             // An earlier process left it, and nobody has asked for it since.
             Some(entry) => {
-                let waiting = Waiting { client: submission.client.clone(), ..waiting(&entry.feeder.job()) };
+                let client = submission.client.clone();
+                let waiting = Waiting { client, ..waiting(&entry.feeder.job(), after.is_some()) };
                 board.queue.push(life, waiting, after);
             }
             None => board.queue.join(life, &submission.client, after),
@@ -177,7 +178,7 @@ impl Keeper {
     fn enter(&self, board: &mut Board, record: Record, recorded: Recorded, after: Option<Tag>) {
         let Record { life, job, deadline, hidden } = record;
         let id = job.id;
-        board.queue.push(life, waiting(&job), after);
+        board.queue.push(life, waiting(&job, hidden), after);
         let entry = Entry {
             life,
             feeder: Feeder::new(job),
@@ -251,7 +252,7 @@ fn from_now(limit: Duration) -> Option<Instant> {
     Instant::now().checked_add(limit)
 }
 
-fn waiting(job: &Job) -> Waiting {
+fn waiting(job: &Job, is_part: bool) -> Waiting {
     let (id, client, cost, bytes) = (job.id, job.client.clone(), job.cost, job.payload.len());
-    Waiting { id, client, cost, bytes, since: Instant::now() }
+    Waiting { id, client, cost, bytes, is_part, since: Instant::now() }
 }

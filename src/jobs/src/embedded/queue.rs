@@ -1,4 +1,4 @@
-//! Which job is next: self-clocked fair queueing in two bands, small and large.
+//! Which job is next: self-clocked fair queueing in two bands, small and other.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -16,6 +16,8 @@ pub(super) struct Waiting {
     /// Seconds of one core.
     pub(super) cost: f64,
     pub(super) bytes: usize,
+    /// Nobody waits for it alone, so it is not for the express lane, however small.
+    pub(super) is_part: bool,
     pub(super) since: Instant,
 }
 
@@ -81,7 +83,7 @@ struct Band {
 /// The queue's order. A job is named by its life, a number that grows with every submission.
 pub(super) struct Queue {
     small: Band,
-    large: Band,
+    other: Band,
     /// What each client has queued; its last is the client's last tag.
     clients: HashMap<String, BTreeSet<Place>>,
     /// Virtual time.
@@ -93,7 +95,7 @@ pub(super) struct Queue {
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rule {
-    /// Greatest cost of a small job, seconds of one core.
+    /// Greatest cost of a small job, seconds of one core; parts are not small.
     pub(super) small: f64,
     /// A job that has waited longer goes before all that have not.
     pub(super) overdue: Duration,
@@ -101,12 +103,12 @@ pub(super) struct Rule {
 
 impl Queue {
     pub(super) fn new(rule: Rule) -> Self {
-        let (small, large) = (Band::default(), Band::default());
-        Self { small, large, clients: HashMap::new(), now: Tag(0.0), bytes: 0, cost: 0.0, rule }
+        let (small, other) = (Band::default(), Band::default());
+        Self { small, other, clients: HashMap::new(), now: Tag(0.0), bytes: 0, cost: 0.0, rule }
     }
 
     pub(super) fn len(&self) -> usize {
-        self.small.by_age.len() + self.large.by_age.len()
+        self.small.by_age.len() + self.other.by_age.len()
     }
 
     /// Of all payloads.
@@ -135,7 +137,7 @@ impl Queue {
     /// `client` asks for a queued job as well: it moves to where its own submission would stand, if that is earlier, and
     /// is then charged to it.
     pub(super) fn join(&mut self, life: u64, client: &str, after: Option<Tag>) {
-        let Some((job, tag)) = self.small.by_age.get(&life).or_else(|| self.large.by_age.get(&life)) else {
+        let Some((job, tag)) = self.small.by_age.get(&life).or_else(|| self.other.by_age.get(&life)) else {
             return;
         };
         let own = self.tag(client, job.cost, after);
@@ -168,7 +170,7 @@ impl Queue {
     }
 
     fn bands(&self, lane: Lane) -> impl Iterator<Item = &Band> {
-        std::iter::once(&self.small).chain((lane == Lane::Main).then_some(&self.large))
+        std::iter::once(&self.small).chain((lane == Lane::Main).then_some(&self.other))
     }
 
     fn overdue(&self, lane: Lane, now: Instant) -> Option<u64> {
@@ -189,13 +191,14 @@ impl Queue {
 
     fn insert(&mut self, life: u64, job: Waiting, tag: Tag) {
         self.clients.entry(job.client.clone()).or_default().insert((tag, life));
-        let band = if job.cost <= self.rule.small { &mut self.small } else { &mut self.large };
+        let is_small = job.cost <= self.rule.small && !job.is_part;
+        let band = if is_small { &mut self.small } else { &mut self.other };
         band.by_tag.insert((tag, life));
         band.by_age.insert(life, (job, tag));
     }
 
     fn extract(&mut self, life: u64) -> Option<(Waiting, Tag)> {
-        let band = if self.small.by_age.contains_key(&life) { &mut self.small } else { &mut self.large };
+        let band = if self.small.by_age.contains_key(&life) { &mut self.small } else { &mut self.other };
         let (job, tag) = band.by_age.remove(&life)?;
         band.by_tag.remove(&(tag, life));
         if let Some(places) = self.clients.get_mut(&job.client) {

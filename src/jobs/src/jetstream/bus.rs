@@ -13,19 +13,24 @@ use super::config::{Config, ConnectError};
 use super::record::Record;
 use crate::{JobId, Unavailable};
 
-/// One of the two lines in which jobs wait.
+/// One of the lines in which jobs wait.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Line {
+    /// Alone taken by the express lane.
     Small,
+    /// Parts, of whatever size: nobody waits for one of them alone, and those of a whole that has begun do not wait behind
+    /// the wholes that have not.
+    Parts,
     Large,
 }
 
 impl Line {
-    pub(super) const ALL: [Self; 2] = [Self::Small, Self::Large];
+    pub(super) const ALL: [Self; 3] = [Self::Small, Self::Parts, Self::Large];
 
     fn name(self) -> &'static str {
         match self {
             Self::Small => "small",
+            Self::Parts => "parts",
             Self::Large => "large",
         }
     }
@@ -70,7 +75,11 @@ impl Bus {
     }
 
     pub(super) fn line(&self, record: &Record) -> Line {
-        if record.job.cost <= self.config.small { Line::Small } else { Line::Large }
+        match record.is_part {
+            true => Line::Parts,
+            false if record.job.cost <= self.config.small => Line::Small,
+            false => Line::Large,
+        }
     }
 
     /// Its name, and the id of the job in each of its messages.

@@ -12,7 +12,7 @@ use crate::threads::run::{Outcome, Told};
 use crate::{Job, JobId, State, Submission};
 
 /// First byte of a record that this code reads.
-const VERSION: u8 = 2;
+const VERSION: u8 = 3;
 
 /// Whose interest keeps a job alive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -31,6 +31,8 @@ pub(super) struct Record {
     pub(super) turn: u32,
     pub(super) job: Job,
     pub(super) deadline: Option<SystemTime>,
+    /// This life was begun as a part.
+    pub(super) is_part: bool,
     /// It has only been asked for as a part.
     pub(super) hidden: bool,
     pub(super) kept: bool,
@@ -43,12 +45,23 @@ pub(super) struct Record {
 
 impl Record {
     pub(super) fn new(life: u64, submission: Submission, claimant: Claimant, hidden: bool) -> Self {
-        let as_part = matches!(claimant, Claimant::Whole(..));
+        let is_part = matches!(claimant, Claimant::Whole(..));
         let deadline = submission.deadline.and_then(|limit| now().checked_add(limit));
-        let mut job = queued(submission, as_part);
+        let mut job = queued(submission, is_part);
         job.progress = 0.0;
         let claimants = BTreeSet::from([claimant]);
-        Self { life, turn: 0, job, deadline, hidden, kept: false, claimants, told: None, split: false }
+        Self {
+            life,
+            turn: 0,
+            job,
+            deadline,
+            is_part,
+            hidden,
+            kept: false,
+            claimants,
+            told: None,
+            split: false,
+        }
     }
 
     pub(super) fn encode(&self) -> Option<Bytes> {

@@ -267,11 +267,11 @@ impl Desk {
     }
 }
 
-/// Small jobs take any seat, the main lane's before the other; large ones the main lane's.
+/// Small jobs take any seat, the main lane's before the other; all else the main lane's.
 fn place(free: &[Seat], line: Line) -> Option<usize> {
     let main = free.iter().position(|seat| seat.lane == Lane::Main);
     match line {
-        Line::Large => main,
+        Line::Parts | Line::Large => main,
         Line::Small => main.or_else(|| free.len().checked_sub(1)),
     }
 }

@@ -17,6 +17,7 @@ for_each_backend!(
     parts_wait_for_room,
     one_whole_does_not_fill_the_queue,
     wholes_that_wait_are_in_the_queue,
+    small_parts_leave_the_express_lane_to_others,
     parts_are_not_listed,
     parts_that_others_submitted_are_listed,
     parts_have_parts,
@@ -185,6 +186,18 @@ async fn listed(stand: &Stand) -> Vec<String> {
     let page = stand.backend.list(Filter { limit: 100, ..Filter::default() }).await.unwrap();
     let name = |payload: &[u8]| String::from_utf8_lossy(payload).split(' ').next().unwrap().to_owned();
     page.jobs.iter().map(|job| name(&job.payload)).collect()
+}
+
+async fn small_parts_leave_the_express_lane_to_others(open: Open) {
+    let stand = open(10);
+    let whole = stand.submit(job("ada", "whole", "split a=hold=1 b=hold=1")).await;
+    stand.stage.begun(1).await;
+    let c = Submission { cost: 1.0, ..job("bob", "c", "pass") };
+    assert_eq!(stand.submit(c).await.finished().await.state, State::Succeeded);
+    assert_eq!(stand.stage.begun(2).await, ["a", "c"]);
+    stand.stage.open("a");
+    stand.stage.open("b");
+    assert_eq!(whole.finished().await.state, State::Succeeded);
 }
 
 async fn parts_are_not_listed(open: Open) {

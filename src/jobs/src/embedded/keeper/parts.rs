@@ -150,7 +150,8 @@ fn queue_merge(board: &mut Board, id: JobId, life: u64) {
         entry.parts = Parts::Done;
         let cost = MERGE * entry.feeder.job().cost;
         let Split { client, bytes, .. } = split;
-        board.queue.push_first(life, Waiting { id, client, cost, bytes, since: Instant::now() });
+        let since = Instant::now();
+        board.queue.push_first(life, Waiting { id, client, cost, bytes, is_part: false, since });
     }
 }
 
