@@ -34,6 +34,8 @@ mod access;
 mod losses;
 #[path = "jetstream/nodes.rs"]
 mod nodes;
+#[path = "jetstream/turnover.rs"]
+mod turnover;
 
 #[path = "support/broker.rs"]
 mod broker;

@@ -8,13 +8,14 @@ use async_nats::jetstream::stream::{self, DiscardPolicy, RetentionPolicy, Stream
 use async_nats::jetstream::{self, Context, kv};
 use async_nats::{HeaderMap, ServerAddr, header};
 use bytes::Bytes;
+use serde::{Deserialize, Serialize};
 
 use super::config::{Config, ConnectError};
 use super::record::Record;
 use crate::{JobId, Unavailable};
 
 /// One of the lines in which jobs wait.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Line {
     /// Alone taken by the express lane.
     Small,
@@ -74,14 +75,6 @@ impl Bus {
         Ok(Self { client, config, records, queue, context })
     }
 
-    pub(super) fn line(&self, record: &Record) -> Line {
-        match record.is_part {
-            true => Line::Parts,
-            false if record.job.cost <= self.config.small => Line::Small,
-            false => Line::Large,
-        }
-    }
-
     /// Its name, and the id of the job in each of its messages.
     pub(super) async fn consumer(&self, line: Line) -> Result<Consumer<pull::Config>, Unavailable> {
         self.queue.get_consumer(line.name()).await.map_err(unavailable)
@@ -113,7 +106,7 @@ impl Bus {
     }
 
     fn place(&self, record: &Record) -> String {
-        format!("{}.queue.{}.{}", self.config.name, self.line(record).name(), record.job.id)
+        format!("{}.queue.{}.{}", self.config.name, record.line.name(), record.job.id)
     }
 
     /// Puts a recorded job into its line. Again, it is there once: the message's id is that of its turn.

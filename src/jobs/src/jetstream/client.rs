@@ -7,7 +7,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use tokio::sync::{Mutex, MutexGuard, mpsc};
 
-use super::bus::{Bus, WriteError};
+use super::bus::{Bus, Line, WriteError};
 use super::claims::{Claims, Settle};
 use super::mirror::Mirror;
 use super::record::{Claimant, Record};
@@ -76,7 +76,8 @@ impl Client {
                     let before = known.as_ref().map(|(record, _)| record);
                     let hidden = as_part && before.is_none_or(|before| before.hidden);
                     let life = self.next_life(before.map_or(0, |before| before.life));
-                    let record = Record::new(life, submission.clone(), claimant, hidden);
+                    let line = if as_part { Line::Parts } else { self.bus.config.line(submission.cost) };
+                    let record = Record::new(life, submission.clone(), line, claimant, hidden);
                     (record, known.map(|(_, revision)| revision), true)
                 }
             };

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use async_nats::{ConnectOptions, ServerAddr};
 
+use super::bus::Line;
 use crate::embedded::Retention;
 
 /// Where the broker is and how jobs are kept there. What is marked as shared must be the same in all processes.
@@ -28,7 +29,7 @@ pub struct Config {
     pub queue: usize,
     /// Most bytes of payload in the queue, counted so.
     pub queue_bytes: usize,
-    /// Greatest cost that the small lane takes, seconds of one core. Shared.
+    /// Greatest cost that the express lane takes, seconds of one core.
     pub small: f64,
     /// How long the broker waits for a sign of life from who runs a job before it gives the job to another. Shared.
     pub ack_wait: Duration,
@@ -65,6 +66,11 @@ impl Config {
             mend_after: Duration::from_secs(10),
             retention: Retention { count: 10_000, age: Duration::from_hours(7 * 24) },
         }
+    }
+
+    /// For a job that is no part.
+    pub(super) fn line(&self, cost: f64) -> Line {
+        if cost <= self.small { Line::Small } else { Line::Large }
     }
 
     pub(super) async fn options(&self, servers: &[ServerAddr]) -> Result<ConnectOptions, ConnectError> {

@@ -6,6 +6,7 @@ use std::time::SystemTime;
 use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 
+use super::bus::Line;
 use crate::job::{finish, queued};
 use crate::moment::now;
 use crate::threads::run::{Outcome, Told};
@@ -31,8 +32,8 @@ pub(super) struct Record {
     pub(super) turn: u32,
     pub(super) job: Job,
     pub(super) deadline: Option<SystemTime>,
-    /// This life was begun as a part.
-    pub(super) is_part: bool,
+    /// In which it waits.
+    pub(super) line: Line,
     /// It has only been asked for as a part.
     pub(super) hidden: bool,
     pub(super) kept: bool,
@@ -44,24 +45,19 @@ pub(super) struct Record {
 }
 
 impl Record {
-    pub(super) fn new(life: u64, submission: Submission, claimant: Claimant, hidden: bool) -> Self {
-        let is_part = matches!(claimant, Claimant::Whole(..));
+    pub(super) fn new(
+        life: u64,
+        submission: Submission,
+        line: Line,
+        claimant: Claimant,
+        hidden: bool,
+    ) -> Self {
+        let as_part = matches!(claimant, Claimant::Whole(..));
         let deadline = submission.deadline.and_then(|limit| now().checked_add(limit));
-        let mut job = queued(submission, is_part);
+        let mut job = queued(submission, as_part);
         job.progress = 0.0;
         let claimants = BTreeSet::from([claimant]);
-        Self {
-            life,
-            turn: 0,
-            job,
-            deadline,
-            is_part,
-            hidden,
-            kept: false,
-            claimants,
-            told: None,
-            split: false,
-        }
+        Self { life, turn: 0, job, deadline, line, hidden, kept: false, claimants, told: None, split: false }
     }
 
     pub(super) fn encode(&self) -> Option<Bytes> {

@@ -11,7 +11,6 @@ use tokio::sync::watch;
 use super::Desk;
 use super::attempt::{Call, call};
 use crate::feed::{Feed, Feeder};
-use crate::jetstream::bus::Line;
 use crate::jetstream::record::{Claimant, Record};
 use crate::job::told_apart;
 use crate::threads::pools::Seat;
@@ -45,8 +44,7 @@ pub(super) async fn run(
         return End::Final(outcome);
     }
     let config = &desk.client.bus.config;
-    let line = if MERGE * record.job.cost <= config.small { Line::Small } else { Line::Large };
-    let seat = desk.first_seat(line).await;
+    let seat = desk.first_seat(config.line(MERGE * record.job.cost)).await;
     call(desk, record, seat, feeder, told, Call::Merge).await
 }
 
