@@ -21,6 +21,7 @@ pub mod campaign;
 mod client;
 mod draw;
 mod json;
+mod keys;
 mod machines;
 mod mesh;
 mod requests;
@@ -41,9 +42,10 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 9] = [
+pub const TARGETS: [Target; 10] = [
     Target { name: "body", run: requests::body, few: 500 },
     Target { name: "headers", run: requests::headers, few: 500 },
+    Target { name: "keys", run: keys::keys, few: 200 },
     Target { name: "machine", run: requests::machine, few: 500 },
     Target { name: "mesh", run: mesh::mesh, few: 2_000 },
     Target { name: "query", run: requests::query, few: 500 },

@@ -13,4 +13,4 @@ macro_rules! campaigns {
     )* };
 }
 
-campaigns! { body headers machine mesh query settings solver store workspaces }
+campaigns! { body headers keys machine mesh query settings solver store workspaces }

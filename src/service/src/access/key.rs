@@ -22,6 +22,18 @@ impl Key {
         Self::hash_of(&self.0)
     }
 
+    /// The text without what may be a key in it.
+    pub(crate) fn masked(text: &str) -> String {
+        let mut parts = text.split(PREFIX);
+        let mut masked = parts.next().unwrap_or_default().to_owned();
+        for part in parts {
+            masked.push_str(PREFIX);
+            masked.push('…');
+            masked.push_str(part.trim_start_matches(|c: char| c.is_ascii_hexdigit()));
+        }
+        masked
+    }
+
     /// The hash of what a client sent as its key. Compared in constant time, as [`Hash`] does.
     pub(crate) fn hash_of(sent: &str) -> Hash {
         blake3::hash(sent.as_bytes())

@@ -10,6 +10,7 @@ use blake3::Hash;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
+use super::key::Key;
 use super::rate::{Bucket, Rate};
 use super::role::Role;
 
@@ -30,7 +31,7 @@ pub(super) struct Holder {
 /// Holders by the hashes of their keys.
 pub(super) type Table = HashMap<Hash, Arc<Holder>>;
 
-/// Why a file of keys cannot be used. Says nothing of what stands where a hash should: it may be a key.
+/// Why a file of keys cannot be used. Tells no key that stands in it by mistake.
 #[derive(Debug)]
 pub struct BadKeys {
     path: PathBuf,
@@ -43,9 +44,9 @@ impl fmt::Display for BadKeys {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.path.display())?;
         if let Some(place) = &self.place {
-            write!(f, "{place}: ")?;
+            write!(f, "{}: ", Key::masked(place))?;
         }
-        f.write_str(&self.reason)
+        f.write_str(&Key::masked(&self.reason))
     }
 }
 

@@ -20,6 +20,12 @@ const SLABS: f64 = 64.0;
 /// Part of a map's work that its volumes are, about.
 const VOLUMES_SHARE: f64 = 0.2;
 
+/// Part of the slabs' work up to `cut` of the way through the map, about: a layer has much to compute where the machine
+/// reaches far, so in the middle, and nothing at the ends. As a parabola.
+fn share(cut: f64) -> f64 {
+    cut * cut * (3.0 - 2.0 * cut)
+}
+
 /// A piece of a question.
 #[derive(Clone, Debug)]
 pub(crate) enum Piece {
@@ -87,7 +93,10 @@ impl Piece {
     pub(crate) fn cost(&self) -> f64 {
         match self {
             Self::Member(workspace) => workspace.cost(),
-            Self::Slab { of, count, .. } => of.cost() * (1.0 - VOLUMES_SHARE) / f64::from(*count),
+            Self::Slab { of, number, count } => {
+                let [from, to] = [*number, number + 1].map(|cut| f64::from(cut) / f64::from(*count));
+                of.cost() * (1.0 - VOLUMES_SHARE) * (share(to) - share(from))
+            }
             Self::Volumes(map) => map.cost() * VOLUMES_SHARE,
         }
     }
