@@ -1,4 +1,4 @@
-"""A broker, a store, API nodes and workers of verne on this machine. Used by scale.py and measure_scale.py."""
+"""Brokers, a store, API nodes and workers of verne on this machine. Used by scale.py and measure_scale.py."""
 
 import atexit
 import http.client
@@ -30,16 +30,18 @@ def answers(port, path="/"):
 
 
 class Broker:
-    """A NATS server that flushes what it acknowledges."""
+    """A NATS server that flushes what it acknowledges; one of a cluster if `routes` are given."""
 
-    def __init__(self, program, directory):
-        self.port = free_port()
+    def __init__(self, program, directory, name="alone", routes=()):
+        self.port, self.program = free_port(), program
         self.url = f"nats://127.0.0.1:{self.port}"
-        self.file = os.path.join(directory, "nats.conf")
+        self.file = os.path.join(directory, f"nats-{name}.conf")
         with open(self.file, "w") as file:
-            file.write(f'listen: "127.0.0.1:{self.port}"\n')
-            file.write(f'jetstream {{ store_dir: "{directory}/nats", sync_interval: always }}\n')
-        self.program = program
+            file.write(f'server_name: "{name}"\nlisten: "127.0.0.1:{self.port}"\n')
+            file.write(f'jetstream {{ store_dir: "{directory}/nats-{name}", sync_interval: always }}\n')
+            if routes:
+                others = ", ".join(f'"nats://{route}"' for route in routes[1:])
+                file.write(f'cluster {{ name: "verne", listen: "{routes[0]}", routes: [{others}] }}\n')
         self.start()
 
     def start(self):
@@ -53,6 +55,27 @@ class Broker:
     def kill(self):
         self.process.kill()
         self.process.wait()
+
+
+class Brokers:
+    """NATS servers, each of which has all that is kept. One after the other is killed."""
+
+    def __init__(self, program, directory, count):
+        routes = [f"127.0.0.1:{free_port()}" for _ in range(count if count > 1 else 0)]
+        self.all = [Broker(program, directory, f"n{i}", [*routes[i:], *routes[:i]]) for i in range(count)]
+        self.url = ",".join(broker.url for broker in self.all)
+        self.next = 0
+
+    def lose_one(self):
+        """It dies, and comes again."""
+        broker = self.all[self.next % len(self.all)]
+        self.next += 1
+        broker.kill()
+        broker.start()
+
+    def kill(self):
+        for broker in self.all:
+            broker.kill()
 
 
 class Objects:
@@ -80,10 +103,10 @@ class Objects:
 class Cluster:
     """API nodes and workers at one broker and one store; gone with this program."""
 
-    def __init__(self, verne, nats, directory, nodes, workers, share=0.0):
+    def __init__(self, verne, nats, directory, nodes, workers, share=0.0, brokers=1):
         self.verne, self.nodes, self.workers = verne, [], []
-        self.broker = Broker(nats, directory)
-        atexit.register(self.broker.kill)
+        self.brokers = Brokers(nats, directory, brokers)
+        atexit.register(self.brokers.kill)
         self.objects = Objects(share)
         atexit.register(self.objects.kill)
         self.environment = {**CREDENTIALS, "AWS_ENDPOINT": f"http://127.0.0.1:{self.objects.port}"}
@@ -94,7 +117,8 @@ class Cluster:
             process.ready()
 
     def shared(self):
-        return ["--broker", self.broker.url, "--store", f"s3://{BUCKET}/results"]
+        replicas = str(len(self.brokers.all))
+        return ["--broker", self.brokers.url, "--broker-replicas", replicas, "--store", f"s3://{BUCKET}/results"]
 
     def node(self):
         port = free_port()
@@ -121,5 +145,5 @@ class Cluster:
 
     def end(self):
         self.kill_all()
-        self.broker.kill()
+        self.brokers.kill()
         self.objects.kill()

@@ -18,6 +18,7 @@ from cluster import Cluster
 from served import Client, Served
 
 STREAMS = 10_000
+ROUNDS = 8
 MEBI = 1 << 20
 
 
@@ -25,14 +26,19 @@ def dexterity(tool_length, cell):
     return {"tool_length": tool_length, "phi1": {"from": -30, "to": 30}, "cell": cell}
 
 
-def seconds(port, questions):
+def second(number):
+    """A workspace that takes about a second."""
+    return {"kind": "tool", "tool_length": 50 + number / 100, "tolerance": 0.014}
+
+
+def seconds(port, path, questions):
     """Until all are answered, asked at once."""
     client = Client(port)
     began = time.monotonic()
-    paths = [client.ask("POST", "/workspace/dexterity", question, Prefer="respond-async").headers["Location"]
+    jobs = [client.ask("POST", path, question, Prefer="respond-async").headers["Location"]
              for question in questions]
-    for path in paths:
-        events = client.ask("GET", f"{path}/events").body
+    for job in jobs:
+        events = client.ask("GET", f"{job}/events").body
         assert b'"succeeded"' in events, events[-500:]
     return time.monotonic() - began
 
@@ -46,7 +52,7 @@ def efficiency(verne, nats):
     one, here = with_workers(verne, nats, 1)
     two, there = with_workers(verne, nats, 2)
     for i in range(3):
-        times = [seconds(cluster.ports()[0], [dexterity(50 + i, 16)]) for cluster in (one, two)]
+        times = [seconds(cluster.ports()[0], "/workspace/dexterity", [dexterity(50 + i, 16)]) for cluster in (one, two)]
         print(f"map: one worker {times[0]:.2f} s, two {times[1]:.2f} s, {times[0] / times[1]:.2f} times as fast", flush=True)
     two.end()
     return one, (here, there)
@@ -55,11 +61,13 @@ def efficiency(verne, nats):
 def overhead(verne, one):
     with tempfile.TemporaryDirectory() as place:
         alone = Served(verne, os.path.join(place, "alone"), "--job-threads", "1").start()
-        for i in range(3):
-            questions = [dexterity(100 + 10 * i + k / 10, 45) for k in range(20)]
-            times = [seconds(port, questions) for port in (alone.port, one.ports()[0])]
-            print(f"20 jobs: one process {times[0]:.2f} s, broker and store {times[1]:.2f} s, "
-                  f"{100 * (times[1] / times[0] - 1):+.1f} %", flush=True)
+        ports, sums = [alone.port, one.ports()[0]], [0.0, 0.0]
+        for i in range(ROUNDS):
+            questions = [second(10 * i + k) for k in range(10)]
+            for n in (0, 1) if i % 2 == 0 else (1, 0):
+                sums[n] += seconds(ports[n], "/workspace", questions)
+        print(f"{10 * ROUNDS} jobs: one process {sums[0]:.1f} s, broker and store {sums[1]:.1f} s, "
+              f"{100 * (sums[1] / sums[0] - 1):+.1f} %", flush=True)
         alone.kill()
 
 

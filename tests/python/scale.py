@@ -1,6 +1,7 @@
-"""Many processes: two API nodes and workers at a broker and an S3 store. Workers are killed, the broker is killed and
+"""Many processes: two API nodes and workers at a broker and an S3 store. Workers are killed, a broker is killed and
 started again, the store refuses a tenth of the writes: every job must end, and every answer must be that of one process
-that is left alone. python scale.py VERNE NATS_SERVER [--jobs N] [--clients N] [--workers N] [--every SECONDS]"""
+that is left alone. python scale.py VERNE NATS_SERVER [--jobs N] [--clients N] [--workers N] [--brokers N]
+[--every SECONDS]"""
 
 import argparse
 import hashlib
@@ -64,9 +65,8 @@ class Disturbance:
             self.cluster.lose_a_worker()
             self.lost += 1
             if brokers < 2 and len(asking.answers) > self.jobs * (brokers + 1) // 3:
-                self.cluster.broker.kill()
+                self.cluster.brokers.lose_one()
                 brokers += 1
-                self.cluster.broker.start()
 
 
 def cancelled_after(cluster):
@@ -116,13 +116,14 @@ def main():
     parser.add_argument("--jobs", type=int, default=200)
     parser.add_argument("--clients", type=int, default=8)
     parser.add_argument("--workers", type=int, default=4)
+    parser.add_argument("--brokers", type=int, default=1)
     parser.add_argument("--every", type=float, default=5)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as place:
         alone = Served(options.verne, os.path.join(place, "alone")).start()
         undisturbed, wholes = run([alone.port], options.jobs, options.clients)
         alone.kill()
-        cluster = Cluster(options.verne, options.nats_server, place, 2, options.workers, SHARE)
+        cluster = Cluster(options.verne, options.nats_server, place, 2, options.workers, SHARE, options.brokers)
         disturbance = Disturbance(cluster, options.jobs, options.every)
         began = time.monotonic()
         asked, same_wholes = run(cluster.ports(), options.jobs, options.clients, disturbance)
