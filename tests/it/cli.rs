@@ -98,5 +98,5 @@ fn health_is_what_readyz_says() {
     }
     let nobody = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     assert!(verne(&format!("health --url http://{nobody}/readyz")).is_err());
-    assert!(verne("health --url https://127.0.0.1/readyz").unwrap_err().contains("http://"));
+    assert!(verne("health --url ftp://127.0.0.1/readyz").unwrap_err().contains("http://"));
 }

@@ -1,9 +1,12 @@
 """Measures the service under load and prints figures; nothing is asserted. python load.py VERNE
 
-- GET /ik on one connection, idle and beside a long job: p50 and p99.
+- GET /ik on one connection, idle, beside a long job, and beside clients that send one batch after the other: p50, p99.
 - Memory with slow readers of one large mesh.
 - How long after DELETE a running job has ended, and its cores are idle."""
 
+import http.client
+import json
+import multiprocessing
 import os
 import socket
 import sys
@@ -13,6 +16,8 @@ import time
 from served import Client, Served
 
 REQUESTS = 3000
+BATCHERS = 8
+POSES = [[i % 400 - 200, i % 7, 100 + i % 90, 5, 20] for i in range(10_000)]
 LONG = {"kind": "part", "tool_length": {"from": 1, "to": 500, "step": 1}, "tolerance": 0.02}
 LARGE = {"kind": "part", "tool_length": 50, "tolerance": 0.01}
 MEBI = 1 << 20
@@ -60,6 +65,36 @@ def cancel(served, client, path):
             return ended, since
 
 
+def send_batches(port, lines):
+    """One batch after the other; counts the lines that were answered."""
+    body = json.dumps({"tool_length": 50, "poses": POSES}).encode()
+    connection = http.client.HTTPConnection("127.0.0.1", port)
+    while True:
+        connection.request("POST", "/ik/batch", body, {"Content-Type": "application/json"})
+        reply = connection.getresponse()
+        reply.read()
+        with lines.get_lock():
+            lines.value += len(POSES) if reply.status == 200 else 0
+
+
+def beside_batches(client):
+    """p50 and p99 of GET /ik, ms, and how many lines of batches were answered each second meanwhile."""
+    fork = multiprocessing.get_context("fork")
+    lines = fork.Value("q")
+    batchers = [fork.Process(target=send_batches, args=(client.port, lines), daemon=True) for _ in range(BATCHERS)]
+    for batcher in batchers:
+        batcher.start()
+    while lines.value < BATCHERS * len(POSES):
+        time.sleep(0.01)
+    began, before = time.perf_counter(), lines.value
+    found = latencies(client)
+    rate = (lines.value - before) / (time.perf_counter() - began)
+    for batcher in batchers:
+        batcher.kill()
+        batcher.join()
+    return found, rate
+
+
 def slow_readers(served, path, count):
     """Connections that have read the first bytes of a mesh and then no more."""
     readers = []
@@ -83,6 +118,9 @@ with tempfile.TemporaryDirectory() as data:
     print("GET /ik p50, p99 ms: idle {:.2f} {:.2f}, beside a long job {:.2f} {:.2f}".format(*idle, *loaded))
     print(f"p99 ratio {loaded[1] / idle[1]:.1f}")
     print("DELETE: ended after {:.3f} s, idle after {:.3f} s".format(*cancel(served, client, path)))
+    crowded, rate = beside_batches(client)
+    print("beside {} clients' batches {:.2f} {:.2f}, p99 ratio {:.1f}; {:.0f} lines a second".format(
+        BATCHERS, *crowded, crowded[1] / idle[1], rate))
 
     reply = client.ask("POST", "/workspace", LARGE, Prefer="wait=29")
     while reply.status == 202:

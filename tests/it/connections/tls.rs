@@ -15,6 +15,7 @@ use tokio_rustls::rustls::{ClientConfig, RootCertStore};
 
 use super::versions::{http2, question};
 use super::{Served, in_time, rest, serve};
+use crate::cli::verne;
 
 /// A service with a certificate of its own, and a client that trusts it and speaks these protocols.
 async fn secured(flags: &str) -> (Served, impl AsyncFn(&[&str]) -> TlsStream<TcpStream>) {
@@ -94,4 +95,16 @@ async fn probes_are_answered_when_all_connections_are_taken() {
     }
     drop(first);
     served.end().await;
+}
+
+#[tokio::test]
+async fn health_is_asked_by_https_as_well() {
+    let (served, _connect) = secured("").await;
+    let line = format!("health --url https://{}/readyz", served.address);
+    assert_eq!(tokio::task::spawn_blocking(move || verne(&line)).await.unwrap(), Ok(String::new()));
+    served.end().await;
+    let plain = serve("").await;
+    let line = format!("health --url https://{}/readyz", plain.address);
+    assert!(tokio::task::spawn_blocking(move || verne(&line)).await.unwrap().is_err());
+    plain.end().await;
 }
