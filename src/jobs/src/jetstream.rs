@@ -7,8 +7,11 @@
 //!
 //! A bucket (`NAME-jobs`) has each job's record by its id, written by compare-and-set: of equal submissions in any
 //! processes one begins the job and the others join it. A stream (`NAME-queue`) has a message for each job that is queued or
-//! runs, in a line for small and one for large jobs. The record is first: a message may come late or twice, and then
+//! runs, in one of three lines: small jobs, parts of others, and large jobs. The record is first: a message may come late or twice, and then
 //! says nothing new. How far a job is, and which processes there are, is told and not kept.
+//!
+//! Every name has the layout of what is kept under it. Processes of another layout are at the same broker as if at another:
+//! so programs are replaced one after the other, and each job is run by those that read it.
 //!
 //! # What holds
 //!
@@ -25,8 +28,8 @@
 //! # What does not hold, other than [`Embedded`](crate::Embedded)
 //!
 //! - Order: within a line first come, first served, whoever asks; there are no clients' shares. A worker's
-//!   main lane takes from both lines as they have work; its express lane takes small jobs, so these overtake. A whole's merge
-//!   is the next in its worker.
+//!   main lane takes from all lines as they have work; its express lane takes small jobs, so these overtake. Parts do not wait
+//!   behind the large jobs that came before their whole had begun. A whole's merge is the next in its worker.
 //! - What others do is known a moment later, some milliseconds, so bounds may be passed by as many as are submitted at
 //!   once, and a part may still begin when its whole has just failed.
 //! - A whole that waits while its worker is lost counts an attempt.
@@ -119,7 +122,8 @@ impl JetStream {
 async fn claim(client: Arc<Client>, submission: Submission) -> Result<Claim, SubmitError> {
     let id = submission.id;
     let _shard = client.shard(id).await;
-    let record = client.submit(&submission, Claimant::Process(client.process)).await?;
+    let line = client.bus.config.line(submission.cost);
+    let record = client.submit(&submission, Claimant::Process(client.process), line).await?;
     let stake = Stake::new(&client, (id, record.life));
     let feed = client.mirror.feed(id, record.life);
     let feed = feed.ok_or_else(|| Unavailable("another has begun the job anew".to_owned()))?;

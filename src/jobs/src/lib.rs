@@ -37,8 +37,8 @@
 //!
 //! The main lane runs any job, with all the threads. While it is taken, the express lane runs the next small job
 //! ([`small`](embedded::Config::small)) beside it, with one thread; meanwhile one thread of the main lane
-//! rests, so the number of busy cores stays as set. Parts are for the main lane: nobody waits for one of them alone, and
-//! a large job cut into small parts would have the lane that small jobs pass it on. On Linux all of them give way to the
+//! rests, so the number of busy cores stays as set. Parts of what is not small itself are for the main
+//! lane: a large job cut into small ones would have the lane that small jobs pass it on. On Linux all of them give way to the
 //! process's other threads. A thread rests at a look at [`Watch::cancelled`], and at most as
 //! long as it has worked since it last rested: small jobs without end leave it half of its time.
 

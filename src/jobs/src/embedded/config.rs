@@ -51,7 +51,7 @@ impl Config {
     }
 
     pub(super) fn rule(&self) -> Rule {
-        Rule { small: self.small, overdue: self.overdue }
+        Rule { overdue: self.overdue }
     }
 }
 

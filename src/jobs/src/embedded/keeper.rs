@@ -39,6 +39,14 @@ pub(super) struct Keeper {
     deadlines: Condvar,
 }
 
+/// What a part is of its whole.
+#[derive(Clone, Copy)]
+struct Portion {
+    /// Where its share begins.
+    begins: Tag,
+    of_small: bool,
+}
+
 impl Keeper {
     pub(super) fn new(board: Board, recorder: Recorder, config: Config, work: Arc<dyn Work>) -> Self {
         Self {
@@ -100,25 +108,25 @@ impl Keeper {
         Ok((claim, recorded))
     }
 
-    /// `after`: as a part, whose share begins there.
-    fn join(&self, board: &mut Board, life: u64, submission: &Submission, after: Option<Tag>) {
-        match board.entry(submission.id, life).filter(|entry| !entry.is_wanted()) {
+    /// `part`: as one.
+    fn join(&self, board: &mut Board, life: u64, submission: &Submission, part: Option<Portion>) {
+        let begins = part.map(|part| part.begins);
+        if let Some(entry) = board.entry(submission.id, life).filter(|entry| !entry.is_wanted()) {
             // An earlier process left it, and nobody has asked for it since.
-            Some(entry) => {
-                let client = submission.client.clone();
-                let waiting = Waiting { client, ..waiting(&entry.feeder.job(), after.is_some()) };
-                board.queue.push(life, waiting, after);
-            }
-            None => board.queue.join(life, &submission.client, after),
+            let client = submission.client.clone();
+            let waiting = Waiting { client, ..self.waiting(&entry.feeder.job(), part) };
+            board.queue.push(life, waiting, begins);
+        } else {
+            board.queue.join(life, &submission.client, self.is_small(submission.cost, part), begins);
         }
         if let Some(entry) = board.entry(submission.id, life)
             && entry.hidden
-            && after.is_none()
+            && part.is_none()
         {
             entry.hidden = false;
             self.recorder.write(Write::Show { life }, Box::new(drop));
         }
-        if after.is_none() {
+        if part.is_none() {
             self.change_clients(board, submission.id, life, |clients| clients.join(&submission.client));
         }
         let Some(deadline) = board.entry(submission.id, life).and_then(|entry| entry.deadline) else {
@@ -134,7 +142,7 @@ impl Keeper {
         }
     }
 
-    fn begin(self: &Arc<Self>, board: &mut Board, submission: Submission, after: Option<Tag>) {
+    fn begin(self: &Arc<Self>, board: &mut Board, submission: Submission, part: Option<Portion>) {
         let id = submission.id;
         // An earlier life that has been told to stop ends here, whenever its run does.
         if let Some((life, told)) =
@@ -144,7 +152,7 @@ impl Keeper {
         }
         board.last_life += 1;
         let life = board.last_life;
-        let hidden = after.is_some();
+        let hidden = part.is_some();
         let deadline = submission.deadline;
         let record = Record { life, deadline, hidden, job: queued(submission, hidden) };
         let (sender, recorded) = watch::channel(None);
@@ -156,7 +164,7 @@ impl Keeper {
             sender.send_replace(Some(result));
         };
         self.recorder.write(Write::Submit(record.clone()), Box::new(reply));
-        self.enter(board, record, recorded, after);
+        self.enter(board, record, recorded, part);
     }
 
     fn check_room(&self, board: &Board, bytes: usize) -> Result<(), SubmitError> {
@@ -175,10 +183,10 @@ impl Keeper {
         board.queue.len() < self.config.queue.max(1) && board.queue.bytes() <= self.config.queue_bytes
     }
 
-    fn enter(&self, board: &mut Board, record: Record, recorded: Recorded, after: Option<Tag>) {
+    fn enter(&self, board: &mut Board, record: Record, recorded: Recorded, part: Option<Portion>) {
         let Record { life, job, deadline, hidden } = record;
         let id = job.id;
-        board.queue.push(life, waiting(&job, hidden), after);
+        board.queue.push(life, self.waiting(&job, part), part.map(|part| part.begins));
         let entry = Entry {
             life,
             feeder: Feeder::new(job),
@@ -209,6 +217,16 @@ impl Keeper {
         {
             run.tell(Told::Cancelled);
         }
+    }
+
+    fn waiting(&self, job: &Job, part: Option<Portion>) -> Waiting {
+        let (id, client, cost, bytes) = (job.id, job.client.clone(), job.cost, job.payload.len());
+        let is_small = self.is_small(cost, part);
+        Waiting { id, client, cost, bytes, is_small, since: Instant::now() }
+    }
+
+    fn is_small(&self, cost: f64, part: Option<Portion>) -> bool {
+        cost <= self.config.small && part.is_none_or(|part| part.of_small)
     }
 
     fn conclude(self: &Arc<Self>, board: &mut Board, id: JobId, life: u64, end: End) {
@@ -250,9 +268,4 @@ impl Keeper {
 
 fn from_now(limit: Duration) -> Option<Instant> {
     Instant::now().checked_add(limit)
-}
-
-fn waiting(job: &Job, is_part: bool) -> Waiting {
-    let (id, client, cost, bytes) = (job.id, job.client.clone(), job.cost, job.payload.len());
-    Waiting { id, client, cost, bytes, is_part, since: Instant::now() }
 }

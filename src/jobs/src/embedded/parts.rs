@@ -23,6 +23,8 @@ pub(super) struct Split {
     pub(super) client: String,
     /// Of its payload.
     pub(super) bytes: usize,
+    /// Its parts are small if they are by themselves: somebody waits for it.
+    pub(super) is_small: bool,
     /// Where the share of the next part begins.
     pub(super) after: Tag,
     pending: VecDeque<Submission>,
@@ -45,7 +47,8 @@ impl Split {
         let pending: VecDeque<_> = parts.into_iter().filter(|part| seen.insert(part.id)).collect();
         let total = pending.iter().map(|part| part.cost).sum();
         let (client, bytes) = (taken.job.client.clone(), taken.job.bytes);
-        Self { client, bytes, after: taken.start(), pending, open: HashMap::new(), done: 0.0, total }
+        let (is_small, after) = (taken.job.is_small, taken.start());
+        Self { client, bytes, is_small, after, pending, open: HashMap::new(), done: 0.0, total }
     }
 
     /// The next part that may be submitted.

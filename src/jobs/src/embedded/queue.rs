@@ -16,8 +16,8 @@ pub(super) struct Waiting {
     /// Seconds of one core.
     pub(super) cost: f64,
     pub(super) bytes: usize,
-    /// Nobody waits for it alone, so it is not for the express lane, however small.
-    pub(super) is_part: bool,
+    /// It is for the express lane as well.
+    pub(super) is_small: bool,
     pub(super) since: Instant,
 }
 
@@ -95,8 +95,6 @@ pub(super) struct Queue {
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rule {
-    /// Greatest cost of a small job, seconds of one core; parts are not small.
-    pub(super) small: f64,
     /// A job that has waited longer goes before all that have not.
     pub(super) overdue: Duration,
 }
@@ -135,16 +133,17 @@ impl Queue {
     }
 
     /// `client` asks for a queued job as well: it moves to where its own submission would stand, if that is earlier, and
-    /// is then charged to it.
-    pub(super) fn join(&mut self, life: u64, client: &str, after: Option<Tag>) {
-        let Some((job, tag)) = self.small.by_age.get(&life).or_else(|| self.other.by_age.get(&life)) else {
+    /// is then charged to it. It is small if it is for one of them.
+    pub(super) fn join(&mut self, life: u64, client: &str, is_small: bool, after: Option<Tag>) {
+        let Some((job, tag)) = self.extract(life) else {
             return;
         };
+        let is_small = is_small || job.is_small;
         let own = self.tag(client, job.cost, after);
-        if own < *tag
-            && let Some((job, _)) = self.extract(life)
-        {
-            self.insert(life, Waiting { client: client.to_owned(), ..job }, own);
+        if own < tag {
+            self.insert(life, Waiting { client: client.to_owned(), is_small, ..job }, own);
+        } else {
+            self.insert(life, Waiting { is_small, ..job }, tag);
         }
     }
 
@@ -191,8 +190,7 @@ impl Queue {
 
     fn insert(&mut self, life: u64, job: Waiting, tag: Tag) {
         self.clients.entry(job.client.clone()).or_default().insert((tag, life));
-        let is_small = job.cost <= self.rule.small && !job.is_part;
-        let band = if is_small { &mut self.small } else { &mut self.other };
+        let band = if job.is_small { &mut self.small } else { &mut self.other };
         band.by_tag.insert((tag, life));
         band.by_age.insert(life, (job, tag));
     }

@@ -11,7 +11,7 @@ use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 
 use super::config::{Config, ConnectError};
-use super::record::Record;
+use super::record::{LAYOUT, Record};
 use crate::{JobId, Unavailable};
 
 /// One of the lines in which jobs wait.
@@ -19,8 +19,8 @@ use crate::{JobId, Unavailable};
 pub(super) enum Line {
     /// Alone taken by the express lane.
     Small,
-    /// Parts, of whatever size: nobody waits for one of them alone, and those of a whole that has begun do not wait behind
-    /// the wholes that have not.
+    /// Parts of what is not small itself: nobody waits for one of them alone, and those of a whole that has begun do not
+    /// wait behind the wholes that have not.
     Parts,
     Large,
 }
@@ -68,7 +68,8 @@ impl Bus {
         let mut context = jetstream::new(client.clone());
         context.set_timeout(PATIENCE);
         let records = context.create_or_update_key_value(records(&config)).await.map_err(broker)?;
-        let queue = context.get_or_create_stream(queue(&config)).await.map_err(broker)?;
+        let stream = context.create_or_update_stream(queue(&config)).await.map_err(broker)?;
+        let queue = context.get_stream(stream.config.name).await.map_err(broker)?;
         for line in Line::ALL {
             queue.create_consumer(consumer(&config, line)).await.map_err(broker)?;
         }
@@ -77,7 +78,7 @@ impl Bus {
 
     /// Its name, and the id of the job in each of its messages.
     pub(super) async fn consumer(&self, line: Line) -> Result<Consumer<pull::Config>, Unavailable> {
-        self.queue.get_consumer(line.name()).await.map_err(unavailable)
+        self.queue.get_consumer(&consumer_name(line)).await.map_err(unavailable)
     }
 
     /// Of the broker's own, about jobs that were delivered too often.
@@ -92,7 +93,8 @@ impl Bus {
             name,
             ..stream::Config::default()
         };
-        let stream = self.context.get_or_create_stream(config).await.map_err(unavailable)?;
+        let stream = self.context.create_or_update_stream(config).await.map_err(unavailable)?;
+        let stream = self.context.get_stream(stream.config.name).await.map_err(unavailable)?;
         let config = pull::Config {
             durable_name: Some("poison".to_owned()),
             ack_policy: AckPolicy::Explicit,
@@ -106,7 +108,7 @@ impl Bus {
     }
 
     fn place(&self, record: &Record) -> String {
-        format!("{}.queue.{}.{}", self.config.name, record.line.name(), record.job.id)
+        format!("{}{}", line_prefix(&self.config, record.line), record.job.id)
     }
 
     /// Puts a recorded job into its line. Again, it is there once: the message's id is that of its turn.
@@ -131,9 +133,15 @@ impl Bus {
 
     pub(super) async fn read(&self, id: JobId) -> Result<Option<(Record, u64)>, Unavailable> {
         // Of the leader: any replica may answer for an entry, one that lags behind too.
-        let subject = format!("{}{id}", self.records.prefix);
-        match self.records.stream.get_last_raw_message_by_subject(&subject).await {
-            Ok(message) => Ok(Record::decode(&message.payload).map(|record| (record, message.sequence))),
+        match self.records.stream.get_last_raw_message_by_subject(&self.subject(id)).await {
+            Ok(message) => {
+                let record = Record::decode(&message.payload);
+                if record.is_none() {
+                    tracing::error!(%id, "a record that cannot be read: removed");
+                    self.forget(id, message.sequence).await;
+                }
+                Ok(record.map(|record| (record, message.sequence)))
+            }
             Err(fault) if fault.kind() == stream::LastRawMessageErrorKind::NoMessageFound => Ok(None),
             Err(fault) => Err(unavailable(fault)),
         }
@@ -141,7 +149,7 @@ impl Bus {
 
     /// Writes a record in the place of that of `revision`, or the first of its job; its revision.
     pub(super) async fn write(&self, record: &Record, revision: Option<u64>) -> Result<u64, WriteError> {
-        let key = record.job.id.to_string();
+        let key = key(record.job.id);
         let other = || WriteError::Unavailable(Unavailable("a record cannot be encoded".to_owned()));
         let value = record.encode().ok_or_else(other)?;
         let written = self.records.update(key, value, revision.unwrap_or(0)).await;
@@ -153,9 +161,13 @@ impl Bus {
 
     /// Forgets a job's record up to this revision; a later one stays.
     pub(super) async fn forget(&self, id: JobId, revision: u64) {
-        let subject = format!("{}{id}", self.records.prefix);
         // Another process may have, or will.
-        drop(self.records.stream.purge().filter(subject).sequence(revision + 1).await);
+        drop(self.records.stream.purge().filter(self.subject(id)).sequence(revision + 1).await);
+    }
+
+    /// Of a record, in the bucket's stream.
+    fn subject(&self, id: JobId) -> String {
+        format!("{}{}", self.records.prefix, key(id))
     }
 
     /// Tells all processes something that need not last.
@@ -170,6 +182,35 @@ fn ticket(record: &Record) -> Vec<u8> {
     [record.life.to_be_bytes().as_slice(), &record.turn.to_be_bytes()].concat()
 }
 
+/// Of a record, in the bucket.
+fn key(id: JobId) -> String {
+    format!("{LAYOUT}.{id}")
+}
+
+/// Of a record's key.
+pub(super) fn read_key(key: &str) -> Option<JobId> {
+    key.strip_prefix(LAYOUT)?.strip_prefix('.')?.parse().ok()
+}
+
+fn line_prefix(config: &Config, line: Line) -> String {
+    format!("{}.queue.{LAYOUT}.{}.", config.name, line.name())
+}
+
+fn consumer_name(line: Line) -> String {
+    format!("{}-{LAYOUT}", line.name())
+}
+
+/// Nothing is at the broker longer than so after it was written last: also what only processes of another layout would
+/// have forgotten.
+fn longest(config: &Config) -> Duration {
+    (4 * config.retention.age).max(Duration::from_hours(1))
+}
+
+/// Whether a message is of this layout.
+pub(super) fn is_own(subject: &str) -> bool {
+    subject.rsplit('.').nth(2) == Some(LAYOUT)
+}
+
 /// Job, life and turn of a message.
 pub(super) fn read_ticket(subject: &str, payload: &[u8]) -> Option<(JobId, u64, u32)> {
     let id = subject.rsplit('.').next()?.parse().ok()?;
@@ -181,6 +222,7 @@ fn records(config: &Config) -> kv::Config {
     kv::Config {
         bucket: format!("{}-jobs", config.name),
         history: 1,
+        max_age: longest(config),
         num_replicas: config.replicas,
         ..kv::Config::default()
     }
@@ -192,6 +234,7 @@ fn queue(config: &Config) -> stream::Config {
         subjects: vec![format!("{}.queue.>", config.name)],
         retention: RetentionPolicy::WorkQueue,
         discard: DiscardPolicy::New,
+        max_age: longest(config),
         num_replicas: config.replicas,
         duplicate_window: Duration::from_mins(2),
         ..stream::Config::default()
@@ -200,13 +243,13 @@ fn queue(config: &Config) -> stream::Config {
 
 fn consumer(config: &Config, line: Line) -> pull::Config {
     pull::Config {
-        durable_name: Some(line.name().to_owned()),
+        durable_name: Some(consumer_name(line)),
         ack_policy: AckPolicy::Explicit,
         ack_wait: config.ack_wait,
         max_deliver: i64::from(config.max_attempts.max(1)),
         // Jobs that wait for their parts are not acknowledged, and may be many.
         max_ack_pending: -1,
-        filter_subject: format!("{}.queue.{}.*", config.name, line.name()),
+        filter_subject: format!("{}*", line_prefix(config, line)),
         ..pull::Config::default()
     }
 }

@@ -52,11 +52,12 @@ impl Client {
         self.shards[usize::from(first) % SHARDS].lock().await
     }
 
-    /// Joins or begins a job for a claimant; the life that it has.
+    /// Joins a job for a claimant, or begins it in a line; the life that it has.
     pub(super) async fn submit(
         &self,
         submission: &Submission,
         claimant: Claimant,
+        line: Line,
     ) -> Result<Record, SubmitError> {
         let as_part = matches!(claimant, Claimant::Whole(..));
         let mut known = self.mirror.read(submission.id);
@@ -76,7 +77,6 @@ impl Client {
                     let before = known.as_ref().map(|(record, _)| record);
                     let hidden = as_part && before.is_none_or(|before| before.hidden);
                     let life = self.next_life(before.map_or(0, |before| before.life));
-                    let line = if as_part { Line::Parts } else { self.bus.config.line(submission.cost) };
                     let record = Record::new(life, submission.clone(), line, claimant, hidden);
                     (record, known.map(|(_, revision)| revision), true)
                 }

@@ -10,8 +10,9 @@ use futures_util::StreamExt;
 use tokio::sync::watch;
 use tokio::time::timeout;
 
+use super::bus::read_key;
 use super::client::Client;
-use super::record::Record;
+use super::record::{LAYOUT, Record};
 use crate::JobId;
 
 /// How soon the broker is asked again when it could not be.
@@ -37,7 +38,12 @@ async fn follow(client: &Client, caught_up: &watch::Sender<bool>) -> Result<Infa
         catch_up(client, caught_up);
     }
     // What is there, and then what comes. Again after each interruption: what came meanwhile is not lost.
-    let mut entries = client.bus.records.watch_with_history(">").await.map_err(|fault| fault.to_string())?;
+    let mut entries = client
+        .bus
+        .records
+        .watch_with_history(format!("{LAYOUT}.>"))
+        .await
+        .map_err(|fault| fault.to_string())?;
     let mut silences = 0_u32;
     loop {
         let next = timeout(SILENCE, entries.next()).await;
@@ -52,11 +58,11 @@ async fn follow(client: &Client, caught_up: &watch::Sender<bool>) -> Result<Infa
         };
         let entry = entry.ok_or("the broker has gone")?;
         let entry = entry.map_err(|fault| fault.to_string())?;
-        let id = entry.key.parse::<JobId>().ok();
+        let id = read_key(&entry.key);
         match (entry.operation, id, Record::decode(&entry.value)) {
             (Operation::Put, Some(_), Some(record)) => client.mirror.apply(record, entry.revision),
             (Operation::Delete | Operation::Purge, Some(id), _) => client.mirror.lock().remove(id),
-            // Another version's.
+            // Damaged: removed by whoever wants it.
             _ => {}
         }
         if entry.seen_current {

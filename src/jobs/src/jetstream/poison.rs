@@ -3,11 +3,12 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use async_nats::jetstream::AckKind;
 use async_nats::jetstream::stream::RawMessageErrorKind;
 use futures_util::StreamExt;
 use serde::Deserialize;
 
-use super::bus::{read_ticket, unavailable};
+use super::bus::{is_own, read_ticket, unavailable};
 use super::client::Client;
 use crate::threads::run::Outcome;
 use crate::{Failure, Unavailable};
@@ -17,6 +18,9 @@ const RETRY: Duration = Duration::from_secs(1);
 
 /// How long one question waits for an answer.
 const WAIT: Duration = Duration::from_secs(5);
+
+/// When what is another layout's is offered again.
+const LATER: Duration = Duration::from_secs(10);
 
 /// What the broker says of a message.
 #[derive(Deserialize)]
@@ -39,21 +43,27 @@ async fn follow(client: &Client) -> Result<(), Unavailable> {
         let mut batch = notes.batch().max_messages(16).expires(WAIT).messages().await.map_err(unavailable)?;
         while let Some(note) = batch.next().await {
             let note = note.map_err(unavailable)?;
-            if let Ok(Advisory { stream_seq }) = serde_json::from_slice(&note.payload) {
-                fail(client, stream_seq).await?;
-            }
-            note.double_ack().await.map_err(unavailable)?;
+            let failed = match serde_json::from_slice(&note.payload) {
+                Ok(Advisory { stream_seq }) => fail(client, stream_seq).await?,
+                Err(_) => true,
+            };
+            // What is another layout's is for a process that reads it, if there is one.
+            let kind = if failed { AckKind::Ack } else { AckKind::Nak(Some(LATER)) };
+            note.double_ack_with(kind).await.map_err(unavailable)?;
         }
     }
 }
 
-/// Fails the job of a message, and takes the message out of its line.
-async fn fail(client: &Client, sequence: u64) -> Result<(), Unavailable> {
+/// Fails the job of a message, and takes the message out of its line; whether it is one of this layout.
+async fn fail(client: &Client, sequence: u64) -> Result<bool, Unavailable> {
     let message = match client.bus.queue.get_raw_message(sequence).await {
         Ok(message) => message,
-        Err(fault) if fault.kind() == RawMessageErrorKind::NoMessageFound => return Ok(()),
+        Err(fault) if fault.kind() == RawMessageErrorKind::NoMessageFound => return Ok(true),
         Err(fault) => return Err(unavailable(fault)),
     };
+    if !is_own(&message.subject) {
+        return Ok(false);
+    }
     if let Some((id, life, turn)) = read_ticket(&message.subject, &message.payload) {
         let _shard = client.shard(id).await;
         client.refresh(id).await?;
@@ -67,5 +77,5 @@ async fn fail(client: &Client, sequence: u64) -> Result<(), Unavailable> {
         failed.await?;
     }
     client.bus.queue.delete_message(sequence).await.map_err(unavailable)?;
-    Ok(())
+    Ok(true)
 }

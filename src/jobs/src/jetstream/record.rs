@@ -12,8 +12,9 @@ use crate::moment::now;
 use crate::threads::run::{Outcome, Told};
 use crate::{Job, JobId, State, Submission};
 
-/// First byte of a record that this code reads.
-const VERSION: u8 = 3;
+/// Of records and messages. It is in their names at the broker: processes of different layouts have each their own jobs
+/// there, and what the ones write the others need not read.
+pub(super) const LAYOUT: &str = "4";
 
 /// Whose interest keeps a job alive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -61,13 +62,12 @@ impl Record {
     }
 
     pub(super) fn encode(&self) -> Option<Bytes> {
-        postcard::to_extend(self, vec![VERSION]).ok().map(Bytes::from)
+        postcard::to_stdvec(self).ok().map(Bytes::from)
     }
 
-    /// `None`: another version's.
+    /// `None`: it is damaged.
     pub(super) fn decode(bytes: &[u8]) -> Option<Self> {
-        let (version, rest) = bytes.split_first()?;
-        if *version == VERSION { postcard::from_bytes(rest).ok() } else { None }
+        postcard::from_bytes(bytes).ok()
     }
 
     /// Whether a submission joins it; not what has ended, or has been told to.

@@ -18,6 +18,7 @@ for_each_backend!(
     one_whole_does_not_fill_the_queue,
     wholes_that_wait_are_in_the_queue,
     small_parts_leave_the_express_lane_to_others,
+    a_small_whole_passes_a_part_of_a_large_one,
     parts_are_not_listed,
     parts_that_others_submitted_are_listed,
     parts_have_parts,
@@ -198,6 +199,15 @@ async fn small_parts_leave_the_express_lane_to_others(open: Open) {
     stand.stage.open("a");
     stand.stage.open("b");
     assert_eq!(whole.finished().await.state, State::Succeeded);
+}
+
+async fn a_small_whole_passes_a_part_of_a_large_one(open: Open) {
+    let stand = open(10);
+    stand.leave(job("ada", "whole", "split a=hold=1 b=hold=1")).await;
+    stand.stage.begun(1).await;
+    let whole = stand.submit(small("second", "c=pass=0.5 d=pass=0.5")).await;
+    assert_eq!(whole.finished().await.state, State::Succeeded);
+    assert_eq!(stand.stage.begun(4).await, ["a", "c", "d", "second"]);
 }
 
 async fn parts_are_not_listed(open: Open) {

@@ -67,13 +67,57 @@ async fn what_was_recorded_and_not_queued_is_queued() {
         api.submit(job("ada", "a", "pass")).await.unwrap().keep();
         // Answered when that is recorded.
         api.get(id("a")).await.unwrap();
-        let key = id("a").to_string();
+        let key = key("a");
         let record = Box::pin(bucket(&before)).await.get(key.as_str()).await.unwrap().unwrap();
         let api = broker.connect().await;
         Box::pin(bucket(&broker)).await.put(key, record).await.unwrap();
         let stage = Arc::new(Stage::default());
         let _worker = worker(&api, &stage);
         assert_eq!(end(&api, "a").await.state, State::Succeeded);
+    })
+    .await;
+}
+
+/// Of a job's record.
+fn key(name: &str) -> String {
+    format!("4.{}", id(name))
+}
+
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
+async fn a_record_that_cannot_be_read_is_in_nobodys_way() {
+    within_a_minute(async {
+        let broker = Broker::start();
+        let api = broker.connect().await;
+        Box::pin(bucket(&broker)).await.put(key("a"), "damaged".into()).await.unwrap();
+        let stage = Arc::new(Stage::default());
+        let _worker = worker(&api, &stage);
+        let claim = api.submit(job("ada", "a", "pass")).await.unwrap();
+        assert_eq!(claim.finished().await.state, State::Succeeded);
+    })
+    .await;
+}
+
+/// A program is replaced by one that writes otherwise, process after process.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
+async fn what_is_of_another_layout_is_left_to_others() {
+    within_a_minute(async {
+        let broker = Broker::start();
+        let api = broker.connect().await;
+        let client = Box::pin(async_nats::connect(broker.config().url)).await.unwrap();
+        let context = async_nats::jetstream::new(client);
+        let other = format!("verne.queue.1.large.{}", id("a"));
+        context.publish(other.clone(), "of another layout".into()).await.unwrap().await.unwrap();
+        Box::pin(bucket(&broker)).await.put(format!("1.{}", id("a")), "so".into()).await.unwrap();
+        let stage = Arc::new(Stage::default());
+        let _worker = worker(&api, &stage);
+        let claim = api.submit(job("ada", "a", "pass")).await.unwrap();
+        assert_eq!(claim.finished().await.state, State::Succeeded);
+        let queue = context.get_stream("verne-queue").await.unwrap();
+        assert_eq!(queue.get_last_raw_message_by_subject(&other).await.unwrap().payload, "of another layout");
+        let record = Box::pin(bucket(&broker)).await.get(format!("1.{}", id("a"))).await.unwrap();
+        assert_eq!(record.unwrap(), "so");
     })
     .await;
 }
@@ -94,7 +138,8 @@ async fn what_a_lost_process_waited_for_is_cancelled() {
         let waits = api.submit(job("ada", "waits", "hold")).await.unwrap();
         api.submit(job("ada", "kept", "pass")).await.unwrap().keep();
         api.get(id("kept")).await.unwrap();
-        stage.begun(1).await;
+        let mut seen = waits.watch();
+        while seen.next().await.unwrap().state != State::Running {}
         drop(api);
         assert_eq!(end(&node, "waits").await.state, State::Cancelled);
         assert_eq!(end(&node, "kept").await.state, State::Succeeded);

@@ -189,7 +189,7 @@ async fn finished_jobs_are_forgotten_everywhere() {
 
 #[tokio::test(flavor = "multi_thread")]
 #[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
-async fn both_lines_are_served_by_both_lanes() {
+async fn small_and_large_jobs_are_served_by_both_lanes() {
     within_a_minute(async {
         let broker = Broker::start();
         let backend = broker.connect().await;
@@ -214,6 +214,33 @@ async fn both_lines_are_served_by_both_lanes() {
             let end = claim.finished().await;
             assert_eq!((end.state, end.attempts), (State::Succeeded, 1));
         }
+    })
+    .await;
+}
+
+/// In nobody's hand while its worker has no place for it.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
+async fn what_waits_for_the_main_lane_is_in_nobodys_way() {
+    within_a_minute(async {
+        let broker = Broker::start();
+        let nodes = [broker.connect().await, broker.connect().await];
+        let stages = [Arc::new(Stage::default()), Arc::new(Stage::default())];
+        let _busy = worker(&nodes[0], &stages[0]);
+        let whole = nodes[0].submit(job("ada", "whole", "split a=hold b=pass c=pass")).await.unwrap();
+        stages[0].begun(1).await;
+        let large = nodes[0].submit(job("bob", "large", "pass")).await.unwrap();
+        let small = verne_jobs::Submission { cost: 1.0, ..job("bob", "small", "pass") };
+        let small = nodes[0].submit(small).await.unwrap();
+        assert_eq!(small.finished().await.state, State::Succeeded, "by the express lane");
+        assert_eq!(stages[0].begun(2).await, ["a", "small"]);
+        let _idle = worker(&nodes[1], &stages[1]);
+        assert_eq!(large.finished().await.state, State::Succeeded);
+        let mut others = stages[1].begun(3).await;
+        others.sort();
+        assert_eq!(others, ["b", "c", "large"]);
+        stages[0].open("a");
+        assert_eq!(whole.finished().await.state, State::Succeeded);
     })
     .await;
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::Keeper;
+use super::{Keeper, Portion};
 use crate::embedded::board::Board;
 use crate::embedded::parts::{Next, Parts, Split};
 use crate::embedded::queue::{Taken, Waiting};
@@ -61,14 +61,14 @@ impl Keeper {
         };
         split.opened(id, cost);
         part.client.clone_from(&split.client);
-        let after = split.after;
-        split.after = after.plus(cost);
+        let portion = Portion { begins: split.after, of_small: split.is_small };
+        split.after = split.after.plus(cost);
         match board.live.get(&id) {
             Some(entry) if entry.goes_on() => {
                 let life = entry.life;
-                self.join(board, life, &part, Some(after));
+                self.join(board, life, &part, Some(portion));
             }
-            _ => self.begin(board, part, Some(after)),
+            _ => self.begin(board, part, Some(portion)),
         }
         if let Some(entry) = board.live.get_mut(&id) {
             entry.parents.push(parent);
@@ -81,12 +81,41 @@ impl Keeper {
     pub(super) fn part_ended(self: &Arc<Self>, board: &mut Board, parents: Vec<(JobId, u64)>, part: &Job) {
         for (parent, life) in parents {
             match (part.state, &part.failure) {
-                (State::Succeeded, _) => part_succeeded(board, parent, life, part.id),
+                (State::Succeeded, _) => self.part_succeeded(board, (parent, life), part.id),
                 (State::Failed, Some(failure)) => {
                     self.end(board, parent, life, Outcome::Failed(failure.clone()));
                 }
                 _ => self.end(board, parent, life, Outcome::Cancelled),
             }
+        }
+    }
+
+    fn part_succeeded(&self, board: &mut Board, (id, life): (JobId, u64), part: JobId) {
+        let Some(split) = waiting(board, id, life) else {
+            return;
+        };
+        let whole = split.progressed(part, 1.0);
+        let next = split.closed(part);
+        if board.live.get(&id).is_some_and(|entry| entry.feeder.progress(whole)) {
+            progressed(board, id, life);
+        }
+        match next {
+            Next::Submit => drop(board.submitting.insert(life, id)),
+            Next::Wait => {}
+            Next::Merge => self.queue_merge(board, id, life),
+        }
+    }
+
+    fn queue_merge(&self, board: &mut Board, id: JobId, life: u64) {
+        let Some(split) = unsplit(board, id, life) else {
+            return;
+        };
+        if let Some(entry) = board.entry(id, life) {
+            entry.parts = Parts::Done;
+            let cost = MERGE * entry.feeder.job().cost;
+            let Split { client, bytes, .. } = split;
+            let (is_small, since) = (self.is_small(cost, None), Instant::now());
+            board.queue.push_first(life, Waiting { id, client, cost, bytes, is_small, since });
         }
     }
 
@@ -140,33 +169,4 @@ fn unsplit(board: &mut Board, id: JobId, life: u64) -> Option<Split> {
     board.submitting.remove(&life);
     (board.split.0, board.split.1) = (board.split.0 - 1, board.split.1 - split.bytes);
     Some(split)
-}
-
-fn queue_merge(board: &mut Board, id: JobId, life: u64) {
-    let Some(split) = unsplit(board, id, life) else {
-        return;
-    };
-    if let Some(entry) = board.entry(id, life) {
-        entry.parts = Parts::Done;
-        let cost = MERGE * entry.feeder.job().cost;
-        let Split { client, bytes, .. } = split;
-        let since = Instant::now();
-        board.queue.push_first(life, Waiting { id, client, cost, bytes, is_part: false, since });
-    }
-}
-
-fn part_succeeded(board: &mut Board, id: JobId, life: u64, part: JobId) {
-    let Some(split) = waiting(board, id, life) else {
-        return;
-    };
-    let whole = split.progressed(part, 1.0);
-    let next = split.closed(part);
-    if board.live.get(&id).is_some_and(|entry| entry.feeder.progress(whole)) {
-        progressed(board, id, life);
-    }
-    match next {
-        Next::Submit => drop(board.submitting.insert(life, id)),
-        Next::Wait => {}
-        Next::Merge => queue_merge(board, id, life),
-    }
 }

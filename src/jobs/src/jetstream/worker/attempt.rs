@@ -9,7 +9,7 @@ use tokio::sync::{oneshot, watch};
 use tokio::time::timeout;
 
 use super::delivery::Delivery;
-use super::{Active, Desk, First, Stage, whole};
+use super::{Active, Desk, Stage, whole};
 use crate::feed::Feeder;
 use crate::jetstream::listen::write_progress;
 use crate::jetstream::record::Record;
@@ -32,12 +32,12 @@ pub(super) async fn attempt(active: Active, delivery: Delivery, seat: Seat) {
     let record = match begin(desk, &delivery).await {
         Ok(Some(record)) => record,
         Ok(None) => {
-            desk.give_seat(seat);
+            desk.seats.give(seat);
             return delivery.done().await;
         }
         Err(fault) => {
             tracing::warn!(%fault, "a job is left to come again");
-            return desk.give_seat(seat);
+            return desk.seats.give(seat);
         }
     };
     if delivery.is_redelivered() {
@@ -80,7 +80,7 @@ async fn carry_out(desk: &Arc<Desk>, record: &Record, seat: Seat) -> End {
     let (id, life, attempt) = (record.job.id, record.life, record.job.attempts);
     let feeder = Feeder::new(record.job.clone());
     let Some(mut signal) = desk.client.mirror.signal(id) else {
-        desk.give_seat(seat);
+        desk.seats.give(seat);
         return End::Drained;
     };
     let told = watch::Sender::new(None);
@@ -105,7 +105,7 @@ async fn carry_out(desk: &Arc<Desk>, record: &Record, seat: Seat) -> End {
         let end = whole::run(desk, record, seat, &feeder, told.subscribe()).await;
         if matches!(end, End::Elsewhere(_)) {
             // Others take it meanwhile: this worker asks for nothing, or it might come back again and again.
-            let _others_first = First::new(desk);
+            let _aside = desk.seats.stand_aside();
             let mut told = told.subscribe();
             let stopped = told.wait_for(Option::is_some);
             drop(timeout(desk.client.bus.config.handing_on, stopped).await);
@@ -192,7 +192,7 @@ struct Seated(Arc<Desk>, Seat);
 
 impl Drop for Seated {
     fn drop(&mut self) {
-        self.0.give_seat(self.1.clone());
+        self.0.seats.give(self.1.clone());
     }
 }
 

@@ -1,5 +1,6 @@
 //! A job that the broker has given to this worker.
 
+use std::pin::pin;
 use std::time::Duration;
 
 use async_nats::jetstream::{self, AckKind};
@@ -11,6 +12,9 @@ use crate::jetstream::client::Client;
 use crate::jetstream::record::Record;
 use crate::{JobId, Unavailable};
 
+/// An answer that is later than so does not come.
+const GONE: Duration = Duration::from_secs(1);
+
 pub(super) struct Delivery {
     pub(super) id: JobId,
     pub(super) life: u64,
@@ -18,17 +22,20 @@ pub(super) struct Delivery {
     message: jetstream::Message,
 }
 
-/// The next job of a line; `None`: none for so long.
+/// The next job of a line; `None`: none now, or for so long.
 pub(super) async fn next(
     client: &Client,
     line: Line,
-    wait: Duration,
+    wait: Option<Duration>,
 ) -> Result<Option<Delivery>, Unavailable> {
     let consumer = client.bus.consumer(line).await?;
-    let batch = consumer.batch().max_messages(1).expires(wait).messages().await;
-    let mut batch = batch.map_err(unavailable)?;
+    let batch = match wait {
+        Some(wait) => consumer.batch().max_messages(1).expires(wait).messages().await.map_err(unavailable)?,
+        None => consumer.fetch().max_messages(1).messages().await.map_err(unavailable)?,
+    };
+    let mut batch = pin!(batch);
     // The broker may have gone, and the question with it.
-    let Ok(Some(message)) = timeout(wait + Duration::from_secs(1), batch.next()).await else {
+    let Ok(Some(message)) = timeout(wait.unwrap_or_default() + GONE, batch.next()).await else {
         return Ok(None);
     };
     let message = message.map_err(unavailable)?;

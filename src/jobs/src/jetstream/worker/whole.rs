@@ -11,6 +11,7 @@ use tokio::sync::watch;
 use super::Desk;
 use super::attempt::{Call, call};
 use crate::feed::{Feed, Feeder};
+use crate::jetstream::bus::Line;
 use crate::jetstream::record::{Claimant, Record};
 use crate::job::told_apart;
 use crate::threads::pools::Seat;
@@ -44,7 +45,7 @@ pub(super) async fn run(
         return End::Final(outcome);
     }
     let config = &desk.client.bus.config;
-    let seat = desk.first_seat(config.line(MERGE * record.job.cost)).await;
+    let seat = desk.seats.first(config.line(MERGE * record.job.cost)).await;
     call(desk, record, seat, feeder, told, Call::Merge).await
 }
 
@@ -133,7 +134,9 @@ async fn submit(desk: &Desk, record: &Record, part: &Submission) -> Result<Optio
         return Err(Outcome::Failed(Failure::TooManyAttempts));
     }
     let part = Submission { client: record.job.client.clone(), ..part.clone() };
-    match client.submit(&part, Claimant::Whole(record.job.id, record.life)).await {
+    // Those of a small whole are small: somebody waits for it.
+    let line = if record.line == Line::Small { client.bus.config.line(part.cost) } else { Line::Parts };
+    match client.submit(&part, Claimant::Whole(record.job.id, record.life), line).await {
         Ok(begun) => Ok(client.mirror.feed(part.id, begun.life)),
         Err(SubmitError::Full { .. }) => Ok(None),
         Err(fault) => {
