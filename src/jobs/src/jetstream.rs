@@ -7,8 +7,8 @@
 //!
 //! A bucket (`NAME-jobs`) has each job's record by its id, written by compare-and-set: of equal submissions in any
 //! processes one begins the job and the others join it. A stream (`NAME-queue`) has a message for each job that is queued or
-//! runs, in a line for small and one for large jobs. The record is first: a message may come late or twice, and then
-//! says nothing new. How far a job is, and which processes there are, is told and not kept.
+//! runs, in a line for small jobs, one for parts and one for large jobs. The record is first: a message may come late or
+//! twice, and then says nothing new. How far a job is, and which processes there are, is told and not kept.
 //!
 //! # What holds
 //!
@@ -25,7 +25,7 @@
 //! # What does not hold, other than [`Embedded`](crate::Embedded)
 //!
 //! - Order: within a line first come, first served, whoever asks; there are no clients' shares. A worker's
-//!   main lane takes from both lines as they have work; its express lane takes small jobs, so these overtake. A whole's merge
+//!   main lane takes from all lines as they have work; its express lane takes small jobs, so these overtake. A whole's merge
 //!   is the next in its worker.
 //! - What others do is known a moment later, some milliseconds, so bounds may be passed by as many as are submitted at
 //!   once, and a part may still begin when its whole has just failed.
