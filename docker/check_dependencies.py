@@ -11,7 +11,8 @@ ROOT = Path(__file__).resolve().parent.parent
 
 def main() -> None:
     named = set()
-    for manifest in [ROOT / "Cargo.toml", *ROOT.glob("src/*/Cargo.toml"), ROOT / "tests/Cargo.toml"]:
+    crates = [ROOT / "Cargo.toml", *ROOT.glob("src/*/Cargo.toml"), ROOT / "tests/Cargo.toml"]
+    for manifest in [*crates, *ROOT.glob("tests/*/Cargo.toml")]:
         tables = tomllib.loads(manifest.read_text())
         for table in (tables.get("workspace", {}), tables):
             for kind in ("dependencies", "dev-dependencies", "build-dependencies"):

@@ -7,8 +7,8 @@
 //!
 //! A bucket (`NAME-jobs`) has each job's record by its id, written by compare-and-set: of equal submissions in any
 //! processes one begins the job and the others join it. A stream (`NAME-queue`) has a message for each job that is queued or
-//! runs, in one of three lines: small jobs, parts of others, and large jobs. The record is first: a message may come late or twice, and then
-//! says nothing new. How far a job is, and which processes there are, is told and not kept.
+//! runs, in a line for small jobs, one for parts and one for large jobs. The record is first: a message may come late or
+//! twice, and then says nothing new. How far a job is, and which processes there are, is told and not kept.
 //!
 //! Every name has the layout of what is kept under it. Processes of another layout are at the same broker as if at another:
 //! so programs are replaced one after the other, and each job is run by those that read it.

@@ -1,0 +1,59 @@
+"""Looks for known faults in what Cargo.lock and the viewer's package-lock.json name: python check_advisories.py CARGO_DENY
+
+A fault ends it with 1, as does anything else that is wrong, but for one thing: a database that is not reached is said, and
+is no fault."""
+
+import json
+import os
+import subprocess
+import sys
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+
+
+def run(*command):
+    return subprocess.run(command, cwd=ROOT, text=True, capture_output=True)
+
+
+def crates(cargo_deny):
+    """Whether there is no fault; `None`: the database was not reached. All it says."""
+    ran = run(cargo_deny, "--locked", "--color=never", "check", "advisories")
+    told = ran.stdout + ran.stderr
+    if ran.returncode == 0:
+        return True, told
+    # It fetches before it checks, and says at the end how a check went.
+    checked = "advisories FAILED" in told
+    return (None if "failed to fetch advisory database" in told and not checked else False), told
+
+
+def packages():
+    """The same of npm."""
+    options = ["--json", "--package-lock-only", "--fetch-retries=0", "--prefix=src/viewer"]
+    ran = run("npm", "audit", *options)
+    told = ran.stdout + ran.stderr
+    if ran.returncode == 0:
+        return True, told
+    try:
+        answer = json.loads(ran.stdout)
+    except json.JSONDecodeError:
+        return False, told
+    # A report is from who was reached. Without one: no answer at all, or that of a mirror that has no such database.
+    silent = answer.get("statusCode") in (None, 404, 405, 501, 502, 503, 504)
+    away = "auditReportVersion" not in answer and "audit endpoint returned an error" in ran.stderr and silent
+    return (None if away else False), told
+
+
+def main():
+    sound = True
+    for name, (none_found, told) in (("crates", crates(sys.argv[1])), ("npm packages", packages())):
+        if none_found:
+            print(f"{name}: no known faults")
+        elif none_found is None:
+            print(f"{name}: the database of advisories was not reached\n{told}")
+        else:
+            sound = False
+            print(f"{name}: faults\n{told}")
+    sys.exit(not sound)
+
+
+main()
