@@ -4,8 +4,10 @@ use std::fs;
 use std::path::PathBuf;
 
 use tempfile::TempDir;
+use verne_service::app::Service;
 
 use crate::cli::verne;
+use crate::http::settings;
 
 /// A file of settings; the directory lives as long as it is wanted.
 fn file(text: &str) -> (TempDir, PathBuf) {
@@ -66,9 +68,50 @@ fn what_makes_no_sense_is_refused_at_once() {
         ("listen = 'nowhere'", "listen: invalid value 'nowhere'"),
         ("listening = '127.0.0.1:80'", "listening: no setting has this name; did you mean listen?"),
         ("memory_only = true\ndata = '/somewhere'", "data and memory_only exclude each other"),
+        ("rate_burst = 5", "rate_burst needs rate"),
+        ("rate = 0\nrate_burst = 5", "rate_burst needs rate"),
+        ("broker_name = 'mine'", "broker_name needs broker"),
+        ("broker_replicas = 3", "broker_replicas needs broker"),
+        ("broker_ca = 'ca.pem'\nstore = 'file:///shared'", "broker_ca needs broker"),
     ] {
         let (_place, path) = file(setting);
         let error = verne(&format!("serve --config {} --print-config", path.display())).unwrap_err();
         assert!(error.contains(expected), "{setting}: {error}");
+    }
+}
+
+#[test]
+fn what_a_layer_above_takes_away_is_no_mistake() {
+    let (_place, path) = file("rate = 5\nrate_burst = 9");
+    let serve = format!("serve --config {} --print-config", path.display());
+    assert!(verne(&serve).is_ok());
+    assert!(verne(&format!("{serve} --rate 0")).is_ok());
+    assert!(verne("worker --broker nats://here --broker-name mine --print-config").is_ok());
+    assert!(
+        verne("worker --broker-name mine --print-config").unwrap_err().contains("broker_name needs broker")
+    );
+}
+
+#[tokio::test]
+async fn what_cannot_be_used_is_refused_by_its_key() {
+    let shared = TempDir::new().unwrap();
+    let with_broker = format!("--broker nats://127.0.0.1:1 --store file://{}", shared.path().display());
+    for (flags, expected) in [
+        ("--broker foo://me:secret@x:1 --store file:///nowhere".to_owned(), "broker: "),
+        ("--broker nats://127.0.0.1:1".to_owned(), "store: "),
+        (format!("{with_broker} --broker-name a.b"), "broker_name: \"a.b\""),
+        (format!("{with_broker} --broker-ca /nowhere"), "broker_ca: /nowhere: "),
+        (format!("{with_broker} --broker-nkey /nowhere"), "broker_nkey: /nowhere: "),
+        (format!("{with_broker} --broker-credentials /nowhere"), "broker_credentials: /nowhere: "),
+        (
+            format!("{with_broker} --broker-certificate /nowhere --broker-key /nowhere"),
+            "broker_certificate: /nowhere: ",
+        ),
+        ("--store gs://bucket".to_owned(), "store: gs://bucket "),
+        ("--store s3://".to_owned(), "store: s3:// "),
+        ("--data /proc/nowhere".to_owned(), "data: "),
+    ] {
+        let error = Service::open(&settings(&flags)).await.err().unwrap().to_string();
+        assert!(error.starts_with(expected) && !error.contains("secret"), "{flags}: {error}");
     }
 }

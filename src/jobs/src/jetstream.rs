@@ -35,6 +35,7 @@
 //! - A whole that waits while its worker is lost counts an attempt.
 //! - The clocks of the machines must agree as well as deadlines and the order of lists are to.
 
+mod access;
 mod bus;
 mod claims;
 mod client;
@@ -64,7 +65,7 @@ use claims::Stake;
 use client::Client;
 use record::Claimant;
 
-pub use config::{Config, ConnectError, WorkerConfig};
+pub use config::{Config, ConnectError, Setting, WorkerConfig};
 pub use worker::{Occupancy, Worker};
 
 /// How long the first reading of the records may take.

@@ -1,4 +1,5 @@
-//! What is told of each request: a span with its id, a line where it failed, and its share of the metrics.
+//! What is told of each request: a span with its id and who sent it, a line where it failed or its sender may not, and its
+//! share of the metrics.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -9,7 +10,7 @@ use axum::middleware::Next;
 use axum::response::Response;
 use opentelemetry::global;
 use opentelemetry_http::HeaderExtractor;
-use tracing::{Instrument, Span, debug, error, field, info_span};
+use tracing::{Instrument, Span, debug, error, field, info, info_span};
 use tracing_opentelemetry::OpenTelemetrySpanExt;
 
 use crate::metrics::Requests;
@@ -36,6 +37,7 @@ pub(crate) async fn observe(State(requests): State<Arc<Requests>>, request: Requ
         path = shortened(request.uri().path()),
         otel.name = format!("{method} {route}"),
         otel.kind = "server",
+        client = field::Empty,
         http.route = route,
         http.response.status_code = field::Empty,
     );
@@ -47,14 +49,23 @@ pub(crate) async fn observe(State(requests): State<Arc<Requests>>, request: Requ
     answering.end(status.as_u16(), latency);
     span.record("http.response.status_code", status.as_u16());
     span.in_scope(|| {
-        // Refusing is no failure, and must not be slowed down by telling of it: the metrics do.
-        if status.is_server_error() && status != StatusCode::SERVICE_UNAVAILABLE {
-            error!(status = status.as_u16(), ?latency, "failed");
-        } else {
-            debug!(status = status.as_u16(), ?latency, "answered");
+        match status {
+            StatusCode::UNAUTHORIZED | StatusCode::FORBIDDEN => {
+                info!(status = status.as_u16(), ?latency, "refused");
+            }
+            // Refusing for want of room is no failure, and must not be slowed down by telling of it: the metrics do.
+            status if status.is_server_error() && status != StatusCode::SERVICE_UNAVAILABLE => {
+                error!(status = status.as_u16(), ?latency, "failed");
+            }
+            _ => debug!(status = status.as_u16(), ?latency, "answered"),
         }
     });
     response
+}
+
+/// Who sends the request at hand, once that is known: the name of a key, or an address.
+pub(crate) fn sent_by(client: &str) {
+    Span::current().record("client", client);
 }
 
 /// Takes a client's own id of its request away if it is too long for the log.
@@ -76,5 +87,58 @@ fn continued(span: &Span, headers: &HeaderMap) {
         let caller = global::get_text_map_propagator(|known| known.extract(&HeaderExtractor(headers)));
         // Refused where nobody collects.
         drop(span.set_parent(caller));
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use std::net::SocketAddr;
+
+    use axum::body::Body;
+    use axum::extract::{ConnectInfo, Request};
+    use axum::http::header::AUTHORIZATION;
+    use clap::{Args, Command, FromArgMatches};
+    use serde_json::Value;
+    use tempfile::TempDir;
+    use tower::ServiceExt;
+
+    use crate::access::Key;
+    use crate::app::Service;
+    use crate::config::ServeConfig;
+    use crate::telemetry::logged::Logged;
+
+    #[tokio::test]
+    async fn a_refusal_tells_who_was_refused_and_no_secret() {
+        let (known, unknown) = (Key::fresh().unwrap(), Key::fresh().unwrap());
+        let place = TempDir::new().unwrap();
+        let keys = place.path().join("keys.toml");
+        let entry = format!("[[key]]\nname = 'ada'\nrole = 'read'\nhash = '{}'\n", known.hash());
+        std::fs::write(&keys, entry).unwrap();
+        let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
+        let config = ServeConfig::from_arg_matches(&command.get_matches_from(["--memory-only"])).unwrap();
+        let service = Service::open(&ServeConfig { keys: Some(keys), ..config }).await.unwrap();
+
+        let peer: SocketAddr = "10.0.0.7:4000".parse().unwrap();
+        for (key, path, refused) in [
+            (&unknown, "/machines", Some(("10.0.0.7", 401))),
+            (&known, "/workspace", Some(("ada", 403))),
+            (&known, "/machines", None),
+        ] {
+            let logged = Logged::begin();
+            let request = Request::get(format!("{path}?hidden=1"))
+                .header(AUTHORIZATION, format!("Bearer {key}"))
+                .extension(ConnectInfo(peer));
+            service.router.clone().oneshot(request.body(Body::empty()).unwrap()).await.unwrap();
+            let text = logged.text();
+            assert!(!text.contains(&key.to_string()) && !text.contains("hidden"), "{text}");
+            let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+            let told = |line: &Value| {
+                let client = line["span"]["client"].as_str().unwrap().to_owned();
+                (line["level"].to_string(), client, line["status"].as_u64().unwrap())
+            };
+            let expected = refused.map(|(client, status)| ("\"INFO\"".to_owned(), client.to_owned(), status));
+            assert_eq!(lines.iter().map(told).collect::<Vec<_>>(), Vec::from_iter(expected), "{text}");
+        }
     }
 }

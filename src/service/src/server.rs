@@ -9,6 +9,7 @@ mod places;
 mod terms;
 mod tls;
 
+pub(crate) use exposure::warn_of_probes;
 pub(crate) use terms::Terms;
 pub(crate) use tls::TlsError;
 

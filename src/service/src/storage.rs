@@ -20,13 +20,15 @@ use crate::tasks::Tasks;
 /// A job that was running when the process died so often is likely the cause.
 const ATTEMPTS: u32 = 10;
 
-pub(crate) use shared::{connect, open_store};
+pub(crate) use shared::open as open_shared;
 
 /// Why jobs and results cannot be kept.
 #[derive(Debug)]
 pub enum StorageError {
-    /// The results.
+    /// The results, in the directory for data.
     Results(verne_store::OpenError),
+    /// The results, where all processes reach them.
+    Store(verne_store::OpenError),
     /// The jobs.
     Jobs(embedded::OpenError),
     /// The thread that opened them was lost.
@@ -44,12 +46,14 @@ pub enum StorageError {
 impl fmt::Display for StorageError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Results(error) => error.fmt(f),
-            Self::Jobs(error) => write!(f, "jobs cannot be kept: {error}"),
+            Self::Results(error) => write!(f, "data: {error}"),
+            Self::Store(error) => write!(f, "store: {error}"),
+            Self::Jobs(error @ embedded::OpenError::Threads(_)) => write!(f, "job_threads: {error}"),
+            Self::Jobs(error) => write!(f, "data: jobs cannot be kept: {error}"),
             Self::Lost => write!(f, "jobs cannot be kept: opening them failed"),
             Self::NoStore => write!(f, "store: with a broker a store is needed that all processes reach"),
             Self::NoBroker => write!(f, "broker: jobs come from a broker; none is named"),
-            Self::Broker(error) => error.fmt(f),
+            Self::Broker(error) => write!(f, "{}: {error}", shared::key(error)),
             Self::BrokerMissing(waited) => {
                 write!(f, "broker: it did not answer for {} s", waited.as_secs())
             }
@@ -74,36 +78,43 @@ impl Storage {
     /// do, loudly.
     pub(crate) async fn open(config: &ServeConfig) -> Result<Self, StorageError> {
         if config.broker.broker.is_some() {
-            let results = open_store(&config.store, config.cache_bytes).await?;
-            let jobs = connect(&config.broker, config.queue).await?;
+            let opened = open_shared(&config.broker, &config.store, config.cache_bytes, config.queue);
+            let (results, jobs) = opened.await?;
             return Ok(Self { results, jobs, computations: Computations::default() });
         }
+        // Not by what falls back to memory: another directory would be of no use where the store is not.
+        let store = shared::open_store(&config.store, config.cache_bytes).await?;
         if config.memory_only {
             if let Some(directory) = &config.data {
                 tracing::warn!(data = %directory.display(), "not used: memory_only is set");
             }
-            return Self::open_in(config, None).await;
+            return Self::open_in(config, None, store).await;
         }
         if let Some(directory) = &config.data {
-            return Self::open_in(config, Some(directory)).await;
+            return Self::open_in(config, Some(directory), store).await;
         }
         let Some(directory) = dirs::data_dir().map(|data| data.join("verne")) else {
             tracing::warn!("there is no directory for data: jobs and results end with this process");
-            return Self::open_in(config, None).await;
+            return Self::open_in(config, None, store).await;
         };
-        match Self::open_in(config, Some(&directory)).await {
+        match Self::open_in(config, Some(&directory), store.clone()).await {
             Err(error) => {
                 tracing::warn!(%error, "jobs and results end with this process; --data names another directory");
-                Self::open_in(config, None).await
+                Self::open_in(config, None, store).await
             }
             opened => opened,
         }
     }
 
-    async fn open_in(config: &ServeConfig, directory: Option<&Path>) -> Result<Self, StorageError> {
+    /// `store`: where results are kept, if not in the directory.
+    async fn open_in(
+        config: &ServeConfig,
+        directory: Option<&Path>,
+        store: Option<Results>,
+    ) -> Result<Self, StorageError> {
         let below = |name| directory.map(|directory| directory.join(name));
-        let results = if config.store.store.is_some() {
-            open_store(&config.store, config.cache_bytes).await?
+        let results = if let Some(results) = store {
+            results
         } else {
             let kept = verne_store::Config {
                 directory: below("results"),

@@ -1,5 +1,8 @@
 //! What the process tells of itself while it runs: a log, and traces for those who collect them.
 
+#[cfg(test)]
+pub(crate) mod logged;
+
 use std::io::{IsTerminal, stderr};
 
 use clap::{Args, ValueEnum};

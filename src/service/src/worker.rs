@@ -21,7 +21,7 @@ use crate::handlers::service;
 use crate::layers;
 use crate::metrics::{Computations, Metrics};
 use crate::readiness::Readiness;
-use crate::server::{Server, Terms};
+use crate::server::{Server, Terms, warn_of_probes};
 use crate::signals::{outlive_hangups, told_to_stop};
 use crate::storage::{self, StorageError};
 use crate::tasks::Tasks;
@@ -40,10 +40,7 @@ struct Probed {
 pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
     let mut told = pin!(told_to_stop());
     let hangups = pin!(outlive_hangups(false));
-    let opening = async {
-        let results = storage::open_store(&config.store, config.cache_bytes).await?;
-        Ok((results, storage::connect(&config.broker, QUEUE).await?))
-    };
+    let opening = storage::open_shared(&config.broker, &config.store, config.cache_bytes, QUEUE);
     let (results, jobs) = tokio::select! {
         opened = opening => opened.map_err(StartError::Storage)?,
         () = &mut told => return Ok(()),
@@ -66,6 +63,7 @@ pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
             let listener = TcpListener::bind(address).await;
             let listener = listener.map_err(|error| StartError::Listen(address, error))?;
             tracing::info!("probes and metrics on http://{address}");
+            warn_of_probes(address.ip());
             Some(serve(listener, &Terms::of_probes(), probed, stopping.clone(), limit)?)
         }
         None => None,
@@ -119,8 +117,9 @@ mod tests {
     use tokio::net::{TcpListener, TcpStream};
     use tokio_util::sync::CancellationToken;
 
-    use super::{Probed, serve};
+    use super::{Probed, serve, work};
     use crate::config::ServeConfig;
+    use crate::config::worker::WorkerConfig;
     use crate::metrics::Metrics;
     use crate::readiness::Readiness;
     use crate::server::Terms;
@@ -163,5 +162,21 @@ mod tests {
         assert_eq!(answer(address, "PRI * HTTP/2.0").await, "");
         stopping.cancel();
         tokio::time::timeout(Duration::from_mins(1), serving).await.unwrap().unwrap();
+    }
+
+    #[tokio::test]
+    async fn what_is_missing_is_named() {
+        for (flags, expected) in [
+            ("", "broker: "),
+            ("--store file:///nowhere", "broker: "),
+            ("--broker nats://127.0.0.1:1", "store: "),
+            ("--broker http://127.0.0.1:1 --store file:///proc/nowhere", "broker: "),
+        ] {
+            let command = WorkerConfig::augment_args(Command::new("verne").no_binary_name(true));
+            let matches = command.get_matches_from(flags.split_whitespace());
+            let error =
+                work(&WorkerConfig::from_arg_matches(&matches).unwrap()).await.unwrap_err().to_string();
+            assert!(error.starts_with(expected), "{flags}: {error}");
+        }
     }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 use async_nats::jetstream::consumer::{AckPolicy, Consumer, pull};
 use async_nats::jetstream::stream::{self, DiscardPolicy, RetentionPolicy, Stream};
 use async_nats::jetstream::{self, Context, kv};
-use async_nats::{HeaderMap, ServerAddr, header};
+use async_nats::{HeaderMap, header};
 use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 
@@ -57,13 +57,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 
 impl Bus {
     pub(super) async fn connect(config: Config) -> Result<Self, ConnectError> {
-        let fits = |character: char| character.is_ascii_alphanumeric() || "-_".contains(character);
-        if config.name.is_empty() || !config.name.chars().all(fits) {
-            return Err(ConnectError::Name(config.name));
-        }
-        let servers = config.url.split(',').map(|server| server.trim().parse());
-        let servers = servers.collect::<Result<Vec<ServerAddr>, _>>().map_err(broker)?;
-        let options = config.options(&servers).await?;
+        let (options, servers) = config.access().await?;
         let client = options.connect(servers).await.map_err(broker)?;
         let mut context = jetstream::new(client.clone());
         context.set_timeout(PATIENCE);

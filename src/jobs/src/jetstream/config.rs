@@ -2,8 +2,6 @@ use std::fmt;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use async_nats::{ConnectOptions, ServerAddr};
-
 use super::bus::Line;
 use crate::embedded::Retention;
 
@@ -16,7 +14,7 @@ pub struct Config {
     pub credentials: Option<PathBuf>,
     /// A file with the seed of an nkey.
     pub nkey: Option<PathBuf>,
-    /// Certificates, in PEM, of who may have signed the broker's, beside the system's.
+    /// Certificates, in PEM, of who may have signed the broker's, in place of the system's.
     pub authorities: Option<PathBuf>,
     /// The client's certificate and its key, in PEM.
     pub certificate: Option<(PathBuf, PathBuf)>,
@@ -72,41 +70,6 @@ impl Config {
     pub(super) fn line(&self, cost: f64) -> Line {
         if cost <= self.small { Line::Small } else { Line::Large }
     }
-
-    pub(super) async fn options(&self, servers: &[ServerAddr]) -> Result<ConnectOptions, ConnectError> {
-        let unusable = |path: &PathBuf, fault: std::io::Error| ConnectError::Unusable {
-            path: path.clone(),
-            reason: fault.to_string(),
-        };
-        let mut options = ConnectOptions::new().name(&self.name);
-        if let Some(server) = servers.iter().find(|server| server.has_user_pass()) {
-            let text = |part: Option<&str>| part.unwrap_or_default().to_owned();
-            options = match server.password() {
-                Some(_) => options.user_and_password(text(server.username()), text(server.password())),
-                None => options.token(text(server.username())),
-            };
-        }
-        if let Some(path) = &self.credentials {
-            let text = read(path.clone()).await.map_err(|fault| unusable(path, fault))?;
-            options = options.credentials(&text).map_err(|fault| unusable(path, fault))?;
-        }
-        if let Some(path) = &self.nkey {
-            let seed = read(path.clone()).await.map_err(|fault| unusable(path, fault))?;
-            options = options.nkey(seed.trim().to_owned());
-        }
-        if let Some(path) = &self.authorities {
-            options = options.add_root_certificates(path.clone()).require_tls(true);
-        }
-        if let Some((certificate, key)) = &self.certificate {
-            options = options.add_client_certificate(certificate.clone(), key.clone()).require_tls(true);
-        }
-        Ok(options)
-    }
-}
-
-async fn read(path: PathBuf) -> std::io::Result<String> {
-    let read = tokio::task::spawn_blocking(move || std::fs::read_to_string(path));
-    read.await.unwrap_or_else(|fault| Err(std::io::Error::other(fault)))
 }
 
 /// How a worker runs jobs.
@@ -118,18 +81,35 @@ pub struct WorkerConfig {
     pub slots: usize,
 }
 
+/// What of a [`Config`] may be unusable by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// [`Config::url`].
+    Url,
+    /// [`Config::name`].
+    Name,
+    /// [`Config::credentials`].
+    Credentials,
+    /// [`Config::nkey`].
+    Nkey,
+    /// [`Config::authorities`].
+    Authorities,
+    /// The first of [`Config::certificate`].
+    Certificate,
+    /// The second of [`Config::certificate`], or it is another certificate's.
+    Key,
+}
+
 /// Why there is no back end.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ConnectError {
-    /// A file with a secret or certificate cannot be used.
+    /// A setting cannot be used, whatever the broker says.
     Unusable {
-        /// The file.
-        path: PathBuf,
+        /// Which.
+        setting: Setting,
         /// What is wrong with it.
         reason: String,
     },
-    /// [`Config::name`] has other characters.
-    Name(String),
     /// The broker is not there, refuses, or cannot keep jobs.
     Broker(String),
     /// Threads cannot be started.
@@ -139,8 +119,7 @@ pub enum ConnectError {
 impl fmt::Display for ConnectError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unusable { path, reason } => write!(f, "{}: {reason}", path.display()),
-            Self::Name(name) => write!(f, "{name:?}: a name of letters, digits, - and _ is needed"),
+            Self::Unusable { reason, .. } => f.write_str(reason),
             Self::Broker(reason) => write!(f, "the broker of jobs cannot be used: {reason}"),
             Self::Threads(reason) => write!(f, "threads for jobs cannot be started: {reason}"),
         }

@@ -1,6 +1,7 @@
 //! The threads that compute.
 
-use std::sync::Arc;
+use std::io;
+use std::sync::{Arc, Once};
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
@@ -32,10 +33,15 @@ pub(crate) fn seats(threads: usize, slots: usize, courtesy: i32) -> Result<Vec<S
 }
 
 fn seat(lane: Lane, threads: usize, name: String, courtesy: i32) -> Result<Seat, ThreadPoolBuildError> {
+    let told = Once::new();
     let pool = ThreadPoolBuilder::new()
         .num_threads(threads)
         .thread_name(move |thread| format!("{name}-{thread}"))
-        .start_handler(move |_| give_way(courtesy))
+        .start_handler(move |_| {
+            if let Err(fault) = give_way(courtesy) {
+                told.call_once(|| tracing::warn!(%fault, "threads for jobs have the priority of all others"));
+            }
+        })
         // What the work spawns apart from its own run; rayon would end the process.
         .panic_handler(|_| tracing::error!("a task that a job had spawned panicked"))
         .build()?;
@@ -44,11 +50,11 @@ fn seat(lane: Lane, threads: usize, name: String, courtesy: i32) -> Result<Seat,
 
 /// On Linux each thread has a niceness of its own; elsewhere the process has one, and keeps it.
 #[cfg(target_os = "linux")]
-fn give_way(courtesy: i32) {
-    if let Err(fault) = rustix::process::nice(courtesy) {
-        tracing::debug!(%fault, "a thread for jobs has the priority of all others");
-    }
+fn give_way(courtesy: i32) -> io::Result<()> {
+    Ok(rustix::process::nice(courtesy).map(drop)?)
 }
 
 #[cfg(not(target_os = "linux"))]
-fn give_way(_: i32) {}
+fn give_way(_: i32) -> io::Result<()> {
+    Ok(())
+}

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use tempfile::TempDir;
 use verne_jobs::JetStream;
-use verne_jobs::jetstream::{Config, ConnectError};
+use verne_jobs::jetstream::{Config, ConnectError, Setting};
 
 use crate::broker::Broker;
 
@@ -34,15 +34,58 @@ async fn a_key_lets_in() {
     assert!(JetStream::connect(Config { nkey: Some(seed.clone()), ..config.clone() }).await.is_ok());
     fs::remove_file(&seed).unwrap();
     let missing = JetStream::connect(Config { nkey: Some(seed.clone()), ..config }).await.err();
-    assert!(matches!(missing, Some(ConnectError::Unusable { path, .. }) if path == seed));
+    assert!(matches!(missing, Some(ConnectError::Unusable { setting: Setting::Nkey, .. })));
 }
 
 #[tokio::test]
 async fn what_cannot_be_is_told() {
     let nowhere = Config::at("nats://127.0.0.1:1");
+    assert_eq!(nowhere.check().await, Ok(()));
     assert!(matches!(JetStream::connect(nowhere.clone()).await.err(), Some(ConnectError::Broker(_))));
     let name = Config { name: "a.b".to_owned(), ..nowhere };
-    assert_eq!(JetStream::connect(name).await.err(), Some(ConnectError::Name("a.b".to_owned())));
+    assert_unusable(name, Setting::Name, "a.b").await;
+    for url in ["", "http://one", "nats://", "nats://me:secret@one:port", "nats://one,foo://me:secret@two"] {
+        assert_unusable(Config::at(url), Setting::Url, "nats://HOST").await;
+    }
+}
+
+/// Connecting says so as well, rather than that the broker is not there.
+async fn assert_unusable(config: Config, unusable: Setting, told: &str) {
+    let Some(ConnectError::Unusable { setting, reason }) = JetStream::connect(config.clone()).await.err()
+    else {
+        panic!("{config:?}")
+    };
+    assert_eq!(setting, unusable, "{reason}");
+    assert!(reason.contains(told) && !reason.contains("secret"), "{reason}");
+    assert_eq!(config.check().await, Err(ConnectError::Unusable { setting, reason }));
+}
+
+#[tokio::test]
+async fn files_that_cannot_be_used_are_told() {
+    let directory = TempDir::new().unwrap();
+    let directory = directory.path();
+    certify(directory, "one", None);
+    certify(directory, "two", None);
+    let path = |name: &str| directory.join(name);
+    fs::write(path("empty"), "").unwrap();
+    let nowhere = Config::at("nats://127.0.0.1:1");
+    let pair =
+        |certificate, key| Config { certificate: Some((path(certificate), path(key))), ..nowhere.clone() };
+    for file in ["missing", "empty", "one.key"] {
+        let with = Some(path(file));
+        let authorities = Config { authorities: with.clone(), ..nowhere.clone() };
+        assert_unusable(authorities, Setting::Authorities, file).await;
+        let nkey = Config { nkey: with.clone(), ..nowhere.clone() };
+        assert_unusable(nkey, Setting::Nkey, file).await;
+        let credentials = Config { credentials: with, ..nowhere.clone() };
+        assert_unusable(credentials, Setting::Credentials, file).await;
+        assert_unusable(pair(file, "one.key"), Setting::Certificate, file).await;
+    }
+    for file in ["missing", "empty", "one.pem", "two.key"] {
+        assert_unusable(pair("one.pem", file), Setting::Key, file).await;
+    }
+    let usable = Config { authorities: Some(path("two.pem")), ..pair("one.pem", "one.key") };
+    assert_eq!(usable.check().await, Ok(()));
 }
 
 /// Makes `NAME.pem` and `NAME.key`, signed by `ca`, or by itself.

@@ -20,6 +20,7 @@ use super::role::Role;
 use crate::admission::{Admission, Load};
 use crate::config::ServeConfig;
 use crate::error::Error;
+use crate::observe::sent_by;
 use crate::state::Shared;
 
 /// Who may use a route where the service has keys, and what it is to the service.
@@ -98,12 +99,17 @@ impl Gate {
         let limited = load != Load::Watch;
         let Some(keys) = self.keys.as_ref().filter(|_| needed.is_some()) else {
             let (client, bounded) = address(extensions);
+            sent_by(&client);
             self.addresses.iter().filter(|_| limited).try_for_each(|addresses| addresses.take(&client))?;
             let role = if self.keys.is_some() { Role::Read } else { Role::Admin };
             return Ok(Caller { client, role, bounded });
         };
-        let sent = headers.typed_get::<Authorization<Bearer>>().ok_or(Error::Unauthorized)?;
-        let holder = keys.holder(sent.token()).ok_or(Error::Unauthorized)?;
+        let sent = headers.typed_get::<Authorization<Bearer>>();
+        let Some(holder) = sent.and_then(|sent| keys.holder(sent.token())) else {
+            sent_by(&address(extensions).0);
+            return Err(Error::Unauthorized);
+        };
+        sent_by(&holder.name);
         holder.bucket.iter().filter(|_| limited).try_for_each(Bucket::take)?;
         Ok(Caller { client: holder.name.clone(), role: holder.role, bounded: true })
     }

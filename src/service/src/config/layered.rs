@@ -22,8 +22,8 @@ pub(crate) struct Read {
     pub printed: Option<String>,
 }
 
-/// A layer of settings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A layer of settings; the greater goes before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Layer {
     /// Nothing was said.
     Default,

@@ -8,7 +8,7 @@ use clap::{Args, value_parser};
 #[derive(Clone, Debug, Default, Args)]
 pub struct BrokerConfig {
     /// Broker of jobs, NATS with `JetStream`: nats://HOST:4222 or tls://HOST:4222, several of a cluster with commas between.
-    /// Jobs then run in `verne worker`. Needs --store.
+    /// `verne serve` puts jobs there, and each `verne worker` takes some to run. Needs --store.
     #[arg(long, env = "VERNE_BROKER", value_name = "URL", hide_env_values = true)]
     pub broker: Option<String>,
     /// Begins the names of what is kept at the broker; the same in all processes of one service.
@@ -24,7 +24,7 @@ pub struct BrokerConfig {
     /// File with the seed of an nkey for the broker.
     #[arg(long, env = "VERNE_BROKER_NKEY", value_name = "FILE")]
     pub broker_nkey: Option<PathBuf>,
-    /// Certificates, in PEM, of who may have signed the broker's, beside the system's.
+    /// Certificates, in PEM, of who may have signed the broker's, in place of the system's.
     #[arg(long, env = "VERNE_BROKER_CA", value_name = "FILE")]
     pub broker_ca: Option<PathBuf>,
     /// Certificate, in PEM, that is shown to the broker; with --broker-key.
@@ -39,7 +39,7 @@ pub struct BrokerConfig {
 #[derive(Clone, Debug, Default, Args)]
 pub struct StoreConfig {
     /// Store of results that all processes reach: s3://BUCKET/PREFIX (endpoint, region and credentials from `AWS_*`) or
-    /// file:///SHARED/DIRECTORY. Nothing in it is ever removed by the service.
+    /// file:///SHARED/DIRECTORY. The service removes no sound result from it, only damaged ones and what it writes as a trial.
     #[arg(long, env = "VERNE_STORE", value_name = "URL")]
     pub store: Option<String>,
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use verne_jobs::JetStream;
-use verne_jobs::jetstream::{self, ConnectError};
+use verne_jobs::jetstream::{self, ConnectError, Setting};
 use verne_store::Store;
 
 use super::{ATTEMPTS, StorageError};
@@ -20,17 +20,32 @@ const PATIENCE: Duration = Duration::from_mins(1);
 /// How soon it is tried again.
 const RETRY: Duration = Duration::from_secs(1);
 
-/// Opens the store that the settings name.
-pub(crate) async fn open_store(config: &StoreConfig, memory_bytes: u64) -> Result<Results, StorageError> {
-    let url = config.store.as_ref().ok_or(StorageError::NoStore)?;
-    let store = Store::open_shared(url, memory_bytes).await.map_err(StorageError::Results)?;
-    tracing::info!("results are kept in {url}");
-    Ok(Results::new(store))
+/// Connects to the broker and opens the store that the settings name. What of the broker's cannot be used is told before
+/// either is waited for.
+pub(crate) async fn open(
+    broker: &BrokerConfig,
+    store: &StoreConfig,
+    memory_bytes: u64,
+    queue: usize,
+) -> Result<(Results, Arc<JetStream>), StorageError> {
+    let broker = settings(broker, queue)?;
+    broker.check().await.map_err(StorageError::Broker)?;
+    let results = open_store(store, memory_bytes).await?.ok_or(StorageError::NoStore)?;
+    Ok((results, connect(broker).await?))
 }
 
-/// Connects to the broker that the settings name.
-pub(crate) async fn connect(config: &BrokerConfig, queue: usize) -> Result<Arc<JetStream>, StorageError> {
-    let config = settings(config, queue)?;
+/// Opens the store that the settings name, if they name one.
+pub(super) async fn open_store(
+    config: &StoreConfig,
+    memory_bytes: u64,
+) -> Result<Option<Results>, StorageError> {
+    let Some(url) = &config.store else { return Ok(None) };
+    let store = Store::open_shared(url, memory_bytes).await.map_err(StorageError::Store)?;
+    tracing::info!("results are kept in {url}");
+    Ok(Some(Results::new(store)))
+}
+
+async fn connect(config: jetstream::Config) -> Result<Arc<JetStream>, StorageError> {
     let connected = async {
         loop {
             match JetStream::connect(config.clone()).await {
@@ -61,4 +76,21 @@ fn settings(config: &BrokerConfig, queue: usize) -> Result<jetstream::Config, St
         max_attempts: ATTEMPTS,
         ..jetstream::Config::at(url)
     })
+}
+
+/// The key of what cannot be used.
+pub(super) fn key(error: &ConnectError) -> &'static str {
+    match error {
+        ConnectError::Unusable { setting, .. } => match setting {
+            Setting::Url => "broker",
+            Setting::Name => "broker_name",
+            Setting::Credentials => "broker_credentials",
+            Setting::Nkey => "broker_nkey",
+            Setting::Authorities => "broker_ca",
+            Setting::Certificate => "broker_certificate",
+            Setting::Key => "broker_key",
+        },
+        ConnectError::Broker(_) => "broker",
+        ConnectError::Threads(_) => "job_threads",
+    }
 }
