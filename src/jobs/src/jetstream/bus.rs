@@ -4,8 +4,9 @@ use std::fmt::Display;
 use std::time::Duration;
 
 use async_nats::jetstream::consumer::{AckPolicy, Consumer, pull};
+use async_nats::jetstream::context::GetStreamErrorKind;
 use async_nats::jetstream::stream::{self, DiscardPolicy, RetentionPolicy, Stream};
-use async_nats::jetstream::{self, Context, kv};
+use async_nats::jetstream::{self, Context, ErrorCode, kv};
 use async_nats::{HeaderMap, header};
 use bytes::Bytes;
 use serde::{Deserialize, Serialize};
@@ -61,13 +62,22 @@ impl Bus {
         let client = options.connect(servers).await.map_err(broker)?;
         let mut context = jetstream::new(client.clone());
         context.set_timeout(PATIENCE);
-        let records = context.create_or_update_key_value(records(&config)).await.map_err(broker)?;
-        let stream = context.create_or_update_stream(queue(&config)).await.map_err(broker)?;
-        let queue = context.get_stream(stream.config.name).await.map_err(broker)?;
-        for line in Line::ALL {
-            queue.create_consumer(consumer(&config, line)).await.map_err(broker)?;
-        }
+        let (records, queue) = prepare(&context, &config).await?;
         Ok(Self { client, config, records, queue, context })
+    }
+
+    /// Of the records; `None`: the broker has none, its directory was lost, or another took its place.
+    pub(super) async fn last_revision(&self) -> Result<Option<u64>, String> {
+        match self.context.get_stream(&self.records.stream_name).await {
+            Ok(stream) => Ok(Some(stream.cached_info().state.last_sequence)),
+            Err(fault) if is_missing(&fault.kind()) => Ok(None),
+            Err(fault) => Err(fault.to_string()),
+        }
+    }
+
+    /// Makes a broker that has lost all ready again.
+    pub(super) async fn begin_anew(&self) -> Result<(), String> {
+        prepare(&self.context, &self.config).await.map(drop).map_err(|fault| fault.to_string())
     }
 
     /// Its name, and the id of the job in each of its messages.
@@ -169,6 +179,21 @@ impl Bus {
         let subject = format!("{}.{subject}", self.config.name);
         drop(self.client.publish(subject, payload.into()).await);
     }
+}
+
+/// Makes what is kept at the broker, where it is not there as it should be.
+async fn prepare(context: &Context, config: &Config) -> Result<(kv::Store, Stream), ConnectError> {
+    let records = context.create_or_update_key_value(records(config)).await.map_err(broker)?;
+    let stream = context.create_or_update_stream(queue(config)).await.map_err(broker)?;
+    let queue = context.get_stream(stream.config.name).await.map_err(broker)?;
+    for line in Line::ALL {
+        queue.create_consumer(consumer(config, line)).await.map_err(broker)?;
+    }
+    Ok((records, queue))
+}
+
+fn is_missing(fault: &GetStreamErrorKind) -> bool {
+    matches!(fault, GetStreamErrorKind::JetStream(told) if told.error_code() == ErrorCode::STREAM_NOT_FOUND)
 }
 
 /// What a message says: for which life of its job it is, and for which turn in the queue.

@@ -71,15 +71,15 @@ async fn follow(client: &Client, caught_up: &watch::Sender<bool>) -> Result<Infa
     }
 }
 
-/// Of the records. If this process has heard of a later one, the broker has lost its records and begun anew: then what was
-/// heard is worth nothing, and would hide what comes.
+/// Of the records. If this process has heard of a later one, the broker has begun anew: then what was heard is worth nothing,
+/// and would hide what comes.
 async fn last_revision(client: &Client) -> Result<u64, String> {
-    let info = client.bus.records.stream.get_info().await.map_err(|fault| fault.to_string())?;
-    let last = info.state.last_sequence;
-    if client.mirror.begin_anew_after(last) {
-        return Err("the broker has lost its records".to_owned());
+    let last = client.bus.last_revision().await?;
+    let lost = client.mirror.begin_anew_after(last.unwrap_or(0));
+    if last.is_none() {
+        client.bus.begin_anew().await?;
     }
-    Ok(last)
+    if lost { Err("the broker has lost its records".to_owned()) } else { Ok(last.unwrap_or(0)) }
 }
 
 fn catch_up(client: &Client, caught_up: &watch::Sender<bool>) {

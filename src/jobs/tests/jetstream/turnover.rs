@@ -109,6 +109,30 @@ async fn who_goes_away_early_leaves_nothing_behind() {
     .await;
 }
 
+/// Nobody comes who would make it ready.
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
+async fn a_broker_that_begins_anew_is_made_ready_by_who_is_there() {
+    within_a_minute(async {
+        let mut broker = Broker::start();
+        let api = broker.connect().await;
+        let stage = Arc::new(Stage::default());
+        let _worker = worker(&api, &stage);
+        api.submit(job("ada", "before", "pass")).await.unwrap().finished().await;
+        broker.kill();
+        broker.forget();
+        broker.restart();
+        let claim = loop {
+            if let Ok(claim) = api.submit(job("ada", "after", "pass")).await {
+                break claim;
+            }
+            tokio::time::sleep(Duration::from_millis(100)).await;
+        };
+        assert_eq!(claim.finished().await.state, State::Succeeded);
+    })
+    .await;
+}
+
 /// Its directory was lost, or another took its place.
 #[tokio::test(flavor = "multi_thread")]
 #[ignore = "needs a broker: VERNE_NATS_SERVER=$(tests/nats-server) cargo test -- --include-ignored"]
