@@ -31,8 +31,11 @@ pub trait Backend: Send + Sync {
     /// Of a finished job, or for who is no client of it, all stays as it is. Returns the job as it stands after that.
     async fn leave(&self, id: JobId, client: &str) -> Result<Option<Job>, Unavailable>;
 
-    /// Whether what keeps the records answers, as far as is known without asking it.
-    fn reachable(&self) -> Result<(), Unavailable>;
+    /// Whether what keeps the records takes them, as far as is known without asking it, or by a question that costs little.
+    async fn reachable(&self) -> Result<(), Unavailable>;
+
+    /// Whether other processes have the same jobs.
+    fn is_shared(&self) -> bool;
 
     /// Since this back end was opened.
     fn counts(&self) -> Counts;
@@ -115,6 +118,15 @@ pub struct Counts {
     pub failed: u64,
     /// Ends.
     pub cancelled: u64,
+}
+
+/// Where jobs run in this process, the express lane among them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Seats {
+    /// There are so many.
+    pub all: usize,
+    /// In so many a job runs.
+    pub busy: usize,
 }
 
 /// Why a job was not taken.

@@ -24,8 +24,8 @@ use tokio::time::timeout;
 use crate::threads::pools;
 use crate::threads::run::Told;
 use crate::{
-    Backend, Claim, Counts, Cursor, Filter, Job, JobId, Page, Submission, SubmitError, Unavailable, Watcher,
-    Work,
+    Backend, Claim, Counts, Cursor, Filter, Job, JobId, Page, Seats, Submission, SubmitError, Unavailable,
+    Watcher, Work,
 };
 use board::Board;
 use keeper::Keeper;
@@ -51,6 +51,7 @@ pub struct Embedded {
     keeper: Arc<Keeper>,
     readers: Semaphore,
     set_aside: Option<PathBuf>,
+    seats: usize,
 }
 
 impl Embedded {
@@ -63,6 +64,7 @@ impl Embedded {
             .map_err(|fault| OpenError::Threads(fault.to_string()))?;
         let threads = |fault: std::io::Error| OpenError::Threads(fault.to_string());
         let recorder = Recorder::start(records).map_err(threads)?;
+        let places = seats.len();
         let board = Board::new(Queue::new(config.rule()), seats, last_life, given_up);
         let keeper = Arc::new(Keeper::new(board, recorder, config, work));
         let deadlines = Arc::clone(&keeper);
@@ -71,12 +73,18 @@ impl Embedded {
             .spawn(move || deadlines.watch_deadlines())
             .map_err(threads)?;
         keeper.resume(live);
-        Ok(Self { keeper, readers: Semaphore::new(READERS), set_aside })
+        Ok(Self { keeper, readers: Semaphore::new(READERS), set_aside, seats: places })
     }
 
     /// Where a damaged database was put when this one was begun in its place; its jobs are lost.
     pub fn set_aside(&self) -> Option<&Path> {
         self.set_aside.as_deref()
+    }
+
+    /// How busy it is.
+    pub fn seats(&self) -> Seats {
+        let free = self.keeper.board.lock().free.len();
+        Seats { all: self.seats, busy: self.seats.saturating_sub(free) }
     }
 
     async fn read<T: Send + 'static>(
@@ -162,9 +170,17 @@ impl Backend for Embedded {
         }
     }
 
-    /// It is in this process.
-    fn reachable(&self) -> Result<(), Unavailable> {
-        Ok(())
+    /// As the last changes went. After one that was refused as much is written anew, so that it is known when there is room
+    /// again though nobody submits anything.
+    async fn reachable(&self) -> Result<(), Unavailable> {
+        if !self.keeper.recorder.is_failing() {
+            return Ok(());
+        }
+        self.read(self.keeper.recorder.probe()).await
+    }
+
+    fn is_shared(&self) -> bool {
+        false
     }
 
     fn counts(&self) -> Counts {
@@ -200,5 +216,61 @@ impl Embedded {
 impl Drop for Embedded {
     fn drop(&mut self) {
         self.stop();
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use std::sync::Arc;
+
+    use bytes::Bytes;
+    use tempfile::TempDir;
+
+    use super::{Config, Embedded};
+    use crate::{Backend, JobId, Stop, Submission, SubmitError, Watch, Work};
+
+    struct Nothing;
+
+    impl Work for Nothing {
+        fn run(&self, _: &JobId, _: &[u8], _: &dyn Watch) -> Result<(), Stop> {
+            Ok(())
+        }
+    }
+
+    fn submission(number: u8) -> Submission {
+        let (id, payload) = (JobId::from_bytes([number; 32]), Bytes::from_static(b"{}"));
+        Submission { id, client: String::new(), cost: 1.0, payload, deadline: None }
+    }
+
+    async fn refuse_writes(jobs: &Embedded, refuse: bool) {
+        jobs.read(move |records| records.refuse_writes(refuse)).await.unwrap();
+    }
+
+    #[tokio::test]
+    async fn a_disk_that_takes_nothing_is_told_until_it_does_again() {
+        let directory = TempDir::new().unwrap();
+        let jobs = Embedded::open(Config::in_directory(directory.path()), Arc::new(Nothing)).unwrap();
+        assert_eq!(jobs.reachable().await, Ok(()));
+        refuse_writes(&jobs, true).await;
+        let refused = jobs.submit(submission(1)).await.map(drop).unwrap_err();
+        assert!(matches!(refused, SubmitError::Unavailable(_)), "{refused}");
+        for _ in 0..2 {
+            assert!(jobs.reachable().await.is_err());
+        }
+        // Nobody submits anything.
+        refuse_writes(&jobs, false).await;
+        assert_eq!(jobs.reachable().await, Ok(()));
+    }
+
+    #[tokio::test]
+    async fn what_is_recorded_ends_the_failure() {
+        let jobs = Embedded::open(Config::default(), Arc::new(Nothing)).unwrap();
+        refuse_writes(&jobs, true).await;
+        jobs.submit(submission(1)).await.map(drop).unwrap_err();
+        refuse_writes(&jobs, false).await;
+        assert!(jobs.keeper.recorder.is_failing());
+        jobs.submit(submission(2)).await.unwrap();
+        assert!(!jobs.keeper.recorder.is_failing());
     }
 }

@@ -166,7 +166,11 @@ impl Backend for JetStream {
         self.client.leave(id, client).await
     }
 
-    fn reachable(&self) -> Result<(), Unavailable> {
+    fn is_shared(&self) -> bool {
+        true
+    }
+
+    async fn reachable(&self) -> Result<(), Unavailable> {
         match self.client.bus.client.connection_state() {
             State::Connected => Ok(()),
             _ => Err(Unavailable("the broker is not connected".to_owned())),

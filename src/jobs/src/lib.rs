@@ -54,7 +54,7 @@ mod moment;
 mod threads;
 mod work;
 
-pub use backend::{Backend, Counts, Cursor, Filter, NotACursor, Page, SubmitError, Unavailable};
+pub use backend::{Backend, Counts, Cursor, Filter, NotACursor, Page, Seats, SubmitError, Unavailable};
 pub use claim::Claim;
 pub use clients::Clients;
 pub use embedded::Embedded;

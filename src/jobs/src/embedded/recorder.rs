@@ -1,9 +1,11 @@
 //! The thread that owns the database: makes the changes of many callers durable at one go.
 
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::Duration;
 
+use parking_lot::Mutex;
 use tokio::sync::oneshot;
 
 use super::records::{Records, Write};
@@ -30,18 +32,31 @@ enum Request {
     Close(Closed),
 }
 
+/// Changes that could not be made durable.
+#[derive(Clone, Debug)]
+struct Refused {
+    fault: Unavailable,
+    /// Bytes of the largest of them.
+    bytes: usize,
+}
+
+/// What could not be written, until as much could.
+type LastRefused = Arc<Mutex<Option<Refused>>>;
+
 /// Requests are served in the order in which they were made. Their number is bounded by those who make them: jobs, by the
 /// bound of the queue, and readers, by a semaphore.
 pub(super) struct Recorder {
     requests: Sender<Request>,
+    last: LastRefused,
 }
 
 impl Recorder {
     pub(super) fn start(records: Records) -> std::io::Result<Self> {
         let (requests, receiver) = mpsc::channel();
-        let server = Server { records, failed: Vec::new() };
+        let last = LastRefused::default();
+        let server = Server { records, failed: Vec::new(), last: Arc::clone(&last) };
         thread::Builder::new().name("jobs-recorder".to_owned()).spawn(move || server.serve(&receiver))?;
-        Ok(Self { requests })
+        Ok(Self { requests, last })
     }
 
     /// A reply that is dropped and not called: the database was closed before.
@@ -58,6 +73,23 @@ impl Recorder {
         let request = Request::Read(Box::new(move |records| drop(sender.send(read(records)))));
         self.requests.send(request).map_err(|_| closed())?;
         receiver.await.unwrap_or_else(|_| Err(closed()))
+    }
+
+    /// Whether a change was refused, and none as large was made since.
+    pub(super) fn is_failing(&self) -> bool {
+        self.last.lock().is_some()
+    }
+
+    /// For [`Recorder::read`], where a change was refused: whether as much could be written now.
+    pub(super) fn probe(&self) -> impl FnOnce(&Records) -> Result<(), Unavailable> + Send + 'static {
+        let last = Arc::clone(&self.last);
+        move |records| {
+            // What was written meanwhile may have told.
+            let Some(refused) = last.lock().clone() else { return Ok(()) };
+            records.probe(refused.bytes).map_err(|_| refused.fault)?;
+            *last.lock() = None;
+            Ok(())
+        }
     }
 
     /// Makes what was asked before durable, and closes the database.
@@ -77,6 +109,7 @@ struct Server {
     records: Records,
     /// Ends of jobs that could not be recorded; tried again until they can.
     failed: Vec<(Box<Write>, Reply)>,
+    last: LastRefused,
 }
 
 impl Server {
@@ -121,6 +154,9 @@ impl Server {
             return;
         }
         let results = self.records.write(&writes.iter().map(|(write, _)| write.as_ref()).collect::<Vec<_>>());
+        let mut last = self.last.lock();
+        *last = after(last.take(), &writes, &results);
+        drop(last);
         for ((write, reply), result) in writes.into_iter().zip(results) {
             match (write.as_ref(), result) {
                 (Write::Finish { .. }, Err(fault)) => {
@@ -140,5 +176,21 @@ impl Server {
         if let Err(fault) = self.records.forget() {
             tracing::warn!(%fault, "old jobs are not forgotten yet");
         }
+    }
+}
+
+/// What is known after another writing. One that was smaller than what was refused proves nothing.
+fn after(
+    before: Option<Refused>,
+    writes: &[(Box<Write>, Reply)],
+    results: &[Result<(), Unavailable>],
+) -> Option<Refused> {
+    let bytes = writes.iter().map(|(write, _)| write.bytes()).max().unwrap_or_default();
+    match results.iter().find_map(|result| result.clone().err()) {
+        Some(fault) => {
+            let larger = before.map_or(bytes, |before| before.bytes.max(bytes));
+            Some(Refused { fault, bytes: larger })
+        }
+        None => before.filter(|before| before.bytes > bytes),
     }
 }

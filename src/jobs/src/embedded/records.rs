@@ -14,6 +14,9 @@ use crate::{Clients, Filter, Job, JobId, State, Unavailable};
 
 pub(super) use open::{Opened, open};
 
+/// More than the bytes of the pages that a change writes beside its payload's.
+const PAGES: usize = 32 * 1024;
+
 /// A job with what is not told about it.
 #[derive(Clone, Debug)]
 pub(super) struct Record {
@@ -63,6 +66,16 @@ pub(super) enum Write {
     },
 }
 
+impl Write {
+    /// Bytes that it has for itself.
+    pub(super) fn bytes(&self) -> usize {
+        match self {
+            Self::Submit(record) => record.job.payload.len(),
+            _ => 0,
+        }
+    }
+}
+
 /// What is kept of finished jobs.
 #[derive(Clone, Copy, Debug)]
 pub struct Retention {
@@ -107,6 +120,20 @@ impl Records {
         }
         transaction.commit()?;
         Ok(results)
+    }
+
+    /// Writes as much as a change that has so many bytes for itself, and its pages around them.
+    pub(super) fn probe(&self, bytes: usize) -> Result<(), Unavailable> {
+        let bytes = i64::try_from(bytes.saturating_add(PAGES)).unwrap_or(i64::MAX);
+        let written = self.connection.execute(schema::PROBE, [bytes]);
+        written.map(drop).map_err(|fault| Unavailable(fault.to_string()))
+    }
+
+    /// As a disk that takes nothing, or does again.
+    #[cfg(test)]
+    pub(super) fn refuse_writes(&self, refuse: bool) -> Result<(), Unavailable> {
+        let refused = self.connection.pragma_update(None, "query_only", refuse);
+        refused.map_err(|fault| Unavailable(fault.to_string()))
     }
 
     /// Forgets finished jobs that are not to be kept.

@@ -47,10 +47,8 @@ struct Desk {
 /// How busy a worker is, and what has come to it twice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Occupancy {
-    /// Places for jobs, the express lane's among them.
-    pub seats: usize,
-    /// Those in which a job runs.
-    pub busy: usize,
+    /// Where jobs run.
+    pub seats: crate::Seats,
     /// Jobs that the broker had given to a worker before, which was lost or stopped answering.
     pub redelivered: u64,
     /// Jobs that this worker gave back to the queue unfinished.
@@ -96,8 +94,7 @@ impl Worker {
     pub fn occupancy(&self) -> impl Fn() -> Occupancy + Send + Sync + 'static {
         let desk = Arc::clone(&self.desk);
         move || Occupancy {
-            seats: desk.seats.all(),
-            busy: desk.seats.busy(),
+            seats: crate::Seats { all: desk.seats.all(), busy: desk.seats.busy() },
             redelivered: desk.redelivered.load(Ordering::Relaxed),
             handed_back: desk.handed_back.load(Ordering::Relaxed),
         }

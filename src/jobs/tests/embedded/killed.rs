@@ -114,6 +114,7 @@ async fn process_on_a_full_disk() {
         }
     };
     assert!(matches!(fault, SubmitError::Unavailable(_)), "{fault}");
+    assert!(stand.backend.reachable().await.is_err());
     assert_eq!(stand.backend.get(id(&taken.len().to_string())).await.unwrap(), None);
     stand.stage.open("running");
     assert_eq!(running.finished().await.state, State::Succeeded);

@@ -1,11 +1,12 @@
 //! Threads, places and bounds of the embedded back end.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use verne_jobs::embedded::Config;
-use verne_jobs::{Failure, State, Submission, SubmitError};
+use verne_jobs::{Backend, Embedded, Failure, Seats, State, Submission, SubmitError};
 
-use crate::stage::job;
+use crate::stage::{Stage, job};
 use crate::stand::{Stand, within_a_minute};
 
 async fn threads(stand: &Stand, name: &str, cost: f64) -> Option<Failure> {
@@ -55,6 +56,24 @@ async fn an_overdue_job_goes_first() {
             stand.stage.open("first");
             assert_eq!(stand.stage.begun(3).await[1..], order);
         }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_seat_is_busy_while_a_job_runs_there() {
+    within_a_minute(async {
+        let stage = Arc::new(Stage::default());
+        let config = Config { threads: 2, slots: 2, ..Config::default() };
+        let jobs = Embedded::open(config, stage.clone()).unwrap();
+        let free = Seats { all: 3, busy: 0 };
+        assert_eq!(jobs.seats(), free);
+        let claim = jobs.submit(job("ada", "a", "hold")).await.unwrap();
+        stage.begun(1).await;
+        assert_eq!(jobs.seats(), Seats { busy: 1, ..free });
+        stage.open("a");
+        claim.finished().await;
+        assert_eq!(jobs.seats(), free);
     })
     .await;
 }

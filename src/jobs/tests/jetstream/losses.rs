@@ -158,18 +158,18 @@ async fn a_lost_broker_is_told_and_found_again() {
         let _worker = worker(&api, &stage);
         let claim = api.submit(job("ada", "a", "hold")).await.unwrap();
         stage.begun(1).await;
-        assert_eq!(api.reachable(), Ok(()));
+        assert_eq!(api.reachable().await, Ok(()));
         broker.kill();
         let refused = api.submit(job("ada", "b", "pass")).await.unwrap_err();
         assert!(matches!(refused, SubmitError::Unavailable(_)), "{refused}");
-        assert!(api.reachable().is_err());
+        assert!(api.reachable().await.is_err());
         stage.open("a");
         stage.left(1).await;
         broker.restart();
         assert_eq!(claim.finished().await.state, State::Succeeded);
         submit(&api, job("ada", "b", "pass")).await;
         assert_eq!(end(&api, "b").await.state, State::Succeeded);
-        assert_eq!(api.reachable(), Ok(()));
+        assert_eq!(api.reachable().await, Ok(()));
     })
     .await;
 }

@@ -58,7 +58,7 @@ pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Healt
 
 /// Metrics
 ///
-/// In the text format of Prometheus: jobs and results.
+/// In the text format of Prometheus: requests, what is taken of every bound, jobs and results.
 #[utoipa::path(
     get, path = "/metrics", operation_id = "metrics", tag = "service",
     responses((status = 200, description = "The metrics.", content((Text = "application/openmetrics-text"))),

@@ -174,7 +174,7 @@ impl IntoResponses for JobProblems {
 
 impl IntoResponses for ReadyProblems {
     fn responses() -> Responses {
-        let words = "It is stopping, or the disk takes nothing (`stopping`, `disk_failing`).";
+        let words = "It is stopping, or the disk takes no results or no jobs (`stopping`, `disk_failing`, `jobs_unavailable`).";
         with(ServiceProblems::responses(), [documented(words, Error::DiskFailing)])
     }
 }

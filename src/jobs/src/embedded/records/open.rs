@@ -119,6 +119,7 @@ fn take_over(mut connection: Connection, retention: Retention, max_attempts: u32
     if is_new {
         transaction.execute_batch(schema::CREATE)?;
     }
+    transaction.execute_batch(schema::CREATE_PROBE)?;
     // Written each time: a disk that takes no writes is found now.
     transaction.pragma_update(None, "user_version", schema::VERSION)?;
     transaction.execute(schema::COUNT_CRASHES, [])?;

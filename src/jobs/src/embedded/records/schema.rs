@@ -28,6 +28,13 @@ CREATE INDEX finished ON jobs (finished) WHERE finished IS NOT NULL;
 CREATE INDEX live ON jobs (life) WHERE finished IS NULL;
 ";
 
+/// For [`PROBE`]: one row, whose bytes mean nothing.
+pub(super) const CREATE_PROBE: &str =
+    "CREATE TABLE IF NOT EXISTS probe (row INTEGER PRIMARY KEY, bytes BLOB) STRICT";
+
+/// Written anew each time.
+pub(super) const PROBE: &str = "INSERT OR REPLACE INTO probe VALUES (1, zeroblob(?1))";
+
 pub(super) const SUBMIT: &str = "
 INSERT OR REPLACE INTO jobs (life, id, client, clients, cost, payload, deadline, state, progress, created, attempts, hidden)
 VALUES (:life, :id, :client, :clients, :cost, :payload, :deadline, 'queued', 0.0, :created, 0,
