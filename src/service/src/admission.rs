@@ -3,12 +3,14 @@
 //! A request has a [`Place`] while it is worked on. Single questions may take all places, everything else three in four
 //! of them; so a question is not refused because others are computed. While a request waits for a job it gives its place
 //! back. Batches have a share of their own, from the end of their bodies until their answers are sent: those beyond what
-//! the worker threads do at once wait for them in order. Bodies that are still read, and answers on their way, are
+//! the worker threads do at once wait for them in order. So have meshes in formats that are not made yet, few of which are
+//! made at once. Bodies that are still read, and answers on their way, are
 //! counted by the memory that they have. Of each of these one client may have half. Where there is no place the answer is
 //! 503 at once.
 
 mod outgoing;
 mod shares;
+mod usage;
 
 use std::future::Future;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -18,13 +20,18 @@ use axum::http::Response;
 
 use crate::error::Error;
 use outgoing::Counted;
-pub(crate) use outgoing::with_share;
+pub(crate) use outgoing::{Own, with_share};
 pub(crate) use shares::Share;
 use shares::Shares;
+pub(crate) use usage::Usage;
 
 /// Most batches that wait, are computed or are sent; bodies have as much memory as so many of the largest: with the
 /// default limit half a gibibyte.
 const BATCHES: usize = 32;
+
+/// Most files of meshes that are made at once. While one of the largest is, it takes most of a gibibyte: the mesh as it is
+/// kept, the mesh, and the file.
+const MESHES: usize = 4;
 
 /// Most requests that wait for their jobs at once; each is some sixty kilobytes, most of them its connection's. One beyond
 /// them is answered the address of its job, as one that does not want to wait.
@@ -58,6 +65,10 @@ pub(crate) struct Admission {
     work: Arc<Shares>,
     bodies: Arc<Shares>,
     batches: Arc<Shares>,
+    /// Files of meshes that wait to be made, or are.
+    meshes: Arc<Shares>,
+    /// Those of them that are.
+    turns: Arc<Shares>,
     waiting: Arc<Shares>,
     streams: Arc<Shares>,
     outgoing: Arc<Shares>,
@@ -74,6 +85,8 @@ impl Admission {
             work: Shares::new(requests - requests / 4),
             bodies: Shares::new(bodies),
             batches: Shares::new(batches),
+            meshes: Shares::new(batches),
+            turns: Shares::new(MESHES),
             waiting: Shares::new(WAITING),
             streams: Shares::new(STREAMS),
             outgoing: Shares::new(OUTGOING),
@@ -98,6 +111,13 @@ impl Admission {
         self.batches.take(client)
     }
 
+    /// A mesh's turn to be made into a file; waits for it, in order.
+    pub(crate) async fn mesh(&self, client: Option<&str>) -> Result<Turn, Error> {
+        let share = self.meshes.take(client)?;
+        let turn = self.turns.wait(None).await.ok_or(Error::Internal)?;
+        Ok(Turn { _turn: turn, _share: share })
+    }
+
     /// A stream of events.
     pub(crate) fn stream(&self, client: Option<&str>) -> Result<Share, Error> {
         self.streams.take(client)
@@ -113,6 +133,13 @@ impl Admission {
             }
         }
     }
+}
+
+/// A mesh's turn, until it is dropped.
+#[derive(Debug)]
+pub(crate) struct Turn {
+    _turn: Share,
+    _share: Share,
 }
 
 fn pages(bytes: u64) -> usize {
@@ -166,7 +193,10 @@ impl Place {
 mod tests {
     use std::sync::Arc;
 
+    use futures_util::FutureExt;
+
     use super::{Admission, Load};
+    use crate::error::Error;
 
     fn free(admission: &Admission) -> (usize, usize) {
         (admission.all.left(), admission.work.left())
@@ -217,6 +247,25 @@ mod tests {
         other.hold(1_000_000).unwrap();
         drop(second);
         assert!(admission.body(Some("a")).is_ok());
+    }
+
+    #[tokio::test]
+    async fn few_meshes_are_made_at_once_and_the_others_wait_in_order() {
+        let admission = Admission::new(64, 1);
+        let mut turns = Vec::new();
+        for _ in 0..super::MESHES {
+            turns.push(admission.mesh(Some("a")).await.unwrap());
+        }
+        let mut waiting: Vec<_> =
+            (0..super::BATCHES / 2 - super::MESHES).map(|_| Box::pin(admission.mesh(Some("a")))).collect();
+        for turn in &mut waiting {
+            assert!(turn.as_mut().now_or_never().is_none());
+        }
+        assert_eq!(admission.mesh(Some("a")).await.unwrap_err(), Error::Overloaded);
+        assert!(admission.mesh(Some("b")).now_or_never().is_none(), "others have the other half");
+        drop(turns.pop());
+        assert!(waiting[1].as_mut().now_or_never().is_none());
+        assert!(waiting[0].as_mut().now_or_never().is_some());
     }
 
     #[test]

@@ -70,7 +70,7 @@ pub struct Service {
     pub router: Router,
     /// Answers when all connections are taken.
     probes: Router,
-    state: Shared,
+    pub(crate) state: Shared,
     gate: Gate,
 }
 
@@ -84,11 +84,15 @@ impl Service {
         let admission = Admission::new(config.max_requests, config.max_body_bytes);
         let gate = Gate::open(config, Arc::clone(&admission)).await.map_err(StartError::Keys)?;
         let (routes, _) = router::routes(&gate).split_for_parts();
-        let Storage { results, jobs, computations } =
+        let Storage { results, jobs, runs, computations } =
             Storage::open(config).await.map_err(StartError::Storage)?;
         let stopping = CancellationToken::new();
         let readiness = Readiness::new(results.clone(), Arc::clone(&jobs), stopping.clone());
-        let metrics = Metrics::of(Arc::clone(&jobs), results.store(), &computations);
+        let mut metrics = Metrics::of(Arc::clone(&jobs), results.store(), &computations);
+        metrics.tell_of_admission(Arc::clone(&admission));
+        if let Some(runs) = runs {
+            metrics.tell_of_seats(move || runs.seats());
+        }
         let requests = Arc::clone(&metrics.requests);
         let limits = config.limits();
         let state =
@@ -150,6 +154,7 @@ pub async fn serve_on(
         service.stop(limit).await;
     };
     let (router, probes) = (service.router.clone(), service.probes.clone());
-    tokio::join!(stopped, server.serve(router, probes, &service.state.stopping, limit));
+    let connections = service.state.metrics.connections.clone();
+    tokio::join!(stopped, server.serve(router, probes, connections, &service.state.stopping, limit));
     Ok(())
 }

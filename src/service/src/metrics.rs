@@ -1,7 +1,10 @@
 //! What is measured, in the text format of Prometheus (OpenMetrics).
 
+mod bounds;
 mod computations;
+mod connections;
 mod requests;
+mod seats;
 
 use std::fmt;
 use std::sync::Arc;
@@ -13,13 +16,17 @@ use prometheus_client::encoding::{DescriptorEncoder, EncodeMetric};
 use prometheus_client::metrics::counter::ConstCounter;
 use prometheus_client::metrics::gauge::ConstGauge;
 use prometheus_client::registry::Registry;
-use verne_jobs::Backend;
 use verne_jobs::jetstream::Occupancy;
+use verne_jobs::{Backend, Seats};
 use verne_store::Store;
 
+use crate::admission::Admission;
 use crate::error::Error;
+use bounds::Bounds;
+use seats::{Here, OfWorker};
 
 pub(crate) use computations::Computations;
+pub(crate) use connections::Connections;
 pub(crate) use requests::Requests;
 
 /// Media type of the text.
@@ -30,6 +37,8 @@ pub(crate) struct Metrics {
     registry: Registry,
     /// To be told of requests.
     pub requests: Arc<Requests>,
+    /// To be told of connections.
+    pub connections: Connections,
 }
 
 impl Metrics {
@@ -37,15 +46,27 @@ impl Metrics {
     pub(crate) fn of(jobs: Arc<dyn Backend>, store: Store, computations: &Computations) -> Self {
         let mut registry = Registry::with_prefix("verne");
         let requests = Requests::registered(&mut registry);
+        let connections = Connections::default();
+        connections.register(&mut registry);
         computations.register(&mut registry);
         registry.register_collector(Box::new(Jobs(jobs)));
         registry.register_collector(Box::new(Results(store)));
-        Self { registry, requests }
+        Self { registry, requests, connections }
+    }
+
+    /// And how much is taken of what is bounded.
+    pub(crate) fn tell_of_admission(&mut self, admission: Arc<Admission>) {
+        self.registry.register_collector(Box::new(Bounds(admission)));
+    }
+
+    /// And how busy are those who run jobs in this process.
+    pub(crate) fn tell_of_seats(&mut self, seats: impl Fn() -> Seats + Send + Sync + 'static) {
+        self.registry.register_collector(Box::new(Here(Box::new(seats))));
     }
 
     /// And what a worker says of itself.
     pub(crate) fn tell_of_worker(&mut self, occupancy: impl Fn() -> Occupancy + Send + Sync + 'static) {
-        self.registry.register_collector(Box::new(Seats(Box::new(occupancy))));
+        self.registry.register_collector(Box::new(OfWorker(Box::new(occupancy))));
     }
 
     /// The text.
@@ -73,26 +94,6 @@ impl Collector for Jobs {
         counter(&mut encoder, "jobs_succeeded", "Jobs that have a result", counts.succeeded)?;
         counter(&mut encoder, "jobs_failed", "Jobs that failed", counts.failed)?;
         counter(&mut encoder, "jobs_cancelled", "Jobs that were cancelled", counts.cancelled)
-    }
-}
-
-struct Seats(Box<dyn Fn() -> Occupancy + Send + Sync>);
-
-impl fmt::Debug for Seats {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Seats")
-    }
-}
-
-impl Collector for Seats {
-    fn encode(&self, mut encoder: DescriptorEncoder<'_>) -> fmt::Result {
-        let now = (self.0)();
-        gauge(&mut encoder, "worker_seats", "Places for jobs in this worker", number(now.seats))?;
-        gauge(&mut encoder, "worker_seats_busy", "Places in which a job runs", number(now.busy))?;
-        let redelivered = "Jobs that the broker had given before to a worker that was lost";
-        counter(&mut encoder, "worker_redeliveries", redelivered, now.redelivered)?;
-        let handed_back = "Jobs that this worker gave back to the queue";
-        counter(&mut encoder, "worker_handed_back", handed_back, now.handed_back)
     }
 }
 

@@ -24,6 +24,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
 
+use crate::metrics::Connections;
 use connection::{Attendant, Bounds};
 use places::{Full, Places, SPARE};
 use tls::Tls;
@@ -72,6 +73,7 @@ impl Server {
         self,
         router: Router,
         full: Router,
+        connections: Connections,
         stopping: &CancellationToken,
         limit: Duration,
     ) {
@@ -80,19 +82,21 @@ impl Server {
         let usual = Attendant::new(self.bounds, router, self.tls.clone(), stopping.clone());
         let brief = usual.for_one_request(full);
         let mut refusals = Refusals::default();
+        connections.limit(self.places.count());
         let reloading = tokio::spawn(cut.clone().run_until_cancelled_owned(tls::keep_fresh(self.tls)));
         while let Some((stream, peer)) = next(&self.listener, stopping).await {
-            let (attendant, place) = match self.places.take(peer.ip()) {
-                Ok(place) => (&usual, place),
+            let (attendant, place, counted) = match self.places.take(peer.ip()) {
+                Ok(place) => (&usual, place, Some(connections.open())),
                 Err(full) => {
+                    connections.refuse();
                     refusals.log(peer, full);
                     let Ok(place) = self.spare.take(peer.ip()) else { continue };
-                    (&brief, place)
+                    (&brief, place, None)
                 }
             };
             let (attended, open) = (attendant.clone().attend(stream, peer, place), open.subscribe());
             let attended = cut.clone().run_until_cancelled_owned(attended);
-            tokio::spawn(attended.map(|_| drop(open)));
+            tokio::spawn(attended.map(|_| drop((open, counted))));
         }
         drop(self.listener);
         if tokio::time::timeout(limit, open.closed()).await.is_err() {

@@ -69,6 +69,8 @@ pub(crate) struct Storage {
     pub results: Results,
     /// What is being computed.
     pub jobs: Arc<dyn Backend>,
+    /// The same, where this process runs them.
+    pub runs: Option<Arc<Embedded>>,
     /// How much was computed.
     pub computations: Computations,
 }
@@ -80,7 +82,7 @@ impl Storage {
         if config.broker.broker.is_some() {
             let opened = open_shared(&config.broker, &config.store, config.cache_bytes, config.queue);
             let (results, jobs) = opened.await?;
-            return Ok(Self { results, jobs, computations: Computations::default() });
+            return Ok(Self { results, jobs, runs: None, computations: Computations::default() });
         }
         // Not by what falls back to memory: another directory would be of no use where the store is not.
         let store = shared::open_store(&config.store, config.cache_bytes).await?;
@@ -132,7 +134,9 @@ impl Storage {
         if let Some(directory) = directory {
             tracing::info!("jobs, and results unless they have a store, are kept in {}", directory.display());
         }
-        Ok(Self { results, jobs: Arc::new(jobs), computations })
+        let jobs = Arc::new(jobs);
+        let runs = Some(Arc::clone(&jobs));
+        Ok(Self { results, jobs, runs, computations })
     }
 }
 

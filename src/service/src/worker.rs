@@ -90,7 +90,7 @@ fn serve(
     stopping: CancellationToken,
     limit: Duration,
 ) -> Result<JoinHandle<()>, StartError> {
-    let requests = Arc::clone(&probed.metrics.requests);
+    let (requests, connections) = (Arc::clone(&probed.metrics.requests), probed.metrics.connections.clone());
     let routes = Router::new()
         .route("/livez", get(service::get_livez))
         .route(
@@ -103,7 +103,9 @@ fn serve(
     let router = layers::wrap(routes, requests, terms.stall, &Browsers::default());
     let server = Server::new(listener, terms).map_err(StartError::Tls)?;
     // Where there are only probes, those that come when all connections are taken are answered the same.
-    Ok(tokio::spawn(async move { server.serve(router.clone(), router, &stopping, limit).await }))
+    Ok(tokio::spawn(async move {
+        server.serve(router.clone(), router, connections, &stopping, limit).await;
+    }))
 }
 
 #[cfg(test)]
@@ -128,7 +130,7 @@ mod tests {
     async fn probed(stopping: CancellationToken) -> Arc<Probed> {
         let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
         let config = ServeConfig::from_arg_matches(&command.get_matches_from(["--memory-only"])).unwrap();
-        let Storage { results, jobs, computations } = Storage::open(&config).await.unwrap();
+        let Storage { results, jobs, computations, .. } = Storage::open(&config).await.unwrap();
         let metrics = Metrics::of(Arc::clone(&jobs), results.store(), &computations);
         Arc::new(Probed { readiness: Readiness::new(results, jobs, stopping), metrics })
     }

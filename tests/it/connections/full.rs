@@ -54,6 +54,25 @@ async fn probes_are_answered_all_the_same() {
 }
 
 #[tokio::test]
+async fn connections_are_counted() {
+    let (served, open) = full("").await;
+    for refused in 1..=2 {
+        let metrics = answer(&served, "/metrics").await;
+        for line in [
+            "verne_connections_open 2\n".to_owned(),
+            "verne_connections_limit 2\n".to_owned(),
+            format!("verne_connections_refused_total {refused}\n"),
+        ] {
+            assert!(metrics.contains(&line), "{line}{metrics}");
+        }
+    }
+    drop(open);
+    in_time(async { while !answer(&served, "/metrics").await.contains("verne_connections_open 1\n") {} })
+        .await;
+    served.end().await;
+}
+
+#[tokio::test]
 async fn what_is_kept_for_probes_is_held_for_no_longer_than_a_header() {
     let (served, _open) = full("--header-timeout 2").await;
     let mut silent = Vec::new();

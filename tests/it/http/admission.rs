@@ -14,7 +14,7 @@ use tokio::task::JoinHandle;
 use tower::ServiceExt;
 use verne_service::config::ServeConfig;
 
-use super::jobs::{long, one_core, start};
+use super::jobs::{long, metric, one_core, start};
 use super::workspace::ask;
 use super::{Reply, config, get_from, json_request, opened, send_to};
 
@@ -144,6 +144,39 @@ async fn who_waits_for_a_job_is_not_in_the_way() {
 }
 
 #[tokio::test]
+async fn what_is_taken_is_told() {
+    let service = at_most(8).await;
+    let told = async |names: [&str; 5]| {
+        let mut values = Vec::new();
+        for name in names {
+            values.push(metric(&service, &format!("verne_{name}")).await);
+        }
+        values
+    };
+    let taken = [
+        r#"places_taken{of="requests"}"#,
+        r#"places_taken{of="work"}"#,
+        r#"places_taken{of="batches"}"#,
+        r#"memory_taken_bytes{of="bodies"}"#,
+        r#"memory_taken_bytes{of="answers"}"#,
+    ];
+    assert_eq!(told(taken).await, [0; 5]);
+    let limits = told(taken.map(|name| name.replace("taken", "limit")).each_ref().map(String::as_str)).await;
+    assert_eq!(limits[..3], [8, 6, 4]);
+    assert!(limits[3] > 0 && limits[4] == 2 << 30);
+
+    let batch = json!({"joints": [[674, 685, 250]]});
+    let held = Held::post(&service, "/fk/batch", &batch).await;
+    assert_eq!(told(taken).await, [1, 1, 0, 16_384, 0], "the body is read");
+    let request = json_request(Method::POST, "/fk/batch", &batch);
+    let sent = service.clone().oneshot(request).await.unwrap();
+    assert_eq!(told(taken).await, [1, 1, 1, 16_384, 16_384], "an answer is sent");
+    drop(sent);
+    assert_eq!(held.end().await.status, StatusCode::OK);
+    assert_eq!(told(taken).await, [0; 5]);
+}
+
+#[tokio::test]
 async fn ten_thousand_follow_a_job() {
     let service = opened(&one_core()).await;
     let id = start(&service, &long(0)).await;
@@ -161,6 +194,7 @@ async fn ten_thousand_follow_a_job() {
         followers.push(response);
     }
     assert!(followers.len() >= 10_000, "{}", followers.len());
+    assert_eq!(metric(&service, r#"verne_places_taken{of="streams"}"#).await, followers.len() as u64);
     assert_eq!(get_from(&service, "/jobs", &[]).await.status, StatusCode::OK);
     followers.pop();
     assert_eq!(follow().await.unwrap().status(), StatusCode::OK);

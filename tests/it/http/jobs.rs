@@ -195,3 +195,12 @@ async fn a_thousand_equal_questions_at_once_are_computed_once() {
     assert!(replies.iter().all(|reply| reply.status == StatusCode::OK && reply.bytes == replies[0].bytes));
     assert_eq!(metric(&service, "verne_computations_total").await, 1);
 }
+
+#[tokio::test]
+async fn the_seats_of_one_process_are_told() {
+    let service = opened(&one_core()).await;
+    assert_eq!(metric(&service, "verne_worker_seats").await, 2);
+    assert_eq!(metric(&service, "verne_worker_seats_busy").await, 0);
+    start(&service, &long(0)).await;
+    assert_eq!(metric(&service, "verne_worker_seats_busy").await, 1);
+}

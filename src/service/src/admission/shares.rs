@@ -14,6 +14,7 @@ const PART: usize = 2;
 #[derive(Debug)]
 pub(super) struct Shares {
     all: Arc<Semaphore>,
+    count: usize,
     /// Most that one client has.
     part: usize,
     by_client: Mutex<HashMap<String, usize>>,
@@ -31,9 +32,9 @@ pub(crate) struct Share {
 impl Shares {
     /// So many, at least one.
     pub(super) fn new(all: usize) -> Arc<Self> {
-        let all = all.clamp(1, Semaphore::MAX_PERMITS.min(u32::MAX as usize));
-        let (part, all) = (all.div_ceil(PART), Arc::new(Semaphore::new(all)));
-        Arc::new(Self { all, part, by_client: Mutex::default() })
+        let count = all.clamp(1, Semaphore::MAX_PERMITS.min(u32::MAX as usize));
+        let (part, all) = (count.div_ceil(PART), Arc::new(Semaphore::new(count)));
+        Arc::new(Self { all, count, part, by_client: Mutex::default() })
     }
 
     /// One for a client, if it and all together have not too many.
@@ -57,8 +58,12 @@ impl Shares {
         Some(share)
     }
 
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
     /// How many are left.
-    #[cfg(test)]
     pub(super) fn left(&self) -> usize {
         self.all.available_permits()
     }

@@ -56,6 +56,11 @@ impl Places {
         Arc::new(Self { all, taken: Mutex::default() })
     }
 
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.all
+    }
+
     /// Takes a place for a connection from this address. This machine itself has no share: what it sends may come from
     /// a proxy, for everybody.
     pub(super) fn take(self: &Arc<Self>, address: IpAddr) -> Result<Place, Full> {

@@ -1,0 +1,43 @@
+//! What is taken of what is bounded.
+
+use std::fmt;
+use std::sync::Arc;
+
+use prometheus_client::collector::Collector;
+use prometheus_client::encoding::{DescriptorEncoder, EncodeMetric};
+use prometheus_client::metrics::TypedMetric;
+use prometheus_client::metrics::gauge::ConstGauge;
+
+use super::number;
+use crate::admission::{Admission, Usage};
+
+/// The places and the memory of requests.
+#[derive(Debug)]
+pub(super) struct Bounds(pub Arc<Admission>);
+
+impl Collector for Bounds {
+    fn encode(&self, mut encoder: DescriptorEncoder<'_>) -> fmt::Result {
+        let places = self.0.places();
+        gauges(&mut encoder, "places_taken", "Places that are taken", &places, |usage| usage.taken)?;
+        gauges(&mut encoder, "places_limit", "Places that there are", &places, |usage| usage.limit)?;
+        let memory = self.0.memory();
+        let taken = "Memory of bodies that are read and of answers that are sent";
+        gauges(&mut encoder, "memory_taken_bytes", taken, &memory, |usage| usage.taken)?;
+        gauges(&mut encoder, "memory_limit_bytes", "Most that they may have", &memory, |usage| usage.limit)
+    }
+}
+
+fn gauges(
+    encoder: &mut DescriptorEncoder<'_>,
+    name: &str,
+    help: &str,
+    bounds: &[Usage],
+    value: fn(&Usage) -> u64,
+) -> fmt::Result {
+    let mut family = encoder.encode_descriptor(name, help, None, ConstGauge::<i64>::TYPE)?;
+    for usage in bounds {
+        let metric = ConstGauge::new(number(value(usage)));
+        metric.encode(family.encode_family(&[("of", usage.of)])?)?;
+    }
+    Ok(())
+}
