@@ -15,6 +15,7 @@ use axum::response::{IntoResponse, Response};
 use headers::{ETag, HeaderMapExt, IfNoneMatch, IfRange};
 use verne_store::Found;
 
+use crate::admission::Own;
 use crate::error::Error;
 
 /// For what lies under its own id.
@@ -50,6 +51,8 @@ impl<S: Sync> FromRequestParts<S> for Conditions {
 pub(crate) struct Delivery {
     /// The bytes, sent as they are read.
     pub content: Found,
+    /// They were made for this answer.
+    pub own: bool,
     /// Their media type.
     pub media: &'static str,
     /// How long they may be kept; nothing for answers to POST.
@@ -73,11 +76,14 @@ impl Delivery {
         let outdated =
             conditions.if_range.as_ref().is_some_and(|condition| condition.is_modified(Some(&etag), None));
         let range = conditions.range.as_deref().filter(|_| !outdated);
-        match range.and_then(|range| wanted(range, length)) {
-            None => Ok(sent(StatusCode::OK, headers, &self.content, 0..length)),
-            Some(Err(error)) => Err(error),
-            Some(Ok(range)) => Ok(partial(headers, &self.content, range)),
+        let mut answer = match range.and_then(|range| wanted(range, length)) {
+            None => sent(StatusCode::OK, headers, &self.content, 0..length),
+            Some(range) => partial(headers, &self.content, range?),
+        };
+        if self.own {
+            answer.extensions_mut().insert(Own(length));
         }
+        Ok(answer)
     }
 
     fn headers(&self, tag: &str) -> HeaderMap {

@@ -8,7 +8,6 @@ use verne_store::{Content, Found, Kept as Durability, Store};
 use crate::answers::Question;
 use crate::error::Error;
 use crate::result_id::ResultId;
-use crate::workers::on_workers;
 
 /// An answered question.
 #[derive(Debug)]
@@ -120,17 +119,16 @@ impl Results {
         let make = async { make.await.map(Into::into) };
         self.store.get_or_make(&id.key(name), make).await
     }
-
-    /// A mesh that is part of a result.
-    pub(crate) async fn mesh(&self, id: ResultId, name: &str) -> Option<Mesh> {
-        let content = self.part(id, name).await?;
-        on_workers(move || packed::unpack(&content.bytes).map_err(|_| Error::Internal)).await.ok()
-    }
 }
 
 /// A mesh as a part of a result.
 pub(crate) fn packed_mesh(mesh: &Mesh) -> Result<Vec<u8>, Error> {
     packed::pack(mesh).map_err(|_| Error::Internal)
+}
+
+/// A mesh that is part of a result. One that cannot be read is as if not there: another version wrote it.
+pub(crate) fn unpacked_mesh(part: &Content) -> Result<Mesh, Error> {
+    packed::unpack(&part.bytes).map_err(|_| Error::NoRoom)
 }
 
 fn raw(json: &[u8]) -> Result<Box<RawValue>, Error> {

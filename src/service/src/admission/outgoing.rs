@@ -14,11 +14,16 @@ use super::shares::Share;
 /// About the most that an answer has in memory for itself when it is read from elsewhere while it is sent.
 const READ_AHEAD: u64 = 2 * 1024 * 1024;
 
+/// Extension of an answer whose bytes, so many, were made for it and are in memory as long as it is sent.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Own(pub u64);
+
 /// About the bytes in memory that this answer has for itself; `None` for what has no length, events: they are counted
 /// as streams.
 pub(super) fn bytes_of(answer: &Response<Body>) -> Option<u64> {
     let whole = answer.body().size_hint().exact();
-    whole.or_else(|| {
+    let own = || answer.extensions().get::<Own>().map(|own| own.0);
+    whole.or_else(own).or_else(|| {
         let length: u64 = answer.headers().get(CONTENT_LENGTH)?.to_str().ok()?.parse().ok()?;
         Some(length.min(READ_AHEAD))
     })
@@ -85,6 +90,7 @@ mod tests {
     use futures_util::stream;
     use http_body_util::BodyExt;
 
+    use super::Own;
     use crate::admission::Admission;
     use crate::error::Error;
 
@@ -107,6 +113,18 @@ mod tests {
         assert_eq!(send("a").unwrap_err(), Error::Overloaded, "what is handed over is not sent yet");
         drop(handed_over);
         assert!(send("a").is_ok());
+    }
+
+    #[tokio::test]
+    async fn what_was_made_for_an_answer_counts_whole() {
+        let admission = Admission::new(8, 1);
+        let send = || {
+            let stream = Body::from_stream(stream::pending::<Result<Bytes, std::io::Error>>());
+            let mesh = Response::builder().header(CONTENT_LENGTH, 300_000_000).extension(Own(300_000_000));
+            admission.send(mesh.body(stream).unwrap(), Some("a"))
+        };
+        let readers: Vec<_> = std::iter::from_fn(|| send().ok()).collect();
+        assert_eq!(readers.len(), 3);
     }
 
     #[tokio::test]

@@ -76,6 +76,7 @@ pub(crate) async fn get_cells(
         Obtained::Pending(job) => Obtained::Pending(job),
         Obtained::Ready(content) => Obtained::Ready(Delivery {
             content,
+            own: false,
             media: "application/json",
             cache_control: Some(FOR_EVER),
             location: format!("{}/cells", id.path()),

@@ -1,7 +1,9 @@
 //! Sends results: figures and meshes, or the address of the job that will have them.
 
+use std::sync::Arc;
+
 use axum::response::Response;
-use verne_store::Found;
+use verne_store::{Content, Found};
 
 use super::jobs::accepted;
 use crate::answers::{Described, Question, write_mesh};
@@ -9,7 +11,7 @@ use crate::delivery::{Conditions, Delivery};
 use crate::error::{Error, Fault};
 use crate::obtain::{Obtained, Patience};
 use crate::prefer::Prefer;
-use crate::results::{MESH, Record};
+use crate::results::{MESH, Record, unpacked_mesh};
 use crate::state::State;
 use crate::wire::dexterity::SetName;
 use crate::wire::format::MeshFormat;
@@ -51,30 +53,70 @@ pub(super) async fn mesh(
     format: MeshFormat,
     patience: &Patience,
 ) -> Result<Obtained<Delivery>, Error> {
-    let (id, (part, described)) = (question.id(), surface(&question, set)?);
-    let (results, name) = (&state.results, format.name());
-    let sent = |content: Found| {
+    let (id, name) = (question.id(), format.name());
+    let sent = |content: Found, own| {
         let set = set.map(|set| format!("&set={}", set.name())).unwrap_or_default();
         Delivery {
             content,
+            own,
             media: format.media(),
             cache_control: None,
             location: format!("{}/mesh?format={name}{set}", id.path()),
             file_name: Some(format!("workspace-{id:.8}.{name}")),
         }
     };
-    let file = format!("{part}.{name}");
-    if let Some(content) = results.found(id, &file).await {
-        return Ok(Obtained::Ready(sent(content)));
+    let file = format!("{}.{name}", surface(&question, set)?.0);
+    if let Some(content) = state.results.found(id, &file).await {
+        return Ok(Obtained::Ready(sent(content, false)));
     }
-    let look = || results.mesh(id, part);
-    let mesh = match state.part(&question, patience, look).await? {
-        Obtained::Ready(mesh) => mesh,
-        Obtained::Pending(job) => return Ok(Obtained::Pending(job)),
+    let make = || async {
+        let made = made(state, &question, set, format, &file, patience.caller.sharer()).await;
+        // Without the mesh a job is to compute it again.
+        (made != Err(Error::NoRoom)).then_some(made)
     };
-    drop(described);
-    let write = on_workers(move || write_mesh(&surface(&question, set)?.1, &mesh, format));
-    Ok(Obtained::Ready(sent(results.part_or(id, &file, write).await?.into())))
+    Ok(match state.part(&question, patience, make).await? {
+        Obtained::Ready(made) => {
+            let Made { content, own } = made?;
+            Obtained::Ready(sent(content.into(), own))
+        }
+        Obtained::Pending(job) => Obtained::Pending(job),
+    })
+}
+
+/// The file of a mesh.
+#[derive(PartialEq, Eq)]
+struct Made {
+    content: Content,
+    /// Here, and not for another who asked at the same time.
+    own: bool,
+}
+
+/// Makes the file of a mesh, once for all who ask for it now; [`Error::NoRoom`] where the mesh is not kept. It has its turn
+/// until the file is made, whether anybody waits or not, and while somebody does until it is kept.
+async fn made(
+    state: &State,
+    question: &Question,
+    set: Option<SetName>,
+    format: MeshFormat,
+    file: &str,
+    client: Option<&str>,
+) -> Result<Made, Error> {
+    let (id, part) = (question.id(), surface(question, set)?.0);
+    let mut turn = None;
+    let make = Box::pin(async {
+        let taken = Arc::clone(turn.insert(Arc::new(state.admission.mesh(client).await?)));
+        let packed = state.results.part(id, part).await.ok_or(Error::NoRoom)?;
+        let question = question.clone();
+        on_workers(move || {
+            let _taken = taken;
+            let mesh = unpacked_mesh(&packed)?;
+            drop(packed);
+            write_mesh(&surface(&question, set)?.1, &mesh, format)
+        })
+        .await
+    });
+    let content = state.results.part_or(id, file, make).await?;
+    Ok(Made { content, own: turn.is_some() })
 }
 
 /// The answer, or the address of the job that will have it.
@@ -97,8 +139,75 @@ pub(super) fn summary(record: Record) -> Delivery {
     Delivery {
         location: record.question.id().path(),
         content: record.summary.into(),
+        own: false,
         media: "application/json",
         cache_control: None,
         file_name: None,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use axum::body::{Body, to_bytes};
+    use axum::http::header::{CONTENT_TYPE, RETRY_AFTER};
+    use axum::http::{Request, StatusCode};
+    use axum::response::Response;
+    use clap::{Args, Command, FromArgMatches};
+    use futures_util::future::join_all;
+    use serde_json::Value;
+    use tower::ServiceExt;
+
+    use crate::app::Service;
+    use crate::config::ServeConfig;
+
+    async fn send(service: &Service, request: Request<Body>) -> Response {
+        service.router.clone().oneshot(request).await.unwrap()
+    }
+
+    async fn get(service: &Service, path: &str) -> Response {
+        send(service, Request::get(path).body(Body::empty()).unwrap()).await
+    }
+
+    /// A service that works on at most so many requests, and the path of a mesh.
+    async fn with_mesh(requests: usize) -> (Service, String) {
+        let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
+        let flags = ["--memory-only".to_owned(), format!("--max-requests={requests}")];
+        let config = ServeConfig::from_arg_matches(&command.get_matches_from(flags)).unwrap();
+        let service = Service::open(&config).await.unwrap();
+        let question = Request::post("/workspace").header(CONTENT_TYPE, "application/json");
+        let answer =
+            send(&service, question.body(r#"{"kind": "part", "tolerance": 50}"#.into()).unwrap()).await;
+        assert_eq!(answer.status(), StatusCode::OK);
+        let bytes = to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        let summary: Value = serde_json::from_slice(&bytes).unwrap();
+        (service, format!("/workspace/{}/mesh", summary["id"].as_str().unwrap()))
+    }
+
+    #[tokio::test]
+    async fn files_of_meshes_are_made_within_a_bound() {
+        let (service, mesh) = with_mesh(2).await;
+        let [kept, stl] = ["glb", "stl"].map(|format| format!("{mesh}?format={format}"));
+        assert_eq!(get(&service, &kept).await.status(), StatusCode::OK);
+        let taken = service.state.admission.mesh(None).await.unwrap();
+        let refused = get(&service, &stl).await;
+        assert_eq!(refused.status(), StatusCode::SERVICE_UNAVAILABLE);
+        assert_eq!(refused.headers()[RETRY_AFTER], "1");
+        assert_eq!(get(&service, &kept).await.status(), StatusCode::OK, "nothing is to be made");
+        drop(taken);
+        assert_eq!(get(&service, &stl).await.status(), StatusCode::OK);
+    }
+
+    #[tokio::test]
+    async fn equal_files_are_made_once_and_in_one_turn() {
+        let (service, mesh) = with_mesh(8).await;
+        let mut taken = Vec::new();
+        for _ in 0..3 {
+            taken.push(service.state.admission.mesh(None).await.unwrap());
+        }
+        let path = format!("{mesh}?format=ply");
+        for answer in join_all((0..6).map(|_| get(&service, &path))).await {
+            assert_eq!(answer.status(), StatusCode::OK);
+        }
     }
 }

@@ -126,6 +126,7 @@ pub(crate) async fn get_slice(
     });
     let delivery = Delivery {
         content: cut.await.map_err(point_into_query)?.into(),
+        own: true,
         media,
         cache_control: Some(FOR_EVER),
         location: format!("{}/slice?z={z}&format={}", id.path(), format.name()),
