@@ -29,9 +29,9 @@ pub(crate) use usage::Usage;
 /// default limit half a gibibyte.
 const BATCHES: usize = 32;
 
-/// Most files of meshes that are made at once. While one of the largest is, it takes most of a gibibyte: the mesh as it is
-/// kept, the mesh, and the file.
-const MESHES: usize = 4;
+/// Most files of meshes that are made at once. Meanwhile each is in memory three times: as it is kept, as a mesh and as a
+/// file, some hundred megabytes for the largest.
+const MESHES: usize = 2;
 
 /// Most requests that wait for their jobs at once; each is some sixty kilobytes, most of them its connection's. One beyond
 /// them is answered the address of its job, as one that does not want to wait.
