@@ -57,16 +57,15 @@ class Disturbance:
     """What happens to a cluster while it is asked."""
 
     def __init__(self, cluster, jobs, every):
-        self.cluster, self.jobs, self.every, self.lost = cluster, jobs, every, 0
+        self.cluster, self.jobs, self.every, self.lost, self.brokers = cluster, jobs, every, 0, 0
 
     def __call__(self, asking, over):
-        brokers = 0
         while not over.wait(self.every):
             self.cluster.lose_a_worker()
             self.lost += 1
-            if brokers < 2 and len(asking.answers) > self.jobs * (brokers + 1) // 3:
+            if self.brokers < 2 and len(asking.answers) > self.jobs * (self.brokers + 1) // 4:
                 self.cluster.brokers.lose_one()
-                brokers += 1
+                self.brokers += 1
 
 
 def cancelled_after(cluster):
@@ -128,7 +127,9 @@ def main():
         began = time.monotonic()
         asked, same_wholes = run(cluster.ports(), options.jobs, options.clients, disturbance)
         print(f"{options.jobs} jobs on {options.workers} workers in {time.monotonic() - began:.1f} s: "
-              f"{disturbance.lost} workers and 2 brokers lost, {cluster.objects.refused()} writes refused")
+              f"{disturbance.lost} workers and {disturbance.brokers} brokers lost, "
+              f"{cluster.objects.refused()} writes refused")
+        check(disturbance.lost and disturbance.brokers and cluster.objects.refused(), "nothing was disturbed")
         check(not undisturbed.faults + asked.faults, f"faults: {undisturbed.faults[:3]} {asked.faults[:3]}")
         check(asked.answers == undisturbed.answers, "answers differ from those of one process")
         check(same_wholes == wholes, "what was merged differs from what one process makes")
