@@ -65,7 +65,7 @@ impl Embedded {
         let threads = |fault: std::io::Error| OpenError::Threads(fault.to_string());
         let recorder = Recorder::start(records).map_err(threads)?;
         let places = seats.len();
-        let board = Board::new(Queue::new(config.rule()), seats, last_life, given_up);
+        let board = Board::new(Queue::new(config.overdue), seats, last_life, given_up);
         let keeper = Arc::new(Keeper::new(board, recorder, config, work));
         let deadlines = Arc::clone(&keeper);
         thread::Builder::new()

@@ -2,7 +2,6 @@ use std::fmt;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::queue::Rule;
 use super::records::Retention;
 
 /// How the embedded back end keeps and runs jobs.
@@ -48,10 +47,6 @@ impl Config {
     /// The default with a database in `directory`.
     pub fn in_directory(directory: impl Into<PathBuf>) -> Self {
         Self { directory: Some(directory.into()), ..Self::default() }
-    }
-
-    pub(super) fn rule(&self) -> Rule {
-        Rule { overdue: self.overdue }
     }
 }
 

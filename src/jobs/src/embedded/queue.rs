@@ -90,19 +90,14 @@ pub(super) struct Queue {
     now: Tag,
     bytes: usize,
     cost: f64,
-    rule: Rule,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rule {
     /// A job that has waited longer goes before all that have not.
-    pub(super) overdue: Duration,
+    overdue: Duration,
 }
 
 impl Queue {
-    pub(super) fn new(rule: Rule) -> Self {
+    pub(super) fn new(overdue: Duration) -> Self {
         let (small, other) = (Band::default(), Band::default());
-        Self { small, other, clients: HashMap::new(), now: Tag(0.0), bytes: 0, cost: 0.0, rule }
+        Self { small, other, clients: HashMap::new(), now: Tag(0.0), bytes: 0, cost: 0.0, overdue }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -176,7 +171,7 @@ impl Queue {
         let oldest =
             self.bands(lane).filter_map(|band| band.by_age.first_key_value()).min_by_key(|(life, _)| **life);
         let (life, (job, _)) = oldest?;
-        (now.saturating_duration_since(job.since) > self.rule.overdue).then_some(*life)
+        (now.saturating_duration_since(job.since) > self.overdue).then_some(*life)
     }
 
     fn least(&self, lane: Lane) -> Option<Place> {
