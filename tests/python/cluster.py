@@ -12,6 +12,8 @@ import time
 from served import Process, free_port
 
 BUCKET = "verne"
+PASSWORD = "v0"
+SHIPPED = os.path.join(os.path.dirname(__file__), "../../docker/nats/nats.conf")
 CREDENTIALS = {"AWS_ACCESS_KEY_ID": "key", "AWS_SECRET_ACCESS_KEY": "secret", "AWS_REGION": "us-east-1",
                "AWS_ALLOW_HTTP": "true"}
 
@@ -30,22 +32,29 @@ def answers(port, path="/"):
 
 
 class Broker:
-    """A NATS server that flushes what it acknowledges; one of a cluster if `routes` are given."""
+    """A NATS server with the configuration in docker/nats, its permissions among it; one of a cluster if `routes` are given."""
 
     def __init__(self, program, directory, name="alone", routes=()):
         self.port, self.program = free_port(), program
-        self.url = f"nats://127.0.0.1:{self.port}"
+        self.url = f"nats://verne:{PASSWORD}@127.0.0.1:{self.port}"
         self.file = os.path.join(directory, f"nats-{name}.conf")
+        self.environment = {**os.environ, "VERNE_BROKER_HOST": name, "VERNE_BROKER_PASSWORD": PASSWORD}
+        with open(SHIPPED) as shipped:
+            text = shipped.read()
+        for address, here in (("0.0.0.0:4222", f"127.0.0.1:{self.port}"), ("0.0.0.0:8222", f"127.0.0.1:{free_port()}"),
+                              ("store_dir: /data", f'store_dir: "{directory}/nats-{name}"')):
+            if text.count(address) != 1:
+                raise SystemExit(f"{SHIPPED} does not name {address} once")
+            text = text.replace(address, here)
+        if routes:
+            others = ", ".join(f'"nats://{route}"' for route in routes[1:])
+            text += f'cluster {{ name: "verne", listen: "{routes[0]}", routes: [{others}] }}\n'
         with open(self.file, "w") as file:
-            file.write(f'server_name: "{name}"\nlisten: "127.0.0.1:{self.port}"\n')
-            file.write(f'jetstream {{ store_dir: "{directory}/nats-{name}", sync_interval: always }}\n')
-            if routes:
-                others = ", ".join(f'"nats://{route}"' for route in routes[1:])
-                file.write(f'cluster {{ name: "verne", listen: "{routes[0]}", routes: [{others}] }}\n')
+            file.write(text)
         self.start()
 
     def start(self):
-        self.process = subprocess.Popen([self.program, "-c", self.file], stderr=subprocess.DEVNULL)
+        self.process = subprocess.Popen([self.program, "-c", self.file], env=self.environment, stderr=subprocess.DEVNULL)
         while True:
             try:
                 return socket.create_connection(("127.0.0.1", self.port)).close()

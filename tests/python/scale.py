@@ -135,6 +135,9 @@ def main():
         check(same_wholes == wholes, "what was merged differs from what one process makes")
         for worker in cluster.workers:
             worker.ready()
+        for process in cluster.nodes + cluster.workers:
+            health = Client(process.port).ask("GET", "/readyz").json()
+            check("broker" not in health.get("failing", []), "the broker forbids something that jobs need")
         jobs = listed(Client(cluster.nodes[1].port))
         check(all(job["state"] == "succeeded" for job in jobs), "a job has not ended well")
         missing = {id for id, _ in asked.answers.values()} - {job["id"] for job in jobs}

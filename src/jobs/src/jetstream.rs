@@ -40,6 +40,7 @@ mod bus;
 mod claims;
 mod client;
 mod config;
+mod denials;
 mod listen;
 mod mirror;
 mod poison;
@@ -98,6 +99,7 @@ impl JetStream {
         tasks.spawn(steward::keep_house(Arc::clone(&client)));
         tasks.spawn(steward::show_life(Arc::clone(&client)));
         tasks.spawn(poison::give_up(Arc::clone(&client)));
+        tasks.spawn(denials::watch(Arc::clone(&client)));
         Ok(Self { client, tasks: parking_lot::Mutex::new(tasks) })
     }
 
@@ -171,9 +173,12 @@ impl Backend for JetStream {
     }
 
     async fn reachable(&self) -> Result<(), Unavailable> {
-        match self.client.bus.client.connection_state() {
-            State::Connected => Ok(()),
-            _ => Err(Unavailable("the broker is not connected".to_owned())),
+        if self.client.bus.client.connection_state() != State::Connected {
+            return Err(Unavailable("the broker is not connected".to_owned()));
+        }
+        match self.client.bus.denials.reported() {
+            Some(denial) => Err(Unavailable(format!("the broker forbids what jobs need: {denial}"))),
+            None => Ok(()),
         }
     }
 

@@ -12,6 +12,7 @@ use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 
 use super::config::{Config, ConnectError};
+use super::denials::Denials;
 use super::record::{LAYOUT, Record};
 use crate::{JobId, Unavailable};
 
@@ -43,7 +44,8 @@ pub(super) struct Bus {
     pub(super) config: Config,
     pub(super) records: kv::Store,
     pub(super) queue: Stream,
-    context: Context,
+    pub(super) context: Context,
+    pub(super) denials: Denials,
 }
 
 /// Why a record was not written.
@@ -59,11 +61,20 @@ const PATIENCE: Duration = Duration::from_secs(5);
 impl Bus {
     pub(super) async fn connect(config: Config) -> Result<Self, ConnectError> {
         let (options, servers) = config.access().await?;
-        let client = options.connect(servers).await.map_err(broker)?;
+        let denials = Denials::default();
+        let noted = denials.clone();
+        let options = options.event_callback(move |event| {
+            noted.note(event);
+            std::future::ready(())
+        });
+        let client = options.connect(servers).await.map_err(ConnectError::from)?;
         let mut context = jetstream::new(client.clone());
         context.set_timeout(PATIENCE);
-        let (records, queue) = prepare(&context, &config).await?;
-        Ok(Self { client, config, records, queue, context })
+        let prepared = denials.or_denied(prepare(&context, &config)).await;
+        let (records, queue) = prepared.map_err(ConnectError::Refused)??;
+        let bus = Self { client, config, records, queue, context, denials };
+        bus.check_permissions().await;
+        Ok(bus)
     }
 
     /// Of the records; `None`: the broker has none, its directory was lost, or another took its place.
@@ -211,7 +222,7 @@ pub(super) fn read_key(key: &str) -> Option<JobId> {
     key.strip_prefix(LAYOUT)?.strip_prefix('.')?.parse().ok()
 }
 
-fn line_prefix(config: &Config, line: Line) -> String {
+pub(super) fn line_prefix(config: &Config, line: Line) -> String {
     format!("{}.queue.{LAYOUT}.{}.", config.name, line.name())
 }
 

@@ -2,6 +2,8 @@ use std::fmt;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use async_nats::ConnectErrorKind;
+
 use super::bus::Line;
 use crate::embedded::Retention;
 
@@ -110,10 +112,23 @@ pub enum ConnectError {
         /// What is wrong with it.
         reason: String,
     },
-    /// The broker is not there, refuses, or cannot keep jobs.
+    /// The broker is not there, or cannot keep jobs now.
     Broker(String),
+    /// The broker refuses this process: its password or key is wrong, or the broker forbids it what jobs need.
+    Refused(String),
     /// Threads cannot be started.
     Threads(String),
+}
+
+impl From<async_nats::ConnectError> for ConnectError {
+    fn from(fault: async_nats::ConnectError) -> Self {
+        match fault.kind() {
+            ConnectErrorKind::AuthorizationViolation | ConnectErrorKind::Authentication => {
+                Self::Refused(fault.to_string())
+            }
+            _ => Self::Broker(fault.to_string()),
+        }
+    }
 }
 
 impl fmt::Display for ConnectError {
@@ -121,6 +136,7 @@ impl fmt::Display for ConnectError {
         match self {
             Self::Unusable { reason, .. } => f.write_str(reason),
             Self::Broker(reason) => write!(f, "the broker of jobs cannot be used: {reason}"),
+            Self::Refused(reason) => write!(f, "the broker of jobs refuses this process: {reason}"),
             Self::Threads(reason) => write!(f, "threads for jobs cannot be started: {reason}"),
         }
     }

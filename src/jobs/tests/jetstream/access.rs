@@ -15,7 +15,10 @@ use crate::broker::Broker;
 async fn a_password_lets_in() {
     let broker = Broker::with("authorization { user: ada, password: secret }");
     let config = broker.config();
-    assert!(matches!(JetStream::connect(config.clone()).await.err(), Some(ConnectError::Broker(_))));
+    assert!(matches!(JetStream::connect(config.clone()).await.err(), Some(ConnectError::Refused(_))));
+    let wrong = config.url.replace("nats://", "nats://ada:wrong@");
+    let refused = JetStream::connect(Config { url: wrong, ..config.clone() }).await.err();
+    assert!(matches!(refused, Some(ConnectError::Refused(_))));
     let url = config.url.replace("nats://", "nats://ada:secret@");
     assert!(JetStream::connect(Config { url, ..config }).await.is_ok());
 }
@@ -30,7 +33,7 @@ async fn a_key_lets_in() {
     let seed = directory.path().join("seed");
     fs::write(&seed, "SUACSSL3UAHUDXKFSNVUZRF5UHPMWZ6BFDTJ7M6USDXIEDNPPQYYYCU3VY\n").unwrap();
     let config = broker.config();
-    assert!(matches!(JetStream::connect(config.clone()).await.err(), Some(ConnectError::Broker(_))));
+    assert!(matches!(JetStream::connect(config.clone()).await.err(), Some(ConnectError::Refused(_))));
     assert!(JetStream::connect(Config { nkey: Some(seed.clone()), ..config.clone() }).await.is_ok());
     fs::remove_file(&seed).unwrap();
     let missing = JetStream::connect(Config { nkey: Some(seed.clone()), ..config }).await.err();

@@ -28,10 +28,7 @@ impl Broker {
     pub(crate) fn with(more: &str) -> Self {
         let directory = TempDir::new().unwrap();
         let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
-        let store = directory.path().join("store");
-        let jetstream = format!("jetstream {{ store_dir: \"{}\", sync_interval: always }}", store.display());
-        let text = format!("listen: \"127.0.0.1:{port}\"\n{jetstream}\n{more}\n");
-        std::fs::write(directory.path().join("nats.conf"), text).unwrap();
+        configure(&directory, port, more);
         let server = serve(&directory, port);
         Self { directory, port, server }
     }
@@ -45,6 +42,11 @@ impl Broker {
     /// As if its disk had been replaced.
     pub(crate) fn forget(&self) {
         std::fs::remove_dir_all(self.directory.path().join("store")).unwrap();
+    }
+
+    /// Other lines of configuration, from the next start on.
+    pub(crate) fn configure(&self, more: &str) {
+        configure(&self.directory, self.port, more);
     }
 
     /// On the same port, with what it has stored.
@@ -72,6 +74,13 @@ impl Broker {
 /// With one thread and one place beside the express lane.
 pub(crate) fn worker(backend: &JetStream, stage: &Arc<Stage>) -> Worker {
     Worker::start(backend, WorkerConfig { threads: 1, slots: 1 }, stage.clone()).unwrap()
+}
+
+fn configure(directory: &TempDir, port: u16, more: &str) {
+    let store = directory.path().join("store");
+    let jetstream = format!("jetstream {{ store_dir: \"{}\", sync_interval: always }}", store.display());
+    let text = format!("listen: \"127.0.0.1:{port}\"\n{jetstream}\n{more}\n");
+    std::fs::write(directory.path().join("nats.conf"), text).unwrap();
 }
 
 fn serve(directory: &TempDir, port: u16) -> Child {

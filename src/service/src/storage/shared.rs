@@ -90,7 +90,7 @@ pub(super) fn key(error: &ConnectError) -> &'static str {
             Setting::Certificate => "broker_certificate",
             Setting::Key => "broker_key",
         },
-        ConnectError::Broker(_) => "broker",
+        ConnectError::Broker(_) | ConnectError::Refused(_) => "broker",
         ConnectError::Threads(_) => "job_threads",
     }
 }
