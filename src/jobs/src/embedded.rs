@@ -170,11 +170,11 @@ impl Backend for Embedded {
         }
     }
 
-    /// As the last changes went. After one that was refused as much is written anew, so that it is known when there is room
-    /// again though nobody submits anything.
+    /// As the last changes went, while the database's files are in their places. After a change that was refused as much is
+    /// written anew, so that it is known when there is room again though nobody submits anything.
     async fn reachable(&self) -> Result<(), Unavailable> {
         if !self.keeper.recorder.is_failing() {
-            return Ok(());
+            return self.read(Records::check_files).await;
         }
         self.read(self.keeper.recorder.probe()).await
     }

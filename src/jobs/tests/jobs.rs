@@ -15,6 +15,8 @@ mod parts;
 #[path = "contract/watching.rs"]
 mod watching;
 
+#[path = "embedded/backup.rs"]
+mod backup;
 #[path = "embedded/closing.rs"]
 mod closing;
 #[path = "embedded/damage.rs"]
@@ -30,6 +32,8 @@ mod restart;
 
 #[path = "jetstream/access.rs"]
 mod access;
+#[path = "jetstream/denials.rs"]
+mod denials;
 #[path = "jetstream/losses.rs"]
 mod losses;
 #[path = "jetstream/nodes.rs"]

@@ -1,5 +1,6 @@
 //! Jobs in SQLite.
 
+mod files;
 mod open;
 mod row;
 mod schema;
@@ -11,6 +12,7 @@ use rusqlite::{Connection, OptionalExtension, named_params};
 
 use crate::moment::{now, to_micros};
 use crate::{Clients, Filter, Job, JobId, State, Unavailable};
+use files::Files;
 
 pub(super) use open::{Opened, open};
 
@@ -88,6 +90,8 @@ pub struct Retention {
 pub(super) struct Records {
     connection: Connection,
     retention: Retention,
+    /// `None`: in memory.
+    files: Option<Files>,
     /// Held as long as the database is open.
     lock: Option<File>,
 }
@@ -95,10 +99,16 @@ pub(super) struct Records {
 impl Records {
     /// Makes all changes in one transaction; a change that fails alone leaves the others.
     pub(super) fn write(&mut self, writes: &[&Write]) -> Vec<Result<(), Unavailable>> {
-        self.try_write(writes).unwrap_or_else(|fault| {
-            let unavailable = Unavailable(fault.to_string());
-            writes.iter().map(|_| Err(unavailable.clone())).collect()
-        })
+        let written = self
+            .check_files()
+            .and_then(|()| self.try_write(writes).map_err(|fault| Unavailable(fault.to_string())));
+        written.unwrap_or_else(|fault| writes.iter().map(|_| Err(fault.clone())).collect())
+    }
+
+    /// Whether the database that is open is the one in the directory. What is written to one that was removed is lost when
+    /// the process ends.
+    pub(super) fn check_files(&self) -> Result<(), Unavailable> {
+        self.files.as_ref().map_or(Ok(()), Files::check)
     }
 
     fn try_write(&mut self, writes: &[&Write]) -> rusqlite::Result<Vec<Result<(), Unavailable>>> {
@@ -124,6 +134,7 @@ impl Records {
 
     /// Writes as much as a change that has so many bytes for itself, and its pages around them.
     pub(super) fn probe(&self, bytes: usize) -> Result<(), Unavailable> {
+        self.check_files()?;
         let bytes = i64::try_from(bytes.saturating_add(PAGES)).unwrap_or(i64::MAX);
         let written = self.connection.execute(schema::PROBE, [bytes]);
         written.map(drop).map_err(|fault| Unavailable(fault.to_string()))

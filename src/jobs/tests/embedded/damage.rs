@@ -28,6 +28,9 @@ async fn used() -> TempDir {
 
 fn damage(directory: &Path, number: usize) {
     let path = directory.join("jobs.sqlite3");
+    let version: i64 = Connection::open(&path)
+        .and_then(|own| own.pragma_query_value(None, "user_version", |row| row.get(0)))
+        .unwrap();
     let bytes = match number {
         0 => b"not a database, but long enough to be looked at as one. ".repeat(100),
         // A page in the middle, the header whole.
@@ -41,10 +44,19 @@ fn damage(directory: &Path, number: usize) {
             Connection::open(&path).unwrap().pragma_update(None, "user_version", 1).unwrap();
             return;
         }
-        // Another's database.
-        _ => {
+        // Another program's database, with no version, and with one that is the same by chance.
+        number => {
             fs::remove_file(&path).unwrap();
-            Connection::open(&path).unwrap().execute_batch("CREATE TABLE jobs (id TEXT)").unwrap();
+            let tables = [
+                "CREATE TABLE jobs (id TEXT)",
+                "CREATE TABLE jobs (id TEXT)",
+                "CREATE TABLE other (id TEXT)",
+            ];
+            let other = Connection::open(&path).unwrap();
+            other.execute_batch(tables[number - 3]).unwrap();
+            if number > 3 {
+                other.pragma_update(None, "user_version", version).unwrap();
+            }
             return;
         }
     };
@@ -55,7 +67,7 @@ fn damage(directory: &Path, number: usize) {
 async fn a_damaged_database_is_set_aside() {
     within_a_minute(async {
         let directory = used().await;
-        for number in 0..4 {
+        for number in 0..6 {
             damage(directory.path(), number);
             let damaged = fs::read(directory.path().join("jobs.sqlite3")).unwrap();
             let backend = open(directory.path()).unwrap();

@@ -4,8 +4,9 @@ use std::collections::HashSet;
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
-use rusqlite::{Connection, ErrorCode, named_params};
+use rusqlite::{Connection, ErrorCode, Row, named_params};
 
+use super::files::Files;
 use super::{Record, Records, Retention, row, schema};
 use crate::embedded::OpenError;
 use crate::moment::{now, to_micros};
@@ -69,6 +70,7 @@ pub(in crate::embedded) fn open(
         opened => opened,
     }
     .map_err(|fault| error(&path, fault))?;
+    opened.records.files = Some(Files::of(&path).map_err(unusable)?);
     opened.records.lock = Some(lock);
     Ok(opened)
 }
@@ -81,7 +83,8 @@ fn error(path: &Path, fault: Fault) -> OpenError {
     }
 }
 
-/// A file of its own: SQLite's locks are the process's, not the connection's, and go with any other handle.
+/// Keeps other verne processes out. SQLite's own locks must not: programs that back the database up read it meanwhile. A file
+/// of its own: SQLite's locks are the process's, not the connection's, and go with any other handle.
 fn lock(directory: &Path) -> Result<File, OpenError> {
     let path = directory.join("jobs.lock");
     let unusable =
@@ -111,7 +114,6 @@ fn set_aside(directory: &Path) -> std::io::Result<PathBuf> {
 }
 
 fn take_over(mut connection: Connection, retention: Retention, max_attempts: u32) -> Result<Opened, Fault> {
-    connection.pragma_update(None, "locking_mode", "EXCLUSIVE")?;
     let is_new = is_new(&connection)?;
     connection.pragma_update(None, "journal_mode", "WAL")?;
     connection.pragma_update(None, "synchronous", "FULL")?;
@@ -135,8 +137,24 @@ fn take_over(mut connection: Connection, retention: Retention, max_attempts: u32
         .collect::<Result<_, _>>()?;
     let last_life = transaction.query_row(schema::LAST_LIFE, [], |row| row.get::<_, i64>(0))?.cast_unsigned();
     transaction.commit()?;
-    let records = Records { connection, retention, lock: None };
+    let records = Records { connection, retention, files: None, lock: None };
     Ok(Opened { records, live, last_life, given_up, set_aside: None })
+}
+
+/// Name, type, whether it is needed, and place in the primary key.
+type Column = (String, String, bool, i64);
+
+fn columns(connection: &Connection) -> rusqlite::Result<Vec<Column>> {
+    let column =
+        |row: &Row<'_>| Ok((row.get("name")?, row.get("type")?, row.get("notnull")?, row.get("pk")?));
+    connection.prepare("SELECT * FROM pragma_table_info('jobs')")?.query_map([], column)?.collect()
+}
+
+/// Those of the table that this version makes.
+fn own_columns() -> rusqlite::Result<Vec<Column>> {
+    let scratch = Connection::open_in_memory()?;
+    scratch.execute_batch(schema::CREATE)?;
+    columns(&scratch)
 }
 
 /// Whether the tables are yet to be made. Only reads: what is not ours is left as it is.
@@ -147,7 +165,8 @@ fn is_new(connection: &Connection) -> Result<bool, Fault> {
     }
     let tables: i64 = connection.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
     match connection.pragma_query_value(None, "user_version", |row| row.get(0))? {
-        schema::VERSION => Ok(false),
+        schema::VERSION if columns(connection)? == own_columns()? => Ok(false),
+        schema::VERSION => Err(Fault::Corrupt("a database of something else".to_owned())),
         0 if tables == 0 => Ok(true),
         0 => Err(Fault::Corrupt("a database of something else".to_owned())),
         version if version < schema::VERSION => {
