@@ -1,6 +1,6 @@
 """Asks many clients' questions of a service that is killed (SIGKILL) and started again on the same data directory:
-no job may be lost, and every answer must be that of a service that is left alone. Then stops it (SIGTERM) while it
-computes. python kills.py VERNE [--jobs N] [--clients N] [--kills N]"""
+no job may be lost, and every answer must be that of a service that is left alone. Then backs its jobs up and restores them
+elsewhere, and stops it (SIGTERM) while it computes. python kills.py VERNE [--jobs N] [--clients N] [--kills N]"""
 
 import argparse
 import os
@@ -47,6 +47,30 @@ def stopped_under_load(served):
     return seconds
 
 
+def backed_up(served, data, fresh):
+    """Backs up the jobs while one runs, as the sqlite3 program's .backup does, and restores them: a service on the copy must
+    know every job."""
+    client = Client(served.port)
+    running = client.ask("POST", "/workspace", {**LONG, "phi1": 9}, Prefer="respond-async").json()["id"]
+    before = {job["id"] for job in listed(client)}
+    check(running in before, "a job that was promised is not listed")
+    os.makedirs(os.path.join(fresh, "jobs"))
+    source = sqlite3.connect(os.path.join(data, "jobs/jobs.sqlite3"))
+    copy = sqlite3.connect(os.path.join(fresh, "jobs/jobs.sqlite3"))
+    source.backup(copy)
+    source.close()
+    copy.close()
+    check(client.ask("GET", "/readyz").status == 200, "not ready after a backup")
+    client.ask("DELETE", f"/jobs/{running}")
+    restored = Served(served.command[0], fresh).start()
+    client = Client(restored.port)
+    check({job["id"] for job in listed(client)} == before, "the restored service has other jobs")
+    state = client.ask("GET", f"/jobs/{running}").json()["state"]
+    check(state in ("queued", "running"), f"the restored service has the running job {state}")
+    restored.kill()
+    return len(before)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("verne")
@@ -72,6 +96,7 @@ def main():
         check(all(job["state"] == "succeeded" for job in jobs), "a job has not ended")
         missing = {id for id, _ in asked.answers.values()} - {job["id"] for job in jobs}
         check(not missing, f"{len(missing)} jobs are lost")
+        print(f"a backup of {backed_up(served, data, os.path.join(place, 'restored'))} jobs is restored")
         print(f"SIGTERM while it computes: exits in {stopped_under_load(served):.1f} s")
         served.kill()
         for database in ("jobs/jobs.sqlite3", "results/index.sqlite3"):

@@ -4,11 +4,13 @@ mod health;
 mod key;
 mod progress;
 mod question;
+mod store;
 mod workspace;
 
 use health::HealthCommand;
 use key::KeyCommand;
 use question::Question;
+use store::StoreCommand;
 use workspace::WorkspaceCommand;
 
 use std::ffi::OsString;
@@ -49,6 +51,8 @@ enum Command {
     Health(HealthCommand),
     /// Keys for the file of --keys.
     Key(KeyCommand),
+    /// A directory that is to be the store of --store.
+    Store(StoreCommand),
     /// A workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
     Workspace(WorkspaceCommand),
     #[command(flatten)]
@@ -74,6 +78,7 @@ impl Cli {
             Command::Worker(config) => on_runtime(&config.telemetry, worker::work(&config)),
             Command::Health(command) => command.run(),
             Command::Key(command) => command.run(out),
+            Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, pretty),
             Command::Ask(question) => {
                 let answer = question.answer(pretty)?;

@@ -115,9 +115,11 @@ mod tests {
     use std::time::Duration;
 
     use clap::{Args, Command, FromArgMatches};
+    use tempfile::TempDir;
     use tokio::io::{AsyncReadExt, AsyncWriteExt};
     use tokio::net::{TcpListener, TcpStream};
     use tokio_util::sync::CancellationToken;
+    use verne_store::Store;
 
     use super::{Probed, serve, work};
     use crate::config::ServeConfig;
@@ -166,6 +168,35 @@ mod tests {
         tokio::time::timeout(Duration::from_mins(1), serving).await.unwrap().unwrap();
     }
 
+    /// What `verne worker` ends with.
+    async fn refusal(flags: &str) -> String {
+        let command = WorkerConfig::augment_args(Command::new("verne").no_binary_name(true));
+        let matches = command.get_matches_from(flags.split_whitespace());
+        work(&WorkerConfig::from_arg_matches(&matches).unwrap()).await.unwrap_err().to_string()
+    }
+
+    /// A broker that knows nobody.
+    #[tokio::test]
+    async fn a_broker_that_refuses_is_not_waited_for() {
+        let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+        let address = listener.local_addr().unwrap();
+        tokio::spawn(async move {
+            loop {
+                let (mut stream, _) = listener.accept().await.unwrap();
+                let info = r#"INFO {"server_id":"a","version":"2.11.0","auth_required":true,"max_payload":1048576}"#;
+                stream.write_all(format!("{info}\r\n").as_bytes()).await.unwrap();
+                stream.read(&mut [0; 4096]).await.unwrap();
+                stream.write_all(b"-ERR 'Authorization Violation'\r\n").await.unwrap();
+            }
+        });
+        let place = TempDir::new().unwrap();
+        let store = format!("file://{}", place.path().display());
+        Store::init_shared(&store).unwrap();
+        let error = refusal(&format!("--broker nats://verne:wrong@{address} --store {store}")).await;
+        assert!(error.starts_with("broker: ") && error.contains("refuses this process"), "{error}");
+        assert!(!error.contains("wrong"), "{error}");
+    }
+
     #[tokio::test]
     async fn what_is_missing_is_named() {
         for (flags, expected) in [
@@ -174,10 +205,7 @@ mod tests {
             ("--broker nats://127.0.0.1:1", "store: "),
             ("--broker http://127.0.0.1:1 --store file:///proc/nowhere", "broker: "),
         ] {
-            let command = WorkerConfig::augment_args(Command::new("verne").no_binary_name(true));
-            let matches = command.get_matches_from(flags.split_whitespace());
-            let error =
-                work(&WorkerConfig::from_arg_matches(&matches).unwrap()).await.unwrap_err().to_string();
+            let error = refusal(flags).await;
             assert!(error.starts_with(expected), "{flags}: {error}");
         }
     }

@@ -39,6 +39,15 @@ pub enum OpenError {
         /// What is wrong with it.
         reason: String,
     },
+    /// A shared directory does not have the file that tells it from an empty mount point.
+    NoMarker {
+        /// The store's address.
+        address: String,
+        /// The file.
+        marker: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
     /// A shared store cannot be reached, or takes no objects.
     Shared {
         /// Its address.
@@ -64,6 +73,12 @@ impl fmt::Display for OpenError {
                 write!(f, "the objects in {} cannot be listed or written: {source}", directory.display())
             }
             Self::Address { address, reason } => write!(f, "{address} is no address of results: {reason}"),
+            Self::NoMarker { address, marker, source } => write!(
+                f,
+                "{address} is not a store of results: {}: {source}. Mount the directory; if it is a new store, prepare it \
+                 with `verne store init {address}`",
+                marker.display()
+            ),
             Self::Shared { address, source } => write!(f, "results cannot be kept in {address}: {source}"),
         }
     }
@@ -72,7 +87,7 @@ impl fmt::Display for OpenError {
 impl error::Error for OpenError {
     fn source(&self) -> Option<&(dyn error::Error + 'static)> {
         match self {
-            Self::Directory { source, .. } => Some(source),
+            Self::Directory { source, .. } | Self::NoMarker { source, .. } => Some(source),
             Self::InUse { .. } | Self::Address { .. } => None,
             Self::Index { source, .. } => Some(source.as_ref()),
             Self::Objects { source, .. } | Self::Shared { source, .. } => Some(source),

@@ -32,6 +32,7 @@
 //!
 //! ```text
 //! prefix/ab/cd…              the same objects
+//!        verne-store         of a directory: its marker, made by Store::init_shared
 //!        probe/…             a process tries whether it can write; removed at once
 //! ```
 //!
@@ -55,8 +56,12 @@
 //! The same for a directory, once a day on one of the machines; a file that was never finished (`…#1`) goes too:
 //!
 //! ```text
-//! find /shared/directory -type f -mtime +30 -delete
+//! find /shared/directory -mindepth 2 -type f -mtime +30 -delete
 //! ```
+//!
+//! A directory without its marker is not used: it is the mount point of a file system that is not mounted, and what one
+//! process wrote there no other would find. Where the marker is missing when the store is opened, that is an error. Where it
+//! goes later, questions wait for it as for a store that refuses.
 //!
 //! Both count from when a result was written, not from when it was read. A result that goes while it is read from
 //! S3 breaks off with an error; from a directory it is read to the end, except where the file system is a

@@ -12,6 +12,7 @@ use object_store::{Error, ObjectStore, ObjectStoreExt};
 use tokio::time::Instant;
 
 pub(crate) use self::opened::{Fault, Object, Seen};
+use crate::shared::Marker;
 use crate::{Content, Key};
 
 /// The first pause before what was refused is asked again; each further one is twice as long.
@@ -31,22 +32,28 @@ pub(crate) struct Objects {
     patience: Duration,
     /// Objects of more bytes are sent in parts.
     part: usize,
+    /// Without it the place is not the one that was opened.
+    marker: Option<Marker>,
 }
 
 impl Objects {
     /// Objects on a disk: what it refuses now it will refuse in a second, and parts gain nothing.
     pub(crate) fn on_disk(store: Arc<dyn ObjectStore>) -> Self {
-        Self { store, patience: Duration::ZERO, part: usize::MAX }
+        Self { store, patience: Duration::ZERO, part: usize::MAX, marker: None }
     }
 
-    /// Objects in a directory that others write to.
-    pub(crate) fn in_shared_directory(store: Arc<dyn ObjectStore>, patience: Duration) -> Self {
-        Self { store, patience, part: usize::MAX }
+    /// Objects in a directory that others write to. While its marker is missing every question is refused.
+    pub(crate) fn in_shared_directory(
+        store: Arc<dyn ObjectStore>,
+        patience: Duration,
+        marker: Marker,
+    ) -> Self {
+        Self { store, patience, part: usize::MAX, marker: Some(marker) }
     }
 
     /// Objects that are reached by a network.
     pub(crate) fn far_away(store: Arc<dyn ObjectStore>, patience: Duration) -> Self {
-        Self { store, patience, part: PART }
+        Self { store, patience, part: PART, marker: None }
     }
 
     /// The store that has them.
@@ -107,7 +114,7 @@ impl Objects {
     ) -> Result<T, Error> {
         let (end, mut pause) = (Instant::now() + self.patience, PAUSE);
         loop {
-            match ask().await {
+            match self.asked(&ask).await {
                 Err(fault) if may_pass(&fault) && Instant::now() + pause < end => {
                     tracing::warn!(%fault, "the store of results refuses: asked again");
                     tokio::time::sleep(pause).await;
@@ -116,6 +123,16 @@ impl Objects {
                 answer => return answer,
             }
         }
+    }
+
+    /// Asks, where the marker is there before: nothing is written to the directory below a mount that is gone. And after: else
+    /// the mount may have gone meanwhile.
+    async fn asked<T, F: Future<Output = Result<T, Error>>>(&self, ask: impl Fn() -> F) -> Result<T, Error> {
+        let Some(marker) = &self.marker else { return ask().await };
+        marker.check().await?;
+        let answer = ask().await;
+        marker.check().await?;
+        answer
     }
 }
 

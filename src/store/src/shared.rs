@@ -1,6 +1,9 @@
 //! A store that many processes read and write at once: no index, no count, nobody is evicted.
 
+mod marker;
 mod open;
+
+pub(crate) use marker::Marker;
 
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::sync::Arc;

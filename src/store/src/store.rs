@@ -69,7 +69,7 @@ impl Store {
     }
 
     /// Opens the store at an address, which many processes share: `s3://bucket/prefix`, or
-    /// `file:///shared/directory`, which is made if it is not there. The crate's description says what such a
+    /// `file:///shared/directory`, which [`Store::init_shared`] has prepared. The crate's description says what such a
     /// store holds and what it does not. Endpoint, region and credentials of S3 are those of the environment:
     /// `AWS_ENDPOINT`, `AWS_REGION`, `AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_ALLOW_HTTP` and the
     /// others that [`object_store::aws::AmazonS3Builder::from_env`] reads.
@@ -77,6 +77,13 @@ impl Store {
         let store = Self::in_memory(memory_bytes);
         let shared = Shared::open(address, Arc::clone(&store.counts)).await?;
         Ok(store.over(Layer::Shared(shared)))
+    }
+
+    /// Prepares the directory at an address `file:///shared/directory`: makes it, and the marker file without which no
+    /// store is opened there. The marker tells the directory from the mount point of a file system that is not mounted.
+    /// Answers whether the marker was made; if it is there already, nothing is changed. Blocks on files.
+    pub fn init_shared(address: &str) -> Result<bool, OpenError> {
+        Shared::init(address)
     }
 
     /// Opens a shared store whose objects lie where the caller says.

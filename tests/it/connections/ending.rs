@@ -5,6 +5,7 @@ use tokio::io::AsyncWriteExt;
 use tokio::net::TcpListener;
 
 use super::{asked, in_time, rest, serve};
+use crate::cli::verne;
 
 #[tokio::test]
 async fn idle_connections_are_closed_and_requests_under_way_are_finished() {
@@ -50,8 +51,9 @@ async fn who_waits_for_the_broker_stops_at_once() {
     // Nobody listens there.
     let broker = TcpListener::bind("127.0.0.1:0").await.unwrap().local_addr().unwrap();
     let place = TempDir::new().unwrap();
-    let store = place.path().display();
-    serve(&format!("--broker nats://{broker} --store file://{store}")).await.end().await;
+    let store = format!("file://{}", place.path().display());
+    verne(&format!("store init {store}")).unwrap();
+    serve(&format!("--broker nats://{broker} --store {store}")).await.end().await;
 }
 
 #[cfg(unix)]

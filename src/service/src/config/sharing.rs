@@ -39,7 +39,8 @@ pub struct BrokerConfig {
 #[derive(Clone, Debug, Default, Args)]
 pub struct StoreConfig {
     /// Store of results that all processes reach: s3://BUCKET/PREFIX (endpoint, region and credentials from `AWS_*`) or
-    /// file:///SHARED/DIRECTORY. The service removes no sound result from it, only damaged ones and what it writes as a trial.
+    /// file:///SHARED/DIRECTORY, which `verne store init` has prepared. The service removes no sound result from it, only
+    /// damaged ones and what it writes as a trial.
     #[arg(long, env = "VERNE_STORE", value_name = "URL")]
     pub store: Option<String>,
 }

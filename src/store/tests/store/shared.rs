@@ -1,7 +1,7 @@
 //! A store that several processes have open at once: what one writes the others find.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -12,15 +12,21 @@ use verne_store::{Kept, OpenError, Store};
 use crate::place::{bytes, key};
 use crate::watched::Watched;
 
-async fn open(directory: &Path) -> Store {
-    let address = format!("file://{}", directory.display());
-    Store::open_shared(&address, 1 << 20).await.unwrap()
+fn address(directory: &Path) -> String {
+    format!("file://{}", directory.display())
 }
 
-/// Every file in a directory and in those below it.
-fn files(directory: &Path) -> Vec<std::path::PathBuf> {
+/// Prepares the directory and opens it.
+async fn open(directory: &Path) -> Store {
+    Store::init_shared(&address(directory)).unwrap();
+    Store::open_shared(&address(directory), 1 << 20).await.unwrap()
+}
+
+/// Every file in a directory and in those below it, but the marker.
+fn files(directory: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
-    entries.flat_map(|entry| if entry.is_dir() { files(&entry) } else { vec![entry] }).collect()
+    let files = entries.flat_map(|entry| if entry.is_dir() { files(&entry) } else { vec![entry] });
+    files.filter(|file| !file.ends_with("verne-store")).collect()
 }
 
 #[tokio::test]
@@ -84,11 +90,57 @@ async fn a_directory_that_cannot_be_made_or_written_to_is_an_error_that_names_it
     let root = tempfile::tempdir().unwrap();
     let file = root.path().join("a file");
     fs::write(&file, "").unwrap();
-    let address = format!("file://{}", file.display());
-    let Err(fault @ OpenError::Directory { .. }) = Store::open_shared(&address, 0).await else {
-        panic!("opened a file")
-    };
-    assert!(fault.to_string().contains("a file"), "{fault}");
+    for fault in [
+        Store::init_shared(&address(&file)).unwrap_err(),
+        Store::open_shared(&address(&file), 0).await.map(drop).unwrap_err(),
+    ] {
+        assert!(fault.to_string().contains("a file"), "{fault}");
+    }
+    assert!(matches!(Store::init_shared("s3://bucket/prefix"), Err(OpenError::Address { .. })));
+}
+
+#[tokio::test]
+async fn a_directory_that_was_not_prepared_is_left_alone() {
+    let root = tempfile::tempdir().unwrap();
+    let missing = root.path().join("missing");
+    let mount_point = root.path().join("empty");
+    fs::create_dir(&mount_point).unwrap();
+    for directory in [&missing, &mount_point] {
+        let Err(fault @ OpenError::NoMarker { .. }) = Store::open_shared(&address(directory), 0).await else {
+            panic!("opened {}", directory.display())
+        };
+        assert!(fault.to_string().contains("verne store init"), "{fault}");
+    }
+    assert!(!missing.exists() && fs::read_dir(&mount_point).unwrap().next().is_none());
+    assert!(Store::init_shared(&address(&missing)).unwrap());
+    assert!(!Store::init_shared(&address(&missing)).unwrap(), "a second time");
+    assert_eq!(open(&missing).await.put(&key(1), bytes(1, 1000)).await.1, Kept::Durable);
+}
+
+/// What is seen at the mount point while the file system is not mounted.
+#[tokio::test(start_paused = true)]
+async fn a_mount_that_disappears_is_waited_for_and_nothing_is_written_below_it() {
+    let root = tempfile::tempdir().unwrap();
+    let (mounted, away) = (root.path().join("mounted"), root.path().join("away"));
+    let store = open(&mounted).await;
+    assert_eq!(store.put(&key(1), bytes(1, 1000)).await.1, Kept::Durable);
+    assert_eq!(store.healthy().await, Ok(()));
+
+    fs::rename(&mounted, &away).unwrap();
+    fs::create_dir(&mounted).unwrap();
+    tokio::time::advance(Duration::from_secs(6)).await;
+    assert!(store.healthy().await.is_err());
+    assert_eq!(store.put(&key(2), bytes(2, 1000)).await.1, Kept::MemoryOnly);
+    assert_eq!(store.get(&key(3)).await, None);
+    assert_eq!((store.stats().write_failures, store.stats().read_failures), (1, 1));
+    assert!(fs::read_dir(&mounted).unwrap().next().is_none(), "nothing is written to the mount point");
+
+    fs::remove_dir(&mounted).unwrap();
+    fs::rename(&away, &mounted).unwrap();
+    tokio::time::advance(Duration::from_secs(6)).await;
+    assert_eq!(store.put(&key(2), bytes(2, 1000)).await.1, Kept::Durable);
+    assert_eq!(open(&mounted).await.get(&key(2)).await.unwrap().bytes, bytes(2, 1000));
+    assert_eq!(store.healthy().await, Ok(()));
 }
 
 #[tokio::test(start_paused = true)]
