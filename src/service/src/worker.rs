@@ -186,7 +186,7 @@ mod tests {
                 let info =
                     r#"INFO {"server_id":"a","version":"2.11.0","auth_required":true,"max_payload":1048576}"#;
                 stream.write_all(format!("{info}\r\n").as_bytes()).await.unwrap();
-                stream.read(&mut [0; 4096]).await.unwrap();
+                assert!(stream.read(&mut [0; 4096]).await.unwrap() > 0);
                 stream.write_all(b"-ERR 'Authorization Violation'\r\n").await.unwrap();
             }
         });

@@ -27,9 +27,11 @@ impl StoreCommand {
     /// Prepares the store, and says so on `out`.
     pub(super) fn run(&self, out: &mut impl Write) -> Result<(), String> {
         let Command::Init { url } = &self.command;
-        let told = match Store::init_shared(url).map_err(|error| error.to_string())? {
-            true => "is now a store of results",
-            false => "is a store of results already; nothing was changed",
+        let made = Store::init_shared(url).map_err(|error| error.to_string())?;
+        let told = if made {
+            "is now a store of results"
+        } else {
+            "is a store of results already; nothing was changed"
         };
         writeln!(out, "{url} {told}").map_err(|error| format!("cannot write the answer: {error}"))
     }
