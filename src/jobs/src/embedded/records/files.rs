@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::Unavailable;
 
 /// The database and its journal, as they were when it was opened.
-pub(super) struct Files([(PathBuf, Identity); 2]);
+pub(super) struct Files(Vec<(PathBuf, Identity)>);
 
 /// Tells a file from another that has its name later.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -17,10 +17,14 @@ struct Identity {
 }
 
 impl Files {
-    /// Of a database in the mode WAL that has been written.
+    /// Of a database that has been written. Where the file system cannot have the journal of the mode WAL there is none.
     pub(super) fn of(database: &Path) -> io::Result<Self> {
-        let file = |path: PathBuf| Ok::<_, io::Error>((path.clone(), Identity::of(&fs::metadata(path)?)));
-        Ok(Self([file(database.to_owned())?, file(journal(database))?]))
+        let mut files = vec![(database.to_owned(), Identity::of(&fs::metadata(database)?))];
+        let journal = journal(database);
+        if let Ok(found) = fs::metadata(&journal) {
+            files.push((journal, Identity::of(&found)));
+        }
+        Ok(Self(files))
     }
 
     pub(super) fn check(&self) -> Result<(), Unavailable> {
