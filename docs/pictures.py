@@ -7,8 +7,8 @@
 writes docs/platform.png and docs/part.png. Needs trimesh and matplotlib.
 """
 
+import argparse
 import pathlib
-import sys
 
 import matplotlib
 
@@ -27,12 +27,16 @@ LIGHT = np.array([0.35, -0.75, 0.65]) / np.linalg.norm([0.35, -0.75, 0.65])
 def read(path):
     """Corners of the triangles (mm, third axis up), their tags, and what the file says about itself."""
     scene = trimesh.load_scene(path, process=False)
-    (part,) = scene.geometry.values()
-    (node,) = scene.graph.nodes_geometry
-    x, y, z = trimesh.transform_points(part.vertices, scene.graph[node][0]).T * 1000
-    corners = np.column_stack([x, -z, y])[part.faces]
-    tags = np.ravel(part.vertex_attributes["_TAG"])[part.faces[:, 0]].astype(int)
-    return corners, tags, part.metadata["palette"], scene.metadata
+    corners, tags = [], []
+    for node in scene.graph.nodes_geometry:
+        transform, name = scene.graph[node]
+        part = scene.geometry[name]
+        x, y, z = trimesh.transform_points(part.vertices, transform).T * 1000
+        corners.append(np.column_stack([x, -z, y])[part.faces])
+        palette = part.metadata["palette"]
+        tag = [swatch["name"] for swatch in palette].index(part.visual.material.name)
+        tags.append(np.full(len(part.faces), tag))
+    return np.concatenate(corners), np.concatenate(tags), palette, scene.metadata
 
 
 def seams(corners, tags):
@@ -90,7 +94,9 @@ def draw(path, picture):
     plt.close(figure)
 
 
-for file in map(pathlib.Path, sys.argv[1:]):
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("files", nargs="+", type=pathlib.Path)
+for file in parser.parse_args().files:
     target = pathlib.Path(__file__).parent / f"{file.stem}.png"
     draw(file, target)
     print(f"{target}: {target.stat().st_size // 1024} kB")

@@ -1,4 +1,4 @@
-"""Reads mesh files with trimesh: closed, facing outwards, and of the right volume.
+"""Reads mesh files with trimesh: closed, facing outwards, and of the right volume. PLY with meshio as well.
 
     python check_meshes.py [--volume MM3] [--tolerance REL] [--components N] FILE ...
 
@@ -12,6 +12,7 @@ import json
 import pathlib
 import sys
 
+import meshio
 import numpy as np
 import trimesh
 
@@ -32,19 +33,40 @@ def read(path):
         if not scene.geometry:
             return None
         for part in scene.geometry.values():
-            if part.vertex_attributes["_TAG"].max() >= len(part.metadata["palette"]):
-                raise ValueError("a vertex has a tag that is not in the palette")
+            if part.visual.material.name not in [swatch["name"] for swatch in part.metadata["palette"]]:
+                raise ValueError("a material's name is not in the palette")
         mesh = scene.to_mesh()
         # Split along the creases for the sake of normals: weld what lies in one place.
         mesh.merge_vertices(merge_norm=True, merge_tex=True)
     else:
         mesh = trimesh.load_mesh(path)
+        if path.suffix == ".ply":
+            same_in_meshio(path, mesh)
         if len(getattr(mesh, "faces", ())) == 0:
             return None
         if path.suffix == ".stl":
             mesh.merge_vertices()
     mesh.apply_scale(MILLIMETRES[path.suffix])
     return mesh
+
+
+def same_in_meshio(path, mesh):
+    """Refuses a PLY file in which meshio and trimesh do not see the same, or whose comments do not cover the faces."""
+    other = meshio.read(path)
+    faces = np.reshape([cells.data for cells in other.cells], (-1, 3))
+    seen = (np.reshape(mesh.vertices, (-1, 3)), np.reshape(mesh.faces, (-1, 3)))
+    if not all(map(np.array_equal, (other.points, faces), seen)):
+        raise ValueError("meshio and trimesh do not see the same")
+    tags = other.point_data["tag"]
+    for line in path.read_bytes().split(b"end_header")[0].decode().splitlines():
+        if line.startswith("comment faces "):
+            first, count, _, tag = line.split()[2:]
+            # The tag of a vertex is the least of the faces around it.
+            part, faces = faces[: int(count)], faces[int(count) :]
+            if (tags[part] > int(tag)).any():
+                raise ValueError(f"the faces from {first} on have a vertex of a greater tag than {tag}")
+    if len(faces):
+        raise ValueError("some faces have no tag")
 
 
 def faults(mesh, wanted):

@@ -1,8 +1,8 @@
 //! GLB, the binary glTF 2.0: for viewers. In metres and with Y up, as glTF demands.
 //!
-//! The vertices are split along the creases and interleaved, 32 bytes each: position, normal, colour, and the
-//! tag as the application's own attribute `_TAG`, an index into the `palette` that stands in the mesh's
-//! `extras`.
+//! Each tag that occurs is a primitive whose material has the tag's name and colour, so that other programs can
+//! select it; its `extras` hold the `tag`, an index into the `palette` of the mesh's `extras`. The vertices are
+//! split along the creases and between the tags, and interleaved, 24 bytes each: position and normal.
 
 mod document;
 mod layout;
@@ -13,9 +13,10 @@ use std::io::{self, BufWriter, Write};
 use gltf_json::Root;
 use serde_json::Value;
 
-use self::layout::{Layout, STRIDE};
+use self::layout::{Layout, Part, STRIDE};
 use self::placement::Placement;
 pub use self::placement::Up;
+use crate::groups::Groups;
 use crate::shading::{ShadedVertex, Shading};
 use crate::{Bounds, Mesh};
 
@@ -44,34 +45,40 @@ pub fn write(mesh: &Mesh, options: &Options, out: impl Write) -> io::Result<()> 
 
 fn write_scene(mesh: &Mesh, bounds: Bounds, options: &Options, out: &mut impl Write) -> io::Result<()> {
     let placement = Placement::new(options.up, bounds);
-    let shading = Shading::of(mesh, options.crease);
-    let layout = Layout::new(shading.vertices.len(), shading.corners.len());
+    let groups = Groups::of(mesh);
+    let shading = Shading::of(mesh, options.crease, &groups);
+    let layout = Layout::new(mesh, &groups, &shading, &placement);
     write_head(&document::of(mesh, options, &placement, &layout)?, Some(&layout), out)?;
-    let colours: Vec<[u8; 3]> = mesh.palette().iter().map(crate::Swatch::linear).collect();
     for vertex in &shading.vertices {
-        out.write_all(&record(vertex, mesh, &placement, &colours))?;
+        out.write_all(&record(vertex, mesh, &placement))?;
     }
-    for &corner in &shading.corners {
-        match u16::try_from(corner) {
-            Ok(corner) if layout.short_indices() => out.write_all(&corner.to_le_bytes())?,
-            _ => out.write_all(&corner.to_le_bytes())?,
-        }
+    for part in &layout.parts {
+        write_indices(part, &shading, layout.short_indices(), out)?;
     }
     out.write_all(&[0; 3][..layout.padding()])
 }
 
 /// One vertex as the accessors of the document describe it.
-fn record(vertex: &ShadedVertex, mesh: &Mesh, placement: &Placement, colours: &[[u8; 3]]) -> [u8; STRIDE] {
+fn record(vertex: &ShadedVertex, mesh: &Mesh, placement: &Placement) -> [u8; STRIDE] {
     let position = placement.position(mesh.positions()[vertex.vertex as usize]);
     let normal = placement.direction(vertex.normal);
     let mut bytes = [0; STRIDE];
-    for (slot, number) in bytes[..24].chunks_exact_mut(4).zip(position.iter().chain(&normal)) {
+    for (slot, number) in bytes.chunks_exact_mut(4).zip(position.iter().chain(&normal)) {
         slot.copy_from_slice(&number.to_le_bytes());
     }
-    bytes[24..27].copy_from_slice(&colours[usize::from(vertex.tag)]);
-    bytes[27] = u8::MAX;
-    bytes[28] = vertex.tag;
     bytes
+}
+
+fn write_indices(part: &Part, shading: &Shading, short: bool, out: &mut impl Write) -> io::Result<()> {
+    let corners = &shading.corners[part.indices.clone()];
+    // A tag's first corner names its first vertex.
+    for index in corners.iter().map(|corner| corner - corners[0]) {
+        match u16::try_from(index) {
+            Ok(index) if short => out.write_all(&index.to_le_bytes())?,
+            _ => out.write_all(&index.to_le_bytes())?,
+        }
+    }
+    Ok(())
 }
 
 /// The file's header, the JSON chunk, and the binary chunk's header if there is one.

@@ -11,6 +11,7 @@ mod facet;
 mod fault;
 mod forest;
 pub mod glb;
+mod groups;
 pub mod json;
 mod measure;
 mod mesh;

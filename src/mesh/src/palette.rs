@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::vector::single;
+
 /// One tag's name and colour. A mesh's tags index its list of swatches.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Swatch {
@@ -12,20 +14,13 @@ pub struct Swatch {
 }
 
 impl Swatch {
-    /// The colour as a light's intensity, which is what glTF means by a vertex colour.
-    pub(crate) fn linear(&self) -> [u8; 3] {
-        self.rgb.map(|channel| {
+    /// The colour as a light's intensity, 0 to 1, which is what glTF means by a material's colour.
+    pub(crate) fn linear(&self) -> [f32; 3] {
+        single(self.rgb.map(|channel| {
             let encoded = f64::from(channel) / 255.0;
-            let intensity =
-                if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
-            quantised(intensity)
-        })
+            if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+        }))
     }
-}
-
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the argument lies in 0..=1")]
-fn quantised(intensity: f64) -> u8 {
-    (intensity * 255.0).round() as u8
 }
 
 #[cfg(test)]
@@ -35,6 +30,7 @@ mod tests {
     #[test]
     fn ends_are_kept_and_middle_grey_is_darkened() {
         let swatch = Swatch { name: "grey".to_owned(), rgb: [0, 188, 255] };
-        assert_eq!(swatch.linear(), [0, 128, 255]);
+        let bytes = swatch.linear().map(|intensity| (intensity * 255.0).round());
+        assert_eq!(bytes, [0.0, 128.0, 255.0]);
     }
 }

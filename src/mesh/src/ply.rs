@@ -1,35 +1,44 @@
 //! Binary PLY, in millimetres and double precision: for what follows in other programs.
+//!
+//! meshio and PyMesh read no face that has a scalar beside its list of vertices, and meshio reads no third element
+//! and takes `uchar` for a signed number. So the faces are ordered by tag, comments say where each tag's faces are,
+//! and types have the names with their widths.
 
 use std::fmt::Write as _;
 use std::io::{self, BufWriter, Write};
 
 use crate::Mesh;
+use crate::groups::Groups;
 
-/// Writes the mesh as a little-endian PLY: vertices with colour and tag, faces with their tag. Each line of
-/// the comments becomes a comment, and so does each swatch.
+/// Writes the mesh as a little-endian PLY: vertices with colour and tag, then faces in the order of their tags.
+///
+/// Each line of the comments becomes a comment. So does each swatch, as `tag NUMBER RED GREEN BLUE NAME`, and each
+/// tag that faces have, as `faces FIRST COUNT tag NUMBER`; faces count from 0. What does not fit into a comment
+/// continues in further ones, each of which begins with `+`.
 pub fn write(mesh: &Mesh, comments: &str, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
-    out.write_all(header(mesh, comments).as_bytes())?;
+    let groups = Groups::of(mesh);
+    out.write_all(header(mesh, &groups, comments).as_bytes())?;
     for (&position, tag) in mesh.positions().iter().zip(mesh.vertex_tags()) {
         out.write_all(&vertex(position, mesh.palette()[usize::from(tag)].rgb, tag))?;
     }
-    for (&triangle, &tag) in mesh.triangles().iter().zip(mesh.tags()) {
-        out.write_all(&face(triangle, tag))?;
+    for &triangle in groups.order() {
+        out.write_all(&face(mesh.triangles()[triangle as usize]))?;
     }
     out.flush()
 }
 
-fn header(mesh: &Mesh, comments: &str) -> String {
+fn header(mesh: &Mesh, groups: &Groups, comments: &str) -> String {
     let mut header = "ply\nformat binary_little_endian 1.0\ncomment unit mm\n".to_owned();
     let swatches = mesh.palette().iter().enumerate().map(|(tag, swatch)| {
         let [red, green, blue] = swatch.rgb;
         format!("tag {tag} {red} {green} {blue} {}", swatch.name)
     });
-    for line in comments.lines().map(str::to_owned).chain(swatches) {
-        header.push_str("comment ");
-        // A line's end within the text would end the comment, and readers expect ASCII.
-        header.extend(line.chars().map(|c| if c == ' ' || c.is_ascii_graphic() { c } else { '?' }));
-        header.push('\n');
+    let faces = groups
+        .iter()
+        .map(|group| format!("faces {} {} tag {}", group.triangles.start, group.triangles.len(), group.tag));
+    for line in comments.lines().map(str::to_owned).chain(swatches).chain(faces) {
+        comment(&mut header, &line);
     }
     // Writing into a string cannot fail.
     let _ = writeln!(header, "element vertex {}", mesh.positions().len());
@@ -37,11 +46,27 @@ fn header(mesh: &Mesh, comments: &str) -> String {
         let _ = writeln!(header, "property double {axis}");
     }
     for channel in ["red", "green", "blue", "tag"] {
-        let _ = writeln!(header, "property uchar {channel}");
+        let _ = writeln!(header, "property uint8 {channel}");
     }
     let _ = writeln!(header, "element face {}", mesh.triangles().len());
-    header.push_str("property list uchar uint vertex_indices\nproperty uchar tag\nend_header\n");
+    header.push_str("property list uint8 uint32 vertex_indices\nend_header\n");
     header
+}
+
+/// Characters of a comment. MeshLab refuses lines of 512 characters, VTK reads nothing after one of 4,096, and Open3D
+/// aborts at 1,024.
+const COMMENT: usize = 400;
+
+fn comment(header: &mut String, text: &str) {
+    // A line's end within the text would end the comment, and readers expect ASCII.
+    let ascii: Vec<char> =
+        text.chars().map(|c| if c == ' ' || c.is_ascii_graphic() { c } else { '?' }).collect();
+    header.push_str("comment ");
+    for (part, characters) in ascii.chunks(COMMENT).enumerate() {
+        header.push_str(if part == 0 { "" } else { "\ncomment +" });
+        header.extend(characters);
+    }
+    header.push('\n');
 }
 
 fn vertex(position: [f64; 3], [red, green, blue]: [u8; 3], tag: u8) -> [u8; 28] {
@@ -53,12 +78,11 @@ fn vertex(position: [f64; 3], [red, green, blue]: [u8; 3], tag: u8) -> [u8; 28] 
     bytes
 }
 
-fn face(triangle: [u32; 3], tag: u8) -> [u8; 14] {
-    let mut bytes = [0; 14];
+fn face(triangle: [u32; 3]) -> [u8; 13] {
+    let mut bytes = [0; 13];
     bytes[0] = 3;
-    for (slot, index) in bytes[1..13].chunks_exact_mut(4).zip(triangle) {
+    for (slot, index) in bytes[1..].chunks_exact_mut(4).zip(triangle) {
         slot.copy_from_slice(&index.to_le_bytes());
     }
-    bytes[13] = tag;
     bytes
 }

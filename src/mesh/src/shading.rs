@@ -2,6 +2,7 @@
 
 use crate::edges::{Edges, Side};
 use crate::forest::Forest;
+use crate::groups::Groups;
 use crate::vector::{add, dot, norm, scale};
 use crate::{Mesh, facet};
 
@@ -18,9 +19,9 @@ pub(crate) struct ShadedVertex {
 
 /// A mesh whose vertices are split along the creases.
 pub(crate) struct Shading {
-    /// The split vertices, in the order in which the triangles name them first.
+    /// The split vertices, in the order in which the triangles of the groups name them first, so by tag.
     pub(crate) vertices: Vec<ShadedVertex>,
-    /// For each corner of each triangle its split vertex.
+    /// For each corner of each triangle, in the order of the groups, its split vertex.
     pub(crate) corners: Vec<u32>,
 }
 
@@ -31,15 +32,15 @@ impl Shading {
     ///
     /// A patch's normal at a vertex is the mean of its triangles' normals weighted by their angles there,
     /// which does not depend on how a flat polygon is cut into triangles.
-    pub(crate) fn of(mesh: &Mesh, crease: f64) -> Self {
+    pub(crate) fn of(mesh: &Mesh, crease: f64, groups: &Groups) -> Self {
         let normals: Vec<_> =
             mesh.triangles().iter().map(|triangle| facet::normal(mesh.corners(triangle))).collect();
-        let mut shading = split(mesh, &mut fans(mesh, &normals, crease));
-        for (triangle, indices) in mesh.triangles().iter().enumerate() {
-            let Some(normal) = normals[triangle] else { continue };
-            let corners = mesh.corners(indices);
+        let mut shading = split(mesh, &mut fans(mesh, &normals, crease), groups);
+        for (place, &triangle) in groups.order().iter().enumerate() {
+            let Some(normal) = normals[triangle as usize] else { continue };
+            let corners = mesh.corners(&mesh.triangles()[triangle as usize]);
             for at in 0..3 {
-                let patch = &mut shading.vertices[shading.corners[3 * triangle + at] as usize].normal;
+                let patch = &mut shading.vertices[shading.corners[3 * place + at] as usize].normal;
                 *patch = add(*patch, scale(normal, facet::angle(corners, at)));
             }
         }
@@ -74,19 +75,21 @@ fn fans(mesh: &Mesh, normals: &[Option<[f64; 3]>], crease: f64) -> Forest {
 }
 
 /// One vertex for each fan, its normal still zero.
-fn split(mesh: &Mesh, fans: &mut Forest) -> Shading {
+fn split(mesh: &Mesh, fans: &mut Forest, groups: &Groups) -> Shading {
     let mut number = vec![NONE; mesh.triangles().len() * 3];
     let mut shading = Shading { vertices: Vec::new(), corners: Vec::with_capacity(number.len()) };
     let mut next = 0;
-    for (corner, &vertex) in (0_u32..).zip(mesh.triangles().as_flattened()) {
-        let fan = &mut number[fans.root(corner) as usize];
-        if *fan == NONE {
-            *fan = next;
-            next += 1;
-            let tag = mesh.tags()[corner as usize / 3];
-            shading.vertices.push(ShadedVertex { vertex, normal: [0.0; 3], tag });
+    for &triangle in groups.order() {
+        for (corner, &vertex) in (3 * triangle..).zip(&mesh.triangles()[triangle as usize]) {
+            let fan = &mut number[fans.root(corner) as usize];
+            if *fan == NONE {
+                *fan = next;
+                next += 1;
+                let tag = mesh.tags()[triangle as usize];
+                shading.vertices.push(ShadedVertex { vertex, normal: [0.0; 3], tag });
+            }
+            shading.corners.push(*fan);
         }
-        shading.corners.push(*fan);
     }
     shading
 }
@@ -102,6 +105,7 @@ fn unit(sum: [f64; 3]) -> [f64; 3] {
 #[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
     use super::Shading;
+    use crate::groups::Groups;
     use crate::{Mesh, Swatch};
 
     /// Two squares at a right angle along the y axis, hinged with shared vertices.
@@ -119,17 +123,22 @@ mod tests {
         Mesh::new(positions, triangles, tags.to_vec(), palette).unwrap()
     }
 
+    fn shaded(tags: [u8; 4], crease: f64) -> Shading {
+        let mesh = hinge(tags);
+        Shading::of(&mesh, crease.to_radians(), &Groups::of(&mesh))
+    }
+
     fn assert_near(found: [f64; 3], wanted: [f64; 3]) {
         assert!(found.iter().zip(&wanted).all(|(f, w)| (f - w).abs() < 1e-12), "{found:?} is not {wanted:?}");
     }
 
     #[test]
     fn a_crease_splits_and_a_bend_does_not() {
-        let creased = Shading::of(&hinge([0; 4]), 30_f64.to_radians());
+        let creased = shaded([0; 4], 30.0);
         assert_eq!(creased.vertices.len(), 8);
         assert_near(creased.vertices[0].normal, [0.0, 0.0, 1.0]);
 
-        let bent = Shading::of(&hinge([0; 4]), 100_f64.to_radians());
+        let bent = shaded([0; 4], 100.0);
         assert_eq!(bent.vertices.len(), 6);
         // Each square has a right angle at vertex 0, however it is cut: the mean is the bisector.
         let half = 0.5_f64.sqrt();
@@ -138,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_change_of_tag_splits_a_flat_square() {
-        let shading = Shading::of(&hinge([0, 1, 1, 1]), 100_f64.to_radians());
+        let shading = shaded([0, 1, 1, 1], 100.0);
         assert_eq!(shading.vertices.len(), 8);
         assert_eq!(shading.vertices[0].tag, 0);
         assert_near(shading.vertices[0].normal, [0.0, 0.0, 1.0]);

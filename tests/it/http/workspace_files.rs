@@ -85,21 +85,27 @@ async fn glb_is_in_metres_with_y_up() {
         let (reply, summary) = mesh(question, "glb").await;
         let file = gltf::Gltf::from_slice(&reply.bytes).unwrap();
         let node = file.nodes().next().unwrap();
-        let primitive = node.mesh().unwrap().primitives().next().unwrap();
         let moved = node.transform().decomposed().0;
-        let bounds = primitive.bounding_box();
-        let least = f64::from(bounds.min[1] + moved[1]) * 1000.0;
+        let extras = file.default_scene().or_else(|| file.scenes().next()).unwrap().extras().clone().unwrap();
+        let extras: Value = serde_json::from_str(extras.get()).unwrap();
+        assert_eq!(extras["id"], summary["id"]);
+        assert_eq!((&extras["unit"], &extras["machine_unit"]), (&json!("m"), &json!("mm")));
+        let (mut least, mut indices, mut names) = (f64::INFINITY, 0, Vec::new());
+        for primitive in node.mesh().unwrap().primitives() {
+            least = least.min(f64::from(primitive.bounding_box().min[1] + moved[1]) * 1000.0);
+            let reader = primitive.reader(|_| file.blob.as_deref());
+            indices += reader.read_indices().unwrap().into_u32().count();
+            names.push(primitive.material().name().unwrap().to_owned());
+        }
         let [_, axis, _, sign] = up;
         // glTF's y is the frame's z, upwards.
         let wanted = if sign > 0 { &summary["bounds"]["min"][2] } else { &summary["bounds"]["max"][2] };
         assert_eq!(axis, 2);
         assert!((least - f64::from(sign) * wanted.as_f64().unwrap()).abs() < 1e-3, "{least} {wanted}");
-        let reader = primitive.reader(|_| file.blob.as_deref());
-        let indices = reader.read_indices().unwrap().into_u32().count();
         assert_eq!(json!(indices / 3), summary["triangles"]);
-        let extras = file.default_scene().or_else(|| file.scenes().next()).unwrap().extras().clone().unwrap();
-        let extras: Value = serde_json::from_str(extras.get()).unwrap();
-        assert_eq!(extras["id"], summary["id"]);
+        // What limits the workspace can be selected by name.
+        let limits = extras["constraints"].as_array().unwrap().iter().map(|limit| &limit["name"]);
+        assert!(names.iter().eq(limits), "{names:?}");
     }
 }
 
@@ -122,4 +128,6 @@ async fn ply_says_what_it_is() {
     assert!(header.contains(&format!("comment id {}", summary["id"].as_str().unwrap())), "{header}");
     assert!(header.contains("Not Fatronik's"), "{header}");
     assert!(header.contains(&format!("element face {}", summary["triangles"])), "{header}");
+    // meshio and PyMesh take nothing at a face but the list of its vertices.
+    assert!(header.ends_with("property list uint8 uint32 vertex_indices\n"), "{header}");
 }

@@ -2,7 +2,7 @@
 
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf_json::buffer::{Stride, Target, View};
-use gltf_json::material::{PbrMetallicRoughness, StrengthFactor};
+use gltf_json::material::{PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked::Valid;
 use gltf_json::{Accessor, Asset, Buffer, Extras, Index, Material, Node, Root, Scene};
@@ -10,9 +10,9 @@ use serde_json::value::to_raw_value;
 use serde_json::{Value, json};
 
 use super::Options;
-use super::layout::{Layout, STRIDE};
+use super::layout::{Layout, Part, STRIDE};
 use super::placement::Placement;
-use crate::Mesh;
+use crate::{Mesh, Swatch};
 
 /// A scene of nothing.
 pub(super) fn empty(options: &Options) -> serde_json::Result<Root> {
@@ -23,7 +23,7 @@ pub(super) fn empty(options: &Options) -> serde_json::Result<Root> {
     Ok(root)
 }
 
-/// A scene of one node that holds the mesh.
+/// A scene of one node that holds the mesh: a primitive with a material of its own for each tag that occurs.
 pub(super) fn of(
     mesh: &Mesh,
     options: &Options,
@@ -31,12 +31,23 @@ pub(super) fn of(
     layout: &Layout,
 ) -> serde_json::Result<Root> {
     let mut root = empty(options)?;
-    let primitive = primitive(&mut root, placement, layout);
+    let views = views(&mut root, layout);
+    let mut primitives = Vec::with_capacity(layout.parts.len());
+    for part in &layout.parts {
+        let swatch = &mesh.palette()[usize::from(part.tag)];
+        let material = root.push(material(swatch));
+        let extras = extras(&json!({ "tag": part.tag }))?;
+        primitives.push(Primitive {
+            material: Some(material),
+            extras,
+            ..primitive(&mut root, views, layout, part)
+        });
+    }
     let object = root.push(gltf_json::Mesh {
         extensions: None,
         extras: extras(&json!({ "palette": mesh.palette() }))?,
         name: Some(options.name.clone()),
-        primitives: vec![primitive],
+        primitives,
         weights: None,
     });
     let node = root.push(Node {
@@ -51,35 +62,32 @@ pub(super) fn of(
     Ok(root)
 }
 
-fn primitive(root: &mut Root, placement: &Placement, layout: &Layout) -> Primitive {
-    let [vertices, indices] = views(root, layout);
-    let mut attribute = |offset: u64, component, type_, normalized| {
-        root.push(Accessor {
-            byte_offset: Some(offset.into()),
-            normalized,
-            ..accessor(vertices, layout.vertices, component, type_)
-        })
+fn primitive(
+    root: &mut Root,
+    [vertices, indices]: [Index<View>; 2],
+    layout: &Layout,
+    part: &Part,
+) -> Primitive {
+    let first = (part.vertices.start * STRIDE) as u64;
+    let mut attribute = |offset: u64, bounds: Option<[[f32; 3]; 2]>| {
+        let [min, max] = bounds.map_or([None, None], |corners| corners.map(|corner| Some(json!(corner))));
+        let accessor = accessor(vertices, part.vertices.len(), ComponentType::F32, Type::Vec3);
+        root.push(Accessor { byte_offset: Some((first + offset).into()), min, max, ..accessor })
     };
-    let position = attribute(0, ComponentType::F32, Type::Vec3, false);
-    let normal = attribute(12, ComponentType::F32, Type::Vec3, false);
-    let colour = attribute(24, ComponentType::U8, Type::Vec4, true);
-    let tag = attribute(28, ComponentType::U8, Type::Scalar, false);
-    let [min, max] = placement.bounds.map(|corner| Some(json!(corner)));
-    let described = &mut root.accessors[position.value()];
-    (described.min, described.max) = (min, max);
+    let position = attribute(0, Some(part.bounds));
+    let normal = attribute(12, None);
     let width = if layout.short_indices() { ComponentType::U16 } else { ComponentType::U32 };
+    let from = part.indices.start as u64 * layout.index_size();
+    let indices = root.push(Accessor {
+        byte_offset: Some(from.into()),
+        ..accessor(indices, part.indices.len(), width, Type::Scalar)
+    });
     Primitive {
-        attributes: [
-            (Valid(Semantic::Positions), position),
-            (Valid(Semantic::Normals), normal),
-            (Valid(Semantic::Colors(0)), colour),
-            (Valid(Semantic::Extras("TAG".to_owned())), tag),
-        ]
-        .into(),
+        attributes: [(Valid(Semantic::Positions), position), (Valid(Semantic::Normals), normal)].into(),
         extensions: None,
         extras: None,
-        indices: Some(root.push(accessor(indices, layout.indices, width, Type::Scalar))),
-        material: Some(root.push(material())),
+        indices: Some(indices),
+        material: None,
         mode: Valid(Mode::Triangles),
         targets: None,
     }
@@ -128,10 +136,13 @@ fn accessor(view: Index<View>, count: usize, component: ComponentType, type_: Ty
     }
 }
 
-/// White and rough: the vertices' colours are all there is to see. One-sided, since the surface is closed.
-fn material() -> Material {
+/// The tag's name and colour, rough. One-sided, since the surface is closed.
+fn material(swatch: &Swatch) -> Material {
+    let [red, green, blue] = swatch.linear();
     Material {
+        name: Some(swatch.name.clone()),
         pbr_metallic_roughness: PbrMetallicRoughness {
+            base_color_factor: PbrBaseColorFactor([red, green, blue, 1.0]),
             metallic_factor: StrengthFactor(0.0),
             roughness_factor: StrengthFactor(0.8),
             ..PbrMetallicRoughness::default()

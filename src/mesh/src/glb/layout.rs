@@ -1,33 +1,66 @@
-//! What lies where in the binary chunk: the vertices, then the indices.
+//! What lies where in the binary chunk: the vertices, then the indices; of both those of one tag beside each other.
 
-/// Bytes of one vertex: three floats of position, three of the normal, four of colour, the tag, and three
-/// that bring the next vertex to a multiple of four.
-pub(super) const STRIDE: usize = 32;
+use std::ops::Range;
+
+use super::placement::Placement;
+use crate::Mesh;
+use crate::groups::Groups;
+use crate::shading::Shading;
+
+/// Bytes of one vertex: three floats of position, three of the normal.
+pub(super) const STRIDE: usize = 24;
 
 /// The binary chunk's measures.
 pub(super) struct Layout {
-    /// How many split vertices.
-    pub(super) vertices: usize,
-    /// How many indices, three a triangle.
-    pub(super) indices: usize,
+    /// One for each tag that occurs.
+    pub(super) parts: Vec<Part>,
+}
+
+/// What is of one tag.
+pub(super) struct Part {
+    pub(super) tag: u8,
+    /// Which of the split vertices.
+    pub(super) vertices: Range<usize>,
+    /// Which of the indices, three a triangle. They count from the part's first vertex.
+    pub(super) indices: Range<usize>,
+    /// The least and greatest coordinates of the vertices as they are written, m.
+    pub(super) bounds: [[f32; 3]; 2],
 }
 
 impl Layout {
-    pub(super) fn new(vertices: usize, indices: usize) -> Self {
-        Self { vertices, indices }
+    pub(super) fn new(mesh: &Mesh, groups: &Groups, shading: &Shading, placement: &Placement) -> Self {
+        let parts = groups.iter().map(|group| {
+            let vertices = shading.vertices.partition_point(|vertex| vertex.tag < group.tag)
+                ..shading.vertices.partition_point(|vertex| vertex.tag <= group.tag);
+            let positions = shading.vertices[vertices.clone()]
+                .iter()
+                .map(|vertex| placement.position(mesh.positions()[vertex.vertex as usize]));
+            Part {
+                tag: group.tag,
+                bounds: bounds(positions),
+                vertices,
+                indices: 3 * group.triangles.start..3 * group.triangles.end,
+            }
+        });
+        Self { parts: parts.collect() }
     }
 
     /// True if 16 bits hold every index; 65535 itself is reserved by glTF.
     pub(super) fn short_indices(&self) -> bool {
-        u16::try_from(self.vertices).is_ok()
+        self.parts.iter().all(|part| u16::try_from(part.vertices.len()).is_ok())
+    }
+
+    /// Bytes of an index.
+    pub(super) fn index_size(&self) -> u64 {
+        if self.short_indices() { 2 } else { 4 }
     }
 
     pub(super) fn vertex_bytes(&self) -> u64 {
-        self.vertices as u64 * STRIDE as u64
+        self.parts.last().map_or(0, |part| part.vertices.end) as u64 * STRIDE as u64
     }
 
     pub(super) fn index_bytes(&self) -> u64 {
-        self.indices as u64 * if self.short_indices() { 2 } else { 4 }
+        self.parts.last().map_or(0, |part| part.indices.end) as u64 * self.index_size()
     }
 
     pub(super) fn bytes(&self) -> u64 {
@@ -45,20 +78,34 @@ impl Layout {
     }
 }
 
+fn bounds(positions: impl Iterator<Item = [f32; 3]>) -> [[f32; 3]; 2] {
+    positions.fold([[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]], |[min, max], position| {
+        [
+            std::array::from_fn(|axis| min[axis].min(position[axis])),
+            std::array::from_fn(|axis| max[axis].max(position[axis])),
+        ]
+    })
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Layout;
+    use super::{Layout, Part};
+
+    fn layout(vertices: usize, indices: usize) -> Layout {
+        let part = |tag, vertices, indices| Part { tag, vertices, indices, bounds: [[0.0; 3]; 2] };
+        Layout { parts: vec![part(0, 0..3, 0..3), part(1, 3..3 + vertices, 3..3 + indices)] }
+    }
 
     #[test]
-    fn indices_grow_where_sixteen_bits_end() {
-        assert_eq!(Layout::new(65_535, 3).index_bytes(), 6);
-        assert_eq!(Layout::new(65_536, 3).index_bytes(), 12);
+    fn indices_grow_where_a_part_needs_more_than_sixteen_bits() {
+        assert_eq!(layout(65_535, 3).index_bytes(), 12);
+        assert_eq!(layout(65_536, 3).index_bytes(), 24);
     }
 
     #[test]
     fn the_chunk_ends_on_a_multiple_of_four() {
         for triangles in 1..5 {
-            let layout = Layout::new(3, 3 * triangles);
+            let layout = layout(3, 3 * triangles);
             assert_eq!(layout.bytes() + layout.padding() as u64, layout.chunk());
             assert_eq!(layout.chunk() % 4, 0);
         }

@@ -29,23 +29,13 @@ pub(super) struct Placement {
     up: Up,
     /// The node's translation, m. On a grid, so that every reader adds back what was subtracted here.
     pub(super) translation: [f32; 3],
-    /// The vertices' least and greatest coordinates.
-    pub(super) bounds: [[f32; 3]; 2],
 }
 
 impl Placement {
-    pub(super) fn new(up: Up, Bounds { min, max }: Bounds) -> Self {
-        let middle = up.turn(Bounds { min, max }.centre());
+    pub(super) fn new(up: Up, bounds: Bounds) -> Self {
+        let middle = up.turn(bounds.centre());
         let translation = single(middle.map(|mm| (mm * METRES * GRID).round() / GRID));
-        let mut placement = Self { up, translation, bounds: [[0.0; 3]; 2] };
-        // The turn exchanges and negates axes only, and rounding keeps order: the box of the images is the
-        // image of the box, but for the order of its corners.
-        let (a, b) = (placement.position(min), placement.position(max));
-        placement.bounds = [
-            [a[0].min(b[0]), a[1].min(b[1]), a[2].min(b[2])],
-            [a[0].max(b[0]), a[1].max(b[1]), a[2].max(b[2])],
-        ];
-        placement
+        Self { up, translation }
     }
 
     /// A vertex, in metres from the node.

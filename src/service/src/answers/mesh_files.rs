@@ -53,11 +53,13 @@ impl<'a> Described<'a> {
         }
     }
 
-    /// What files say about themselves.
-    fn about(&self, mesh: &Mesh) -> Value {
+    /// What files say about themselves. `unit` is that of the coordinates; the machine's data and the request are in
+    /// mm whatever it is.
+    fn about(&self, mesh: &Mesh, unit: &str) -> Value {
         let machine = &self.published.id;
         json!({
-            "unit": "mm",
+            "unit": unit,
+            "machine_unit": "mm",
             "frame": self.frame,
             "kind": self.kind,
             "request": self.request,
@@ -93,7 +95,9 @@ pub(crate) fn write_mesh(
     mesh: &Mesh,
     format: MeshFormat,
 ) -> Result<Vec<u8>, Error> {
-    let about = described.about(mesh);
+    // glTF has no other unit than the metre.
+    let unit = if format == MeshFormat::Glb { "m" } else { "mm" };
+    let about = described.about(mesh, unit);
     let mut file = Vec::with_capacity(TRIANGLE_BYTES * mesh.triangles().len());
     let written = match format {
         MeshFormat::Glb => glb::write(mesh, &described.options(about), &mut file),
@@ -111,7 +115,7 @@ fn comments(about: &Value) -> String {
         .as_object()
         .into_iter()
         .flatten()
-        .filter(|(name, _)| !["unit", "constraints"].contains(&name.as_str()));
+        .filter(|(name, _)| !["unit", "machine_unit", "constraints"].contains(&name.as_str()));
     lines.fold(String::new(), |mut comments, (name, value)| {
         let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
         // Writing to a string cannot fail.

@@ -4,8 +4,9 @@ use clap::ValueEnum;
 use serde::Deserialize;
 use utoipa::ToSchema;
 
-/// How a mesh is written: `glb`, binary glTF 2.0 (metres, Y up, the frame in `extras`), for viewers; `stl`, binary
-/// (mm), for slicers and CAD; `ply`, binary (mm, double precision, with the binding constraint); `json` (mm, flat
+/// How a mesh is written: `glb`, binary glTF 2.0 (metres, Y up, the frame in `extras`, a primitive and a material for
+/// each binding constraint), for viewers; `stl`, binary (mm), for slicers and CAD; `ply`, binary (mm, double precision,
+/// the binding constraint at the vertices, and in comments for the faces, which are ordered by it); `json` (mm, flat
 /// `positions` and `indices`), for scripts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
@@ -45,7 +46,7 @@ impl MeshFormat {
     }
 }
 
-/// How a slice is written: `json`; `svg`, a drawing for people; `dxf` (R12, mm), for CAD.
+/// How a slice is written: `json`; `svg`, a drawing for people; `dxf` (AC1015, mm), for CAD.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum SliceFormat {
@@ -53,7 +54,7 @@ pub(crate) enum SliceFormat {
     Json,
     /// A drawing.
     Svg,
-    /// AutoCAD R12, ASCII.
+    /// AutoCAD 2000, ASCII.
     Dxf,
 }
 

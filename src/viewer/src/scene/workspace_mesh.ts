@@ -10,6 +10,7 @@ import {
   Plane,
   Vector3,
   type BufferGeometry,
+  type MeshStandardMaterial,
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { BASE, Refused, type WorkspaceSummary } from "../api/client";
@@ -20,13 +21,18 @@ import { shares } from "../geometry/shares";
 /** As it is, and coarser for machines that cannot move it so. */
 type Grade = "fine" | "coarse";
 
+/** The surface seen from within and from without, in the order in which they are drawn. */
+const SIDES = [
+  { side: BackSide, opacity: 0.22 },
+  { side: FrontSide, opacity: 0.36 },
+] as const;
+
 export class WorkspaceMesh {
   readonly group = new Group();
   private readonly grades = { fine: new Group(), coarse: new Group() };
   private readonly shown: Record<Grade, string | null> = { fine: null, coarse: null };
   private readonly loader = new GLTFLoader();
-  private readonly inside = new MeshLambertMaterial({ vertexColors: true, side: BackSide });
-  private readonly outside = new MeshLambertMaterial({ vertexColors: true, side: FrontSide });
+  private opaque = false;
   private readonly plane = new Plane();
   /** In the GLB's own frame, metres: what lies below it is shown. */
   private height: number | null = null;
@@ -35,19 +41,11 @@ export class WorkspaceMesh {
     this.group.matrixAutoUpdate = false;
     this.group.add(this.grades.fine, this.grades.coarse);
     this.quick(false);
-    this.solid(false);
   }
 
   solid(solid: boolean): void {
-    for (const [material, opacity] of [
-      [this.inside, 0.22],
-      [this.outside, 0.36],
-    ] as const) {
-      material.transparent = !solid;
-      material.opacity = solid ? 1 : opacity;
-      material.depthWrite = solid;
-      material.needsUpdate = true;
-    }
+    this.opaque = solid;
+    this.paint();
   }
 
   /** Loads and shows; answers the pieces of the surface, or null if something newer came between. */
@@ -62,19 +60,28 @@ export class WorkspaceMesh {
     const loaded = await this.loader.parseAsync(await answer.arrayBuffer(), "");
     if (this.shown[grade] !== summary.id) return null;
     clear(this.grades[grade]);
-    let pieces: Surface[] = [];
+    loaded.scene.updateMatrixWorld(true);
+    const pieces: Mesh<BufferGeometry, MeshStandardMaterial>[] = [];
     loaded.scene.traverse((node) => {
-      if (!(node instanceof Mesh)) return;
-      const geometry = node.geometry as BufferGeometry;
-      pieces = shares(geometry, (node.userData["palette"] ?? []) as Omit<Surface, "share">[]);
-      for (const [order, material] of [this.inside, this.outside].entries()) {
-        const side = new Mesh(geometry, material);
-        side.position.copy(node.position);
-        side.renderOrder = 10 + order;
-        this.grades[grade].add(side);
-      }
+      if (node instanceof Mesh) pieces.push(node as Mesh<BufferGeometry, MeshStandardMaterial>);
     });
-    return pieces;
+    for (const piece of pieces) {
+      for (const [order, { side }] of SIDES.entries()) {
+        const shown = new Mesh(
+          piece.geometry,
+          new MeshLambertMaterial({ color: piece.material.color, side }),
+        );
+        piece.getWorldPosition(shown.position);
+        shown.renderOrder = 10 + order;
+        this.grades[grade].add(shown);
+      }
+    }
+    this.paint();
+    const palette = (pieces[0]?.userData["palette"] ?? []) as Omit<Surface, "share">[];
+    return shares(
+      pieces.map((piece) => piece.geometry),
+      palette,
+    );
   }
 
   /** The coarser one, where there is one, while the hand moves. */
@@ -94,10 +101,21 @@ export class WorkspaceMesh {
   /** Cuts at a height of the GLB's frame, metres, and shows what lies below; null: whole. */
   cut(height: number | null): void {
     this.height = height;
-    const planes = height === null ? [] : [this.plane];
-    this.inside.clippingPlanes = planes;
-    this.outside.clippingPlanes = planes;
+    this.paint();
     this.turnPlane();
+  }
+
+  /** Gives every piece the transparency and the section that are wanted. */
+  private paint(): void {
+    for (const shown of [...this.grades.fine.children, ...this.grades.coarse.children]) {
+      const material = (shown as Mesh<BufferGeometry, MeshLambertMaterial>).material;
+      const opacity = SIDES.find(({ side }) => side === material.side)?.opacity ?? 1;
+      material.transparent = !this.opaque;
+      material.opacity = this.opaque ? 1 : opacity;
+      material.depthWrite = this.opaque;
+      material.clippingPlanes = this.height === null ? [] : [this.plane];
+      material.needsUpdate = true;
+    }
   }
 
   private turnPlane(): void {
@@ -108,6 +126,9 @@ export class WorkspaceMesh {
 }
 
 function clear(group: Group): void {
-  for (const side of group.children) if (side instanceof Mesh) (side.geometry as BufferGeometry).dispose();
+  for (const shown of group.children as Mesh<BufferGeometry, MeshLambertMaterial>[]) {
+    shown.geometry.dispose();
+    shown.material.dispose();
+  }
   group.clear();
 }
