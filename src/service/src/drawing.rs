@@ -1,4 +1,5 @@
 //! Slices as drawings. Both formats show x to the right and y up, mm.
 
 pub(crate) mod dxf;
+mod extent;
 pub(crate) mod svg;

@@ -83,10 +83,72 @@ async fn drawings() {
             && text.contains("x, mm")
             && text.contains("y up")
     );
-    let dxf = cut("part", "z=300&alpha=true&format=dxf").await;
+    let attribute =
+        |name: &str| text.split_once(&format!(" {name}=\"")).unwrap().1.split_once('"').unwrap().0;
+    let view: Vec<&str> = attribute("viewBox").split(' ').collect();
+    assert_eq!([attribute("width"), attribute("height")], [view[2], view[3]].map(|side| format!("{side}mm")));
+}
+
+#[tokio::test]
+async fn a_name_with_control_characters_leaves_the_drawings_readable() {
+    let service = service().await;
+    let mut machine = get("/machines/verne").await.json["definition"].clone();
+    machine["name"] = json!("a\u{1}\u{1b}[31m\r\n<&>");
+    let summary = ask(&service, json!({"machine": machine, "tolerance": 20})).await.json;
+    let uri =
+        |format: &str| format!("{}/slice?z=1200&format={format}", summary["links"]["self"].as_str().unwrap());
+    let svg = String::from_utf8(get_from(&service, &uri("svg"), &[]).await.bytes).unwrap();
+    assert!(svg.chars().all(|c| c == '\n' || !c.is_control()), "{svg}");
+    assert!(svg.contains("<title>a\u{FFFD}\u{FFFD}[31m\u{FFFD}\u{FFFD}&lt;&amp;&gt;: "), "{svg}");
+    let dxf = String::from_utf8(get_from(&service, &uri("dxf"), &[]).await.bytes).unwrap();
+    let (code, comment) = groups(&dxf)[0];
+    assert!(code == 999 && comment.starts_with("a  [31m  <&>: "), "{comment}");
+}
+
+/// The groups of a DXF file.
+fn groups(dxf: &str) -> Vec<(u16, &str)> {
+    let lines: Vec<&str> = dxf.lines().collect();
+    lines.chunks(2).map(|pair| (pair[0].parse().unwrap(), pair[1])).collect()
+}
+
+#[tokio::test]
+async fn dxf_says_its_units_its_extents_and_the_values_of_alpha() {
+    let query = "z=300&alpha=true";
+    let slice = cut("part", query).await.json;
+    let dxf = cut("part", &format!("{query}&format=dxf")).await;
     assert_eq!(dxf.headers[CONTENT_TYPE], "image/vnd.dxf");
     let text = String::from_utf8(dxf.bytes).unwrap();
-    assert!(text.contains("POLYLINE\n8\nOUTER\n66\n1\n70\n1\n") && text.ends_with("0\nEOF\n"));
+    let groups = groups(&text);
+    let variable = |name: &str| {
+        let at = groups.iter().position(|group| *group == (9, name)).unwrap();
+        groups[at + 1..].iter().take_while(|group| group.0 != 9).map(|group| group.1).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        (variable("$ACADVER"), variable("$INSUNITS"), variable("$MEASUREMENT")),
+        (vec!["AC1015"], vec!["4"], vec!["1"])
+    );
+    let outer: Vec<[f64; 2]> =
+        slice["polygons"].as_array().unwrap().iter().flat_map(|polygon| points(&polygon["outer"])).collect();
+    for axis in 0..2 {
+        let sorted = |pick: fn(f64, f64) -> f64| outer.iter().map(|point| point[axis]).reduce(pick).unwrap();
+        assert_eq!(variable("$EXTMIN")[axis], format!("{:.6}", sorted(f64::min)));
+        assert_eq!(variable("$EXTMAX")[axis], format!("{:.6}", sorted(f64::max)));
+    }
+    let contours = slice["contours"].as_array().unwrap();
+    let alphas: Vec<&str> = groups.iter().filter_map(|group| group.1.strip_suffix("%%d")).collect();
+    assert_eq!(alphas.len(), contours.len());
+    for (alpha, contour) in alphas.iter().zip(contours) {
+        assert!((alpha.parse::<f64>().unwrap() - contour["alpha"].as_f64().unwrap()).abs() < 1e-6);
+    }
+    // Every object has a handle of its own, below that of the next object to come.
+    let seed = u32::from_str_radix(variable("$HANDSEED")[0], 16).unwrap();
+    let from = groups.iter().position(|group| *group == (2, "TABLES")).unwrap();
+    let handles = groups[from..].iter().filter(|group| [5, 105].contains(&group.0));
+    let mut handles: Vec<u32> = handles.map(|group| u32::from_str_radix(group.1, 16).unwrap()).collect();
+    let count = handles.len();
+    handles.sort_unstable();
+    handles.dedup();
+    assert_eq!((handles.len(), handles.last().is_some_and(|last| *last < seed)), (count, true));
 }
 
 #[tokio::test]

@@ -1,94 +1,108 @@
-//! AutoCAD's R12 DXF, the oldest that every CAD program reads: closed polylines on three layers, at the height of
-//! the cut. Units are mm; R12 has no room to say so but a comment and `$INSUNITS`, which later programs read.
+//! DXF of AutoCAD 2000 (AC1015), which every CAD program reads: closed polylines on three layers at the height of
+//! the cut, and the values of alpha as text. Units are mm.
 
-use std::fmt::{Display, Write};
+mod frame;
+mod tags;
 
+use self::frame::Spaces;
+use self::tags::{Body, Tags};
+use super::extent::{Extent, NOTHING, shown};
 use crate::wire::numbers::Pair;
 use crate::wire::slice::SliceObject;
 
-/// Layers with their colours (AutoCAD's numbers).
-const LAYERS: [(&str, u8); 3] = [("OUTER", 5), ("HOLES", 1), ("ALPHA", 8)];
+/// Layers with their colours (AutoCAD's numbers). Layer 0 is in every drawing.
+const LAYERS: [(&str, u8); 4] = [("0", 7), ("OUTER", 5), ("HOLES", 1), ("ALPHA", 8)];
 
 /// Writes a slice.
 pub(crate) fn write(slice: &SliceObject, title: &str) -> String {
-    let mut file = Tags(String::new());
+    let extent = Extent::of(slice);
+    let mut body = Body::default();
+    let spaces = frame::tables(&mut body, &LAYERS, extent.unwrap_or(NOTHING));
+    frame::blocks(&mut body, spaces);
+    body.section("ENTITIES");
+    entities(&mut body, slice, spaces, extent.unwrap_or(NOTHING).letters());
+    body.put(0, "ENDSEC");
+    frame::objects(&mut body);
+
+    let mut file = Tags::default();
     let ascii: String = title.chars().map(|c| if c.is_ascii_graphic() { c } else { ' ' }).collect();
     file.put(999, format_args!("{ascii}; unit mm; {}", slice.id));
-    header(&mut file);
-    layers(&mut file);
-    file.open("ENTITIES");
+    header(&mut file, extent, slice.z, body.next_handle());
+    file.append(body);
+    file.put(0, "EOF");
+    file.into_text()
+}
+
+fn header(file: &mut Tags, extent: Option<Extent>, z: f64, next_handle: u32) {
+    // An empty drawing has these in AutoCAD.
+    let Extent { min, max } = extent.unwrap_or(Extent { min: [1e20; 2], max: [-1e20; 2] });
+    file.section("HEADER");
+    for (name, code, value) in [
+        ("$ACADVER", 1, "AC1015"),
+        ("$DWGCODEPAGE", 3, "ANSI_1252"),
+        // Millimetres.
+        ("$INSUNITS", 70, "4"),
+        // Metric.
+        ("$MEASUREMENT", 70, "1"),
+    ] {
+        file.put(9, name);
+        file.put(code, value);
+    }
+    for (name, [x, y]) in [("$EXTMIN", min), ("$EXTMAX", max), ("$LIMMIN", min), ("$LIMMAX", max)] {
+        file.put(9, name);
+        file.number(10, x);
+        file.number(20, y);
+        if name.starts_with("$EXT") {
+            file.number(30, z);
+        }
+    }
+    file.put(9, "$HANDSEED");
+    file.put(5, format_args!("{next_handle:X}"));
+    file.put(0, "ENDSEC");
+}
+
+fn entities(body: &mut Body, slice: &SliceObject, spaces: Spaces, letters: f64) {
     for polygon in &slice.polygons {
-        polyline(&mut file, "OUTER", &polygon.outer, slice.z, true);
+        polyline(body, spaces, "OUTER", &polygon.outer, slice.z, true);
         for hole in &polygon.holes {
-            polyline(&mut file, "HOLES", hole, slice.z, true);
+            polyline(body, spaces, "HOLES", hole, slice.z, true);
         }
     }
     for line in &slice.contours {
-        polyline(&mut file, "ALPHA", &line.points, slice.z, false);
-    }
-    file.put(0, "ENDSEC");
-    file.put(0, "EOF");
-    file.0
-}
-
-/// Lines in pairs: a group's code and its value.
-struct Tags(String);
-
-impl Tags {
-    fn put(&mut self, code: u16, value: impl Display) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(self.0, "{code}\n{value}");
-    }
-
-    fn open(&mut self, section: &str) {
-        self.put(0, "SECTION");
-        self.put(2, section);
-    }
-
-    fn point(&mut self, [x, y, z]: [f64; 3]) {
-        for (code, coordinate) in [(10, x), (20, y), (30, z)] {
-            self.put(code, format_args!("{coordinate:.6}"));
+        polyline(body, spaces, "ALPHA", &line.points, slice.z, false);
+        if let Some(start) = line.points.first() {
+            alpha(body, spaces, shown(line.alpha), [start.0[0], start.0[1], slice.z], letters);
         }
     }
 }
 
-fn header(file: &mut Tags) {
-    file.open("HEADER");
-    file.put(9, "$ACADVER");
-    file.put(1, "AC1009");
-    file.put(9, "$INSUNITS");
-    file.put(70, 4);
-    file.put(0, "ENDSEC");
-}
-
-fn layers(file: &mut Tags) {
-    file.open("TABLES");
-    file.put(0, "TABLE");
-    file.put(2, "LAYER");
-    file.put(70, LAYERS.len());
-    for (name, colour) in LAYERS {
-        file.put(0, "LAYER");
-        file.put(2, name);
-        file.put(70, 0);
-        file.put(62, colour);
-        file.put(6, "CONTINUOUS");
-    }
-    file.put(0, "ENDTAB");
-    file.put(0, "ENDSEC");
-}
-
-fn polyline(file: &mut Tags, layer: &str, points: &[Pair], z: f64, closed: bool) {
-    file.put(0, "POLYLINE");
-    file.put(8, layer);
-    file.put(66, 1);
-    file.put(70, u8::from(closed));
-    file.point([0.0, 0.0, z]);
+fn polyline(body: &mut Body, spaces: Spaces, layer: &str, points: &[Pair], z: f64, closed: bool) {
+    entity(body, spaces, "LWPOLYLINE", layer);
+    body.put(100, "AcDbPolyline");
+    body.put(90, points.len());
+    body.put(70, u8::from(closed));
+    body.number(38, z);
     for point in points {
         let [x, y] = point.0;
-        file.put(0, "VERTEX");
-        file.put(8, layer);
-        file.point([x, y, z]);
+        body.number(10, x);
+        body.number(20, y);
     }
-    file.put(0, "SEQEND");
-    file.put(8, layer);
+}
+
+/// A value of alpha, degrees, at the start of its line.
+fn alpha(body: &mut Body, spaces: Spaces, degrees: f64, [x, y, z]: [f64; 3], height: f64) {
+    entity(body, spaces, "TEXT", "ALPHA");
+    body.put(100, "AcDbText");
+    for (code, number) in [(10, x), (20, y), (30, z), (40, height)] {
+        body.number(code, number);
+    }
+    // %%d is the degree sign.
+    body.put(1, format_args!("{degrees}%%d"));
+    body.put(100, "AcDbText");
+}
+
+fn entity(body: &mut Body, spaces: Spaces, kind: &str, layer: &str) {
+    body.object(kind, spaces.model);
+    body.put(100, "AcDbEntity");
+    body.put(8, layer);
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::extent::{Extent, NOTHING, shown};
 use crate::wire::numbers::Pair;
 use crate::wire::slice::SliceObject;
 use crate::wire::workspace::FrameName;
@@ -31,8 +32,7 @@ pub(crate) fn write(slice: &SliceObject, title: &str) -> String {
     for line in &slice.contours {
         let mut along = String::new();
         path(&mut along, &line.points);
-        // Angles come back from radians: the last digits are rounding.
-        let alpha = (line.alpha * 1e6).round() / 1e6;
+        let alpha = shown(line.alpha);
         let _ = writeln!(
             svg,
             r##"<path d="{along}" fill="none" stroke="#d55e00"><title>alpha = {alpha}°</title></path>"##
@@ -60,19 +60,19 @@ struct Page {
     max: [f64; 2],
     /// The size that lines and letters are measured by.
     size: f64,
+    /// Height of letters.
+    letters: f64,
 }
 
 impl Page {
     fn around(slice: &SliceObject) -> Self {
-        let points = slice.polygons.iter().flat_map(|polygon| &polygon.outer).map(|point| point.0);
-        let (min, max) = points.fold(([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]), |(min, max), [x, y]| {
-            ([min[0].min(x), min[1].min(y)], [max[0].max(x), max[1].max(y)])
-        });
         // An empty slice is a page about the origin.
-        let (min, max) = if min[0] <= max[0] { (min, max) } else { ([-100.0; 2], [100.0; 2]) };
-        let size = (max[0] - min[0]).max(max[1] - min[1]).max(1e-3);
+        let extent = Extent::of(slice).unwrap_or(NOTHING);
+        let (size, letters) = (extent.size(), extent.letters());
         let margin = MARGIN * size;
-        Self { min: min.map(|least| least - margin), max: max.map(|greatest| greatest + margin), size }
+        let [min, max] =
+            [extent.min.map(|least| least - margin), extent.max.map(|greatest| greatest + margin)];
+        Self { min, max, size, letters }
     }
 
     fn open(&self, slice: &SliceObject, title: &str) -> String {
@@ -81,13 +81,15 @@ impl Page {
             FrameName::Base => "base frame, y up: seen from below, as z points down",
             FrameName::Part => "part frame, y up: seen from above",
         };
-        let title = title.replace('&', "&amp;").replace('<', "&lt;");
-        let letters = 0.022 * self.size;
+        let title = escaped(title);
+        let letters = self.letters;
+        // The page and the view must agree to the last digit: else a unit of the view is not a millimetre.
+        let [width, height] = [width, height].map(|side| format!("{side:.4}"));
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.2}mm\" height=\"{height:.2}mm\" \
-             viewBox=\"{:.4} {:.4} {width:.4} {height:.4}\">\n<title>{title}</title>\n\
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
+             viewBox=\"{:.4} {:.4} {width} {height}\">\n<title>{title}</title>\n\
              <desc>mm; {seen}; area {:.3} mm²; {}</desc>\n\
-             <rect x=\"{0:.4}\" y=\"{1:.4}\" width=\"{width:.4}\" height=\"{height:.4}\" fill=\"white\"/>\n\
+             <rect x=\"{0:.4}\" y=\"{1:.4}\" width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n\
              <g font-family=\"sans-serif\" font-size=\"{letters:.3}\" stroke-width=\"{:.3}\">\n\
              <text x=\"{5:.3}\" y=\"{6:.3}\">{title}</text>\n\
              <text x=\"{5:.3}\" y=\"{7:.3}\">{seen}</text>\n",
@@ -105,7 +107,7 @@ impl Page {
     /// A scale along the lower and one along the left side.
     fn axes(&self, svg: &mut String) {
         let step = round_step(self.size / TICKS);
-        let (letters, tick) = (0.022 * self.size, 0.01 * self.size);
+        let (letters, tick) = (self.letters, 0.01 * self.size);
         let [left, bottom] = self.min.map(|least| least + 3.0 * letters);
         let _ = writeln!(
             svg,
@@ -141,6 +143,22 @@ impl Page {
             4.4 * letters - self.max[1]
         );
     }
+}
+
+/// Text as XML may hold it. What XML has no room for, control characters among it, becomes U+FFFD.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '\u{FFFE}' | '\u{FFFF}' => escaped.push(char::REPLACEMENT_CHARACTER),
+            c if c.is_control() => escaped.push(char::REPLACEMENT_CHARACTER),
+            c => escaped.push(c),
+        }
+    }
+    escaped
 }
 
 /// 1, 2 or 5 times a power of ten.
