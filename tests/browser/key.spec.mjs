@@ -1,5 +1,5 @@
 // A service with keys: the page asks for one, and everything goes with it.
-import { execFileSync, spawn } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -11,12 +11,11 @@ const VERNE = resolve(import.meta.dirname, process.env.VERNE ?? "../../target/de
 let directory, service, key;
 
 test.beforeAll(async () => {
-  const made = execFileSync(VERNE, ["key", "new", "--name", "cam", "--role", "compute"], { encoding: "utf8" });
-  let entry;
-  [key, entry] = made.split("\n\n");
+  const made = spawnSync(VERNE, ["key", "new", "--name", "cam", "--role", "compute"], { encoding: "utf8" });
+  key = made.stderr.trim();
   directory = mkdtempSync(join(tmpdir(), "verne-keys-"));
   const file = join(directory, "keys.toml");
-  writeFileSync(file, entry);
+  writeFileSync(file, made.stdout);
   service = spawn(VERNE, ["serve", "--memory-only", "--wait", "0", "--listen", ADDRESS, "--keys", file]);
   const ready = () => fetch(`http://${ADDRESS}/readyz`).then(({ ok }) => ok, () => false);
   await expect.poll(ready).toBe(true);

@@ -14,7 +14,7 @@ use crate::http::get;
 pub(crate) fn verne(line: &str) -> Result<String, String> {
     let words = std::iter::once("verne").chain(line.split_whitespace()).map(OsString::from);
     let mut out = Vec::new();
-    Cli::read(words).map_err(|error| error.to_string())?.run(&mut out, false)?;
+    Cli::read(words).map_err(|error| error.to_string())?.run(&mut out, &mut std::io::sink(), false)?;
     Ok(String::from_utf8(out).unwrap())
 }
 

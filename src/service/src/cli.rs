@@ -68,8 +68,9 @@ impl Cli {
         Ok(Self { settings: read.printed, ..Self::from_arg_matches(&read.matches)? })
     }
 
-    /// Serves, or writes the answer to `out`: with line breaks for people, or without. The error is for people.
-    pub fn run(self, out: &mut impl Write, pretty: bool) -> Result<(), String> {
+    /// Serves, or writes the answer to `out`: with line breaks for people, or without. What is shown and no part of
+    /// the answer goes to `aside`. The error is for people.
+    pub fn run(self, out: &mut impl Write, aside: &mut impl Write, pretty: bool) -> Result<(), String> {
         if let Some(settings) = self.settings {
             return write!(out, "{settings}").map_err(|error| format!("cannot print the settings: {error}"));
         }
@@ -77,7 +78,7 @@ impl Cli {
             Command::Serve(config) => on_runtime(&config.telemetry, app::serve(&config)),
             Command::Worker(config) => on_runtime(&config.telemetry, worker::work(&config)),
             Command::Health(command) => command.run(),
-            Command::Key(command) => command.run(out),
+            Command::Key(command) => command.run(out, aside),
             Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, pretty),
             Command::Ask(question) => {

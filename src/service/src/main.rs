@@ -7,7 +7,7 @@ use verne_service::cli::Cli;
 
 fn main() -> ExitCode {
     let cli = Cli::read(std::env::args_os()).unwrap_or_else(|message| message.exit());
-    match cli.run(&mut stdout(), stdout().is_terminal()) {
+    match cli.run(&mut stdout(), &mut stderr(), stdout().is_terminal()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             // Nothing is left to tell where not even this can be written.

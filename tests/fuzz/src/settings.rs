@@ -39,7 +39,11 @@ fn read(path: &Path, command: &str) -> Result<String, String> {
         path.as_os_str().to_owned(),
     ];
     let mut out = Vec::new();
-    Cli::read(words.map(OsString::from)).map_err(|error| error.to_string())?.run(&mut out, false)?;
+    Cli::read(words.map(OsString::from)).map_err(|error| error.to_string())?.run(
+        &mut out,
+        &mut std::io::sink(),
+        false,
+    )?;
     Ok(String::from_utf8(out).unwrap())
 }
 

@@ -16,12 +16,10 @@ use super::{Reply, config, get, get_from, json_request, opened, send_to};
 
 /// A fresh key as `verne key new` prints it, and its entry.
 pub(super) fn fresh(name: &str, role: &str) -> (String, String) {
-    let mut out = Vec::new();
+    let (mut entry, mut key) = (Vec::new(), Vec::new());
     let words = ["verne", "key", "new", "--name", name, "--role", role];
-    Cli::try_parse_from(words).unwrap().run(&mut out, false).unwrap();
-    let text = String::from_utf8(out).unwrap();
-    let (key, entry) = text.split_once("\n\n").unwrap();
-    (key.to_owned(), entry.to_owned())
+    Cli::try_parse_from(words).unwrap().run(&mut entry, &mut key, false).unwrap();
+    (String::from_utf8(key).unwrap().trim_end().to_owned(), String::from_utf8(entry).unwrap())
 }
 
 /// A directory with a file of keys.

@@ -15,8 +15,8 @@ pub(super) struct KeyCommand {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Print a fresh key, and the entry that makes it known for the file of --keys. The file has only its hash: the
-    /// key is shown this once.
+    /// Print the entry of a fresh key, for the file of --keys, and on standard error the key. The entry has only its
+    /// hash: the key is shown this once.
     New {
         /// Whose it is: 1 to 64 letters, digits or .-_, a letter first. Two keys of one name are one client.
         #[arg(long, value_parser = name)]
@@ -28,12 +28,14 @@ enum Command {
 }
 
 impl KeyCommand {
-    /// Writes the key and its entry to `out`.
-    pub(super) fn run(self, out: &mut impl Write) -> Result<(), String> {
+    /// Writes the entry to `out`, which may be the file of keys itself, and the key to `aside`.
+    pub(super) fn run(self, out: &mut impl Write, aside: &mut impl Write) -> Result<(), String> {
         let Command::New { name, role } = self.command;
         let key = Key::fresh().map_err(|error| format!("the system has no random numbers: {error}"))?;
         let hash = key.hash().to_hex();
-        writeln!(out, "{key}\n\n[[key]]\nname = \"{name}\"\nrole = \"{role}\"\nhash = \"{hash}\"")
+        // The key first: an entry of a key that nobody has seen is of no use.
+        writeln!(aside, "{key}")
+            .and_then(|()| writeln!(out, "[[key]]\nname = \"{name}\"\nrole = \"{role}\"\nhash = \"{hash}\""))
             .map_err(|error| format!("cannot write the key: {error}"))
     }
 }
