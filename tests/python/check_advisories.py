@@ -3,6 +3,7 @@
 A fault ends it with 1, as does anything else that is wrong, but for one thing: a database that is not reached is said, and
 is no fault."""
 
+import argparse
 import json
 import os
 import subprocess
@@ -44,8 +45,11 @@ def packages():
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("cargo_deny")
+    options = parser.parse_args()
     sound = True
-    for name, (none_found, told) in (("crates", crates(sys.argv[1])), ("npm packages", packages())):
+    for name, (none_found, told) in (("crates", crates(options.cargo_deny)), ("npm packages", packages())):
         if none_found:
             print(f"{name}: no known faults")
         elif none_found is None:

@@ -4,12 +4,12 @@
 - Memory with slow readers of one large mesh.
 - How long after DELETE a running job has ended, and its cores are idle."""
 
+import argparse
 import http.client
 import json
 import multiprocessing
 import os
 import socket
-import sys
 import tempfile
 import time
 
@@ -108,8 +108,11 @@ def slow_readers(served, path, count):
     return readers
 
 
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("verne")
+options = parser.parse_args()
 with tempfile.TemporaryDirectory() as data:
-    served = Served(sys.argv[1], data).start()
+    served = Served(options.verne, data).start()
     client = Client(served.port)
     latencies(client)
     idle = latencies(client)

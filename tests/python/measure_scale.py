@@ -6,10 +6,10 @@ with two cores or more. python measure_scale.py VERNE NATS_SERVER
 - How long after DELETE a running job has ended and its worker is free.
 - Memory of an API node with 10,000 streams of events."""
 
+import argparse
 import os
 import resource
 import socket
-import sys
 import tempfile
 import time
 
@@ -115,8 +115,12 @@ def watchers(verne):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("verne")
+    parser.add_argument("nats_server")
+    options = parser.parse_args()
+    verne, nats = options.verne, options.nats_server
     resource.setrlimit(resource.RLIMIT_NOFILE, (resource.getrlimit(resource.RLIMIT_NOFILE)[1],) * 2)
-    verne, nats = sys.argv[1:]
     one, _places = efficiency(verne, nats)
     overhead(verne, one)
     cancelling(one)
