@@ -1,11 +1,12 @@
-"""Runs every command that the documents print, and compares what it prints with what the document says: in a copy of the
-repository, as a reader would who has `verne` in the path. What is not run stands in not_run.toml with the reason.
+"""Runs every command that the documents print, and compares its answer with the one that the document prints: in a copy
+of the repository, as a reader would who has `verne` in the path. What is not run stands in not_run.toml with the
+reason.
 
 - `127.0.0.1:8080` is a fresh service; `verne serve` in a block is started, and is the service until the block ends.
 - `cargo run -- ...` is the binary that is given.
 - ID is a job's, or a workspace's; KEY is the last that `verne key new` has printed.
-- Of a command within a sentence that has no options, `verne serve`, only `--help` is asked. So it is of a script of
-  Python that is not run."""
+- Where a sentence only names a command (`verne serve`), it is run with `--help`. So is a script of Python that is not
+  run otherwise."""
 
 import argparse
 import json
@@ -22,12 +23,13 @@ from documented import blocks
 from served import Client, Process, free_port
 
 ROOT = pathlib.Path(__file__).parents[2]
-# What readers have that the repository has not: directories of theirs.
-OURS = ("/var/lib/verne", "/shared/results", "/var/backups")
+# Directories of the reader's: they are made below the one where all this runs.
+DIRECTORIES = ("/var/lib/verne", "/shared/results", "/backup")
 SECONDS = 300
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 # A process that does not end by itself; without a command, verne serves.
-SERVES = re.compile(r"(?:[A-Z_]+=\S+ +)*verne(?: +(?:serve|worker)\b| +-| *(?:#.*)?$)(?!.*--(?:help|version|print-config)\b)")
+SERVES = re.compile(
+    r"(?:[A-Z_]+=\S+ +)*verne(?: +(?:serve|worker)\b| +-| *(?:#.*)?$)(?!.*--(?:help|version|print-config)\b)")
 
 
 class Reader:
@@ -45,7 +47,7 @@ class Reader:
             "PATH": f"{programs}:{os.environ['PATH']}",
             "XDG_DATA_HOME": str(self.place / "data"),
         }
-        for directory in OURS:
+        for directory in DIRECTORIES:
             (self.place / directory[1:]).mkdir(parents=True)
         self.shell = self.place / "shell"
         self.key = ""
@@ -55,9 +57,7 @@ class Reader:
 
     def copy(self):
         """The repository as it is committed or to be committed, and what has been built and installed in it."""
-        listed = subprocess.run(
-            ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True, check=True)
-        for name in filter(None, listed.stdout.decode().split("\0")):
+        for name in listed("--cached", "--others", "--exclude-standard"):
             if (ROOT / name).is_file():
                 (self.work / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(ROOT / name, self.work / name)
@@ -85,19 +85,20 @@ class Reader:
     def filled(self, text, port):
         """The command, with what stands for something put in its place."""
         text = re.sub(r"(?:127\.0\.0\.1|0\.0\.0\.0|localhost|\[::1?\]):8080\b", f"127.0.0.1:{port}", text)
-        for directory in OURS:
-            text = text.replace(directory, f"{self.place}{directory}")
+        text = re.sub(rf"(?<![\w.])(?:{'|'.join(DIRECTORIES)})\b", lambda found: f"{self.place}{found[0]}", text)
         text = re.sub(r"\bKEY\b", self.key, text)
-        return re.sub(r"(?<=/)(jobs|workspace)/(?:ID|\$ID)\b", lambda found: f"{found[1]}/{self.asked(found[1], port)}", text)
+        return re.sub(r"(?<=/)(jobs|workspace)/ID\b", lambda found: f"{found[1]}/{self.asked(found[1], port)}", text)
 
     def asked(self, kind, port):
         """The id of a job that has begun, or of a workspace that is computed: another one each time."""
         self.tools += 1
         client = Client(port)
         headers = {"Authorization": f"Bearer {self.key}", "Prefer": "respond-async" if kind == "jobs" else "wait=30"}
-        question = {"tool_length": self.tools, "phi1": {"from": -20, "to": 20}, "cell": 40}
-        path = "/workspace/dexterity" if kind == "jobs" else "/workspace"
-        reply = client.ask("POST", path, question if kind == "jobs" else {"kind": "part", "tool_length": self.tools}, **headers)
+        if kind == "jobs":
+            question = {"tool_length": self.tools, "phi1": {"from": -20, "to": 20}, "cell": 40}
+            reply = client.ask("POST", "/workspace/dexterity", question, **headers)
+        else:
+            reply = client.ask("POST", "/workspace", {"kind": "part", "tool_length": self.tools}, **headers)
         client.close()
         return reply.json()["id"]
 
@@ -106,7 +107,8 @@ class Reader:
         return f"[ -e {self.shell} ] && . {self.shell}"
 
     def kept(self):
-        return f"status=$?; {{ declare -p | grep -v '^declare -[a-z]*r'; printf 'cd %q\n' \"$PWD\"; }} > {self.shell}; exit $status"
+        variables = "declare -p | grep -v '^declare -[a-z]*r'; printf 'cd %q\\n' \"$PWD\""
+        return f"status=$?; {{ {variables}; }} > {self.shell}; exit $status"
 
     def run(self, command, port):
         """What the command printed; its fault, if it has one."""
@@ -121,9 +123,26 @@ class Reader:
         return None if command.printed is None else difference(command.printed.strip(), ran.stdout.strip())
 
 
+def listed(*options):
+    """The names of files that git knows."""
+    ran = subprocess.run(["git", "ls-files", "-z", *options], cwd=ROOT, capture_output=True, check=True)
+    return list(filter(None, ran.stdout.decode().split("\0")))
+
+
+def same(printed, said):
+    """Whether it is the same answer. Three dots stand for anything, and JSON may have other line breaks."""
+    parts = map(re.escape, re.split(r"\.\.\.|…", printed))
+    if re.fullmatch(".*?".join(parts), said, re.DOTALL):
+        return True
+    try:
+        return json.loads(printed) == json.loads(said)
+    except json.JSONDecodeError:
+        return False
+
+
 def difference(printed, said):
     """What is wrong about the printed answer."""
-    if printed == said:
+    if same(printed, said):
         return None
     numbers = list(zip(NUMBER.findall(printed), NUMBER.findall(said)))
     near = all(abs(float(a) - float(b)) <= 1e-12 * max(1, abs(float(b))) for a, b in numbers)
@@ -143,7 +162,7 @@ def with_binary(text):
 def questions_help(command):
     """The command that asks for help, where only that is to be run."""
     words = command.text.split()
-    if command.inline and words[0] == "verne" and not any(word.startswith("-") for word in words):
+    if command.inline and words[0] == "verne" and all(re.fullmatch(r"[a-z][a-z-]*", word) for word in words):
         return " ".join(words) + " --help"
     return None
 
@@ -168,7 +187,7 @@ def work_through(reader, block, not_run, used):
             used.add(reason["command"])
             print(f"{command.place}: not run ({reason['reason']})\n    {shown}", flush=True)
             if name := script(command):
-                ran = subprocess.run([sys.executable, name, "--help"], cwd=ROOT, capture_output=True, text=True, timeout=60)
+                ran = subprocess.run([sys.executable, name, "--help"], capture_output=True, text=True, timeout=60)
                 fault = None if ran.returncode == 0 else f"{name} --help\n{ran.stderr}"
         elif help_only:
             command.text = help_only
@@ -199,8 +218,7 @@ def main():
     parser.add_argument("documents", nargs="*", help="all of the repository, but for the changelog")
     options = parser.parse_args()
     os.chdir(ROOT)
-    listed = subprocess.run(["git", "ls-files", "*.md"], capture_output=True, check=True, text=True).stdout.split()
-    documents = options.documents or [name for name in listed if name != "CHANGELOG.md"]
+    documents = options.documents or [name for name in listed("*.md") if name != "CHANGELOG.md"]
     not_run = tomllib.loads((pathlib.Path(__file__).parent / "not_run.toml").read_text())["command"]
     used, faults, count = set(), 0, 0
     with tempfile.TemporaryDirectory() as place:

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 SHELLS = {"sh", "bash", "shell", "console"}
-FENCE = re.compile(r"^( *)(```+|~~~+)([^\n`]*)\n(.*?)^\1\2[`~]*[ \t]*$", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r"^( *)(```+|~~~+)([^\n`]*)\n(.*?)(?:^\1\2[`~]*[ \t]*$|\Z)", re.MULTILINE | re.DOTALL)
 SPAN = re.compile(r"(?<!`)(`+)(?!`)(.+?)(?<!`)\1(?!`)", re.DOTALL)
 ASSIGNMENT = re.compile(r"[A-Z_][A-Z0-9_]*=\S*$")
 # What a span of code begins with if it is a command. A program's name alone is a mention of it.

@@ -28,7 +28,7 @@ pub(crate) fn write(slice: &SliceObject, title: &str) -> String {
     let ascii: String = title.chars().map(|c| if c.is_ascii_graphic() { c } else { ' ' }).collect();
     file.put(999, format_args!("{ascii}; unit mm; {}", slice.id));
     header(&mut file, extent, slice.z, body.next_handle());
-    file.append(body);
+    file.append(&body);
     file.put(0, "EOF");
     file.into_text()
 }

@@ -21,7 +21,7 @@ impl Tags {
         self.put(2, name);
     }
 
-    pub(super) fn append(&mut self, body: Body) {
+    pub(super) fn append(&mut self, body: &Body) {
         self.0.push_str(&body.tags.0);
     }
 
