@@ -20,7 +20,7 @@ const CELLS: [f64; 2] = [1.0, 1000.0];
 const POINT_COST: f64 = 1e-4;
 
 /// Changes when the bytes do that the same question is answered with.
-const LAYOUT: &[u8] = b"verne dexterity 1";
+const LAYOUT: &[u8] = b"verne dexterity 2";
 
 /// A question about dexterity that has an answer.
 #[derive(Clone, Debug)]

@@ -37,7 +37,7 @@ const SIZE_BY_TOOL: f64 = 0.28;
 const SIZE_BY_STROKE: f64 = 1.5;
 
 /// Changes when the bytes do that the same question is answered with.
-const LAYOUT: &[u8] = b"verne workspace 2";
+const LAYOUT: &[u8] = b"verne workspace 3";
 
 /// A question that has an answer.
 #[derive(Clone, Debug)]
