@@ -64,6 +64,25 @@ fn errors_name_the_flag() {
     }
 }
 
+/// `--help` shows in its line of usage what a command demands.
+#[test]
+fn what_the_line_of_usage_shows_is_enough() {
+    for command in ["fk", "key new", "workspace", "openapi"] {
+        let help = verne(&format!("{command} --help")).unwrap_err();
+        let usage = help.lines().find_map(|line| line.strip_prefix("Usage: verne ")).unwrap();
+        let line = usage
+            .replace("[OPTIONS]", "")
+            .replace("<RHO>", "674,685,250")
+            .replace("<X>", "100")
+            .replace("<Y>", "-50")
+            .replace("<Z>", "300")
+            .replace("<NAME>", "cam")
+            .replace("<ROLE>", "read");
+        assert!(!line.contains('<'), "{usage}");
+        assert!(verne(&line).is_ok(), "{line}: {:?}", verne(&line));
+    }
+}
+
 #[test]
 fn serving_is_the_default() {
     let without_command = Cli::try_parse_from(["verne", "--listen", "127.0.0.1:0"]);
