@@ -53,7 +53,7 @@ fn errors_name_the_flag() {
         ("fk --rho 1,2", "expected 3 numbers"),
         ("fk --rho 1,2,nan", "--rho 2:"),
         ("fk --rho 1,2,3 --tool-length -5", "--tool-length:"),
-        ("ik --x 1 --y 2 --z 3", "--phi1:"),
+        ("ik --frame tool --x 1 --y 2 --z 3 --phi1 4", "--phi1:"),
         ("ik --frame platform --x 1 --y 2 --z 3 --machine nautilus", "--machine:"),
         ("key new --role read --name 10.0.0.1", "--name"),
         ("fk --rho 1,2,3 --machine ./nowhere.json", "./nowhere.json"),

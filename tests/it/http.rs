@@ -5,8 +5,11 @@ mod bad_input;
 mod batch;
 mod browsers;
 mod dexterity;
+mod documented;
+mod encoded_bodies;
 mod jobs;
 mod jobs_cancelled;
+mod jobs_events;
 mod jobs_families;
 mod jobs_kept;
 mod jobs_listed;
@@ -17,6 +20,7 @@ mod keys_files;
 mod kinematics;
 mod machines;
 mod part_frame;
+mod query_parameters;
 mod rates;
 mod shares;
 mod transport;
@@ -88,10 +92,13 @@ pub(crate) async fn send(request: Request<Body>) -> Reply {
 
 /// Sends a request.
 pub(crate) async fn send_to(service: Router, request: Request<Body>) -> Reply {
+    let (method, path) = (request.method().clone(), request.uri().path().to_owned());
     let (parts, body) = service.oneshot(request).await.unwrap().into_parts();
     let bytes = body.collect().await.unwrap().to_bytes().to_vec();
     let json = serde_json::from_slice(&bytes).unwrap_or(Value::Null);
-    Reply { status: parts.status, headers: parts.headers, bytes, json }
+    let reply = Reply { status: parts.status, headers: parts.headers, bytes, json };
+    documented::assert_documented(&method, &path, &reply);
+    reply
 }
 
 /// GET.

@@ -101,3 +101,36 @@ async fn a_rows_status_and_the_services_are_two_schemas() {
     assert_eq!(of_health["enum"], json!(["ok", "degraded"]));
     assert_eq!(schemas["Status"]["enum"], json!(["ok", "unreachable", "infeasible", "invalid"]));
 }
+
+/// The codes that an operation documents.
+fn codes(operation: &Value) -> Vec<&str> {
+    let responses = operation["responses"].as_object().unwrap().values();
+    let examples = responses
+        .filter_map(|response| response["content"]["application/problem+json"]["examples"].as_object());
+    examples.flat_map(|examples| examples.keys().map(String::as_str)).collect()
+}
+
+#[tokio::test]
+async fn what_waits_for_a_job_documents_how_that_fails() {
+    let document = get("/openapi.json").await.json;
+    let operations =
+        document["paths"].as_object().unwrap().values().flat_map(|item| item.as_object().unwrap().values());
+    for operation in operations {
+        let waits = operation["responses"].get("202").is_some();
+        let codes = codes(operation);
+        for code in
+            ["queue_full", "disk_failing", "job_cancelled", "job_too_long", "other_version", "no_room"]
+        {
+            assert!(!waits || codes.contains(&code), "{}: {code}", operation["operationId"]);
+        }
+        for code in ["internal", "invalid_request", "not_acceptable", "timed_out"] {
+            assert!(codes.contains(&code), "{}: {code}", operation["operationId"]);
+        }
+    }
+    let has = |path: &str, method: &str, code| codes(&document["paths"][path][method]).contains(&code);
+    assert!(has("/workspace", "post", "no_mesh") && !has("/workspace/dexterity", "post", "no_mesh"));
+    assert!(
+        has("/workspace/{id}/slice", "get", "no_slice") && !has("/workspace/{id}/mesh", "get", "no_slice")
+    );
+    assert!(has("/jobs", "get", "jobs_unavailable") && !has("/machines", "get", "jobs_unavailable"));
+}

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use axum::Router;
 use axum::http::header::{
-    ACCEPT, AUTHORIZATION, CONTENT_DISPOSITION, CONTENT_LOCATION, CONTENT_RANGE, CONTENT_SECURITY_POLICY,
-    CONTENT_TYPE, ETAG, HeaderName, IF_NONE_MATCH, LOCATION, RANGE, REFERRER_POLICY, RETRY_AFTER,
-    STRICT_TRANSPORT_SECURITY, WWW_AUTHENTICATE, X_CONTENT_TYPE_OPTIONS,
+    ACCEPT, AUTHORIZATION, CONTENT_DISPOSITION, CONTENT_ENCODING, CONTENT_LOCATION, CONTENT_RANGE,
+    CONTENT_SECURITY_POLICY, CONTENT_TYPE, ETAG, HeaderName, IF_NONE_MATCH, LOCATION, RANGE, REFERRER_POLICY,
+    RETRY_AFTER, STRICT_TRANSPORT_SECURITY, WWW_AUTHENTICATE, X_CONTENT_TYPE_OPTIONS,
 };
 use axum::http::{HeaderValue, Method, Response};
 use tower::util::MapResponseLayer;
@@ -18,14 +18,17 @@ use crate::config::{Origin, ServeConfig};
 const REMEMBERED: Duration = Duration::from_hours(1);
 
 /// What requests of other pages may carry.
-const ALLOWED: [HeaderName; 8] = [
+const ALLOWED: [HeaderName; 11] = [
     ACCEPT,
     AUTHORIZATION,
+    CONTENT_ENCODING,
     CONTENT_TYPE,
     IF_NONE_MATCH,
     RANGE,
     HeaderName::from_static("last-event-id"),
     HeaderName::from_static("prefer"),
+    HeaderName::from_static("traceparent"),
+    HeaderName::from_static("tracestate"),
     REQUEST_ID,
 ];
 
@@ -61,6 +64,8 @@ const DEVICES: &str = "accelerometer=(), bluetooth=(), camera=(), display-captur
 
 const RESOURCE_POLICY: HeaderName = HeaderName::from_static("cross-origin-resource-policy");
 
+const SAME_ORIGIN: &str = "same-origin";
+
 const YEAR: &str = "max-age=31536000";
 
 /// What the operator wants browsers to be told.
@@ -93,10 +98,12 @@ impl Browsers {
     /// What every answer says; pages have said more already.
     pub(crate) fn protect<B>(&self) -> impl Fn(Response<B>) -> Response<B> + Clone + use<B> {
         let secure = self.secure;
+        // A page that isolates itself loads only what allows it. The header cannot name origins.
+        let loaded_by = if self.origins.is_empty() { SAME_ORIGIN } else { "cross-origin" };
         move |mut response| {
             let headers = response.headers_mut();
             headers.insert(X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
-            headers.insert(RESOURCE_POLICY, HeaderValue::from_static("same-origin"));
+            headers.entry(RESOURCE_POLICY).or_insert(HeaderValue::from_static(loaded_by));
             headers.entry(CONTENT_SECURITY_POLICY).or_insert(HeaderValue::from_static(NOTHING));
             if secure {
                 headers.insert(STRICT_TRANSPORT_SECURITY, HeaderValue::from_static(YEAR));
@@ -112,7 +119,8 @@ pub(crate) fn pages<S: Clone + Send + Sync + 'static>(routes: Router<S>, policy:
         (CONTENT_SECURITY_POLICY, policy),
         (REFERRER_POLICY, "no-referrer"),
         (HeaderName::from_static("permissions-policy"), DEVICES),
-        (HeaderName::from_static("cross-origin-opener-policy"), "same-origin"),
+        (HeaderName::from_static("cross-origin-opener-policy"), SAME_ORIGIN),
+        (RESOURCE_POLICY, SAME_ORIGIN),
     ];
     routes.layer(MapResponseLayer::new(move |mut response: axum::response::Response| {
         let about = about.clone().map(|(name, value)| (name, HeaderValue::from_static(value)));

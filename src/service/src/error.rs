@@ -21,6 +21,23 @@ impl Fault {
     pub(crate) fn new(pointer: impl Into<String>, detail: impl Into<String>) -> Self {
         Self { pointer: pointer.into(), detail: detail.into() }
     }
+
+    /// A required field that is not there.
+    pub(crate) fn missing(pointer: String, name: &str) -> Self {
+        Self::new(pointer, format!("`{name}` is missing"))
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { pointer, detail } = self;
+        // A detail that begins with the field's name needs no pointer before it.
+        if pointer.is_empty() || detail.starts_with('`') {
+            f.write_str(detail)
+        } else {
+            write!(f, "{pointer}: {detail}")
+        }
+    }
 }
 
 /// Why a request gets no answer.
@@ -40,7 +57,9 @@ pub(crate) enum Error {
     Fields(Vec<Fault>),
     /// The body is declared as something other than JSON, or as nothing.
     NotJson(Option<String>),
-    /// The body has more bytes than this.
+    /// The body is encoded in a way that the service does not decode.
+    UnknownCoding(String),
+    /// The body has more bytes than this, once it is decoded.
     BodyTooLarge(usize),
     /// The body broke off.
     BodyLost(String),
@@ -109,13 +128,29 @@ impl fmt::Display for Error {
             }
             Self::Overloaded => write!(f, "As many requests are worked on as may be; try again in a second."),
             Self::Syntax(reason) => write!(f, "The body is not JSON: {reason}."),
-            Self::Fields(faults) if faults.len() == 1 => write!(f, "One field cannot be used; see errors."),
-            Self::Fields(faults) => write!(f, "{} fields cannot be used; see errors.", faults.len()),
-            Self::NotJson(None) => write!(f, "Send the body with Content-Type: application/json."),
-            Self::NotJson(Some(found)) => {
-                write!(f, "Send the body with Content-Type: application/json, not {found}.")
+            Self::Fields(faults) => match faults.as_slice() {
+                [] => write!(f, "A field cannot be used."),
+                [only] => write!(f, "{only}."),
+                [first, rest @ ..] => write!(f, "{first}; `errors` lists {} more.", rest.len()),
+            },
+            Self::NotJson(None) => {
+                write!(f, "Send the body with Content-Type: application/json, as curl --json does.")
             }
-            Self::BodyTooLarge(limit) => write!(f, "The body has more than the {limit} bytes allowed here."),
+            Self::NotJson(Some(found)) => {
+                write!(
+                    f,
+                    "Send the body with Content-Type: application/json, as curl --json does, not {found}."
+                )
+            }
+            Self::UnknownCoding(found) => {
+                write!(
+                    f,
+                    "The body cannot be decoded from {found}; send it plain, or with Content-Encoding: gzip or br."
+                )
+            }
+            Self::BodyTooLarge(limit) => {
+                write!(f, "The body, once decoded, has more than the {limit} bytes allowed here.")
+            }
             Self::BodyLost(reason) => write!(f, "The body could not be read: {reason}."),
             Self::TooManyRows { rows, limit } => {
                 write!(f, "The batch has {rows} rows; at most {limit} are answered at once.")

@@ -6,14 +6,17 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, header};
 use http_body_util::{BodyExt, LengthLimitError, Limited};
 use serde::de::DeserializeOwned;
+use utoipa::{IntoParams, ToSchema};
 use verne_solver::workspace::Observer;
 
 use crate::access::Caller;
 use crate::admission::{Memory, Share, with_share};
+use crate::coding::Coding;
 use crate::error::Error;
 use crate::state::Shared;
-use crate::wire::parse::{parse_body, parse_query};
-use crate::workers::on_workers_while_waited_for;
+use crate::wire::parse::parse_body;
+use crate::wire::query_string::parse_query;
+use crate::workers::{on_workers, on_workers_while_waited_for};
 
 /// Most bytes in the body of a single question: parsing it stays far below half a millisecond.
 pub(crate) const SINGLE_BODY_BYTES: usize = 64 * 1024;
@@ -21,7 +24,7 @@ pub(crate) const SINGLE_BODY_BYTES: usize = 64 * 1024;
 /// A query string as a typed request.
 pub(crate) struct Params<T>(pub T);
 
-impl<T: DeserializeOwned> FromRequestParts<Shared> for Params<T> {
+impl<T: DeserializeOwned + IntoParams> FromRequestParts<Shared> for Params<T> {
     type Rejection = Error;
 
     async fn from_request_parts(parts: &mut Parts, _: &Shared) -> Result<Self, Error> {
@@ -32,7 +35,7 @@ impl<T: DeserializeOwned> FromRequestParts<Shared> for Params<T> {
 /// The JSON body of a single question.
 pub(crate) struct Single<T>(pub T);
 
-impl<T: DeserializeOwned> FromRequest<Shared> for Single<T> {
+impl<T: DeserializeOwned + ToSchema> FromRequest<Shared> for Single<T> {
     type Rejection = Error;
 
     async fn from_request(request: Request, _: &Shared) -> Result<Self, Error> {
@@ -40,9 +43,12 @@ impl<T: DeserializeOwned> FromRequest<Shared> for Single<T> {
     }
 }
 
-/// The JSON body of a batch, still to be parsed: that is work for the worker threads.
+/// The JSON body of a batch, still to be decoded and parsed: that is work for the worker threads.
 pub(crate) struct Batch {
     body: Vec<u8>,
+    coding: Option<Coding>,
+    /// Most bytes of the decoded body.
+    limit: usize,
     memory: Memory,
     share: Share,
 }
@@ -54,8 +60,12 @@ impl Batch {
         self,
         work: impl FnOnce(&[u8], &dyn Observer) -> Result<Vec<u8>, Error> + Send + 'static,
     ) -> Result<Bytes, Error> {
-        let Self { body, memory, share } = self;
+        let Self { mut body, coding, limit, mut memory, share } = self;
         on_workers_while_waited_for(move |observer| {
+            if let Some(coding) = coding {
+                let sent = body.len();
+                body = coding.decode(&body, limit, |decoded| memory.hold(sent + decoded))?;
+            }
             let answer = work(&body, observer);
             drop((body, memory));
             answer.map(|answer| with_share(answer, share))
@@ -69,18 +79,25 @@ impl FromRequest<Shared> for Batch {
 
     async fn from_request(request: Request, state: &Shared) -> Result<Self, Error> {
         require_json(request.headers())?;
+        let (coding, limit) = (Coding::of(request.headers())?, state.limits.body_bytes);
         let caller = request.extensions().get::<Caller>().cloned().ok_or(Error::Internal)?;
         let mut memory = state.admission.body(caller.sharer())?;
-        let body = counted_bytes(request.into_body(), state.limits.body_bytes, &mut memory).await?;
+        let body = counted_bytes(request.into_body(), limit, &mut memory).await?;
         // Not before: who sends slowly would have the shares of all.
         let share = state.admission.batch(caller.sharer())?;
-        Ok(Self { body, memory, share })
+        Ok(Self { body, coding, limit, memory, share })
     }
 }
 
 async fn json_bytes(request: Request, limit: usize) -> Result<Bytes, Error> {
     require_json(request.headers())?;
-    to_bytes(request.into_body(), limit).await.map_err(|error| lost(&*error.into_inner(), limit))
+    let coding = Coding::of(request.headers())?;
+    let body =
+        to_bytes(request.into_body(), limit).await.map_err(|error| lost(&*error.into_inner(), limit))?;
+    match coding {
+        Some(coding) => on_workers(move || coding.decode(&body, limit, |_| Ok(())).map(Bytes::from)).await,
+        None => Ok(body),
+    }
 }
 
 /// A body whose memory is counted as it comes.

@@ -37,11 +37,10 @@ use crate::wire::workspace_summary::WorkspaceSummary;
             once, batches of them, machines, kept results, its own jobs, metrics. `compute`: also what begins jobs, \
             and the end of its own. `admin`: also the jobs of all. Results go by their ids: who knows the id knows the \
             question, and any key may read them.\n\n\
-            **Failures** are `application/problem+json` (RFC 9457) with a stable `code`, all of them: `bad_json`, \
-            `bad_request`, `unauthorized`, `forbidden`, `too_many_requests`, `overloaded`, `invalid_request`, `machine_not_found`, `not_found`, `method_not_allowed`, `body_too_large`, \
-            `too_many_rows`, `unsupported_media_type`, `workspace_not_found`, `no_mesh`, `no_slice`, `no_cells`, `job_not_found`, \
-            `not_acceptable`, `range_not_satisfiable`, `queue_full`, `stopping`, `jobs_unavailable`, `disk_failing`, `job_cancelled`, \
-            `job_too_long`, `other_version`, `no_room`, `timed_out`, `internal`. Bad fields are listed in `errors` with \
+            **Queries**: unknown and repeated parameters are refused. A list is `rho=1,2,3`, `rho=1&rho=2&rho=3` or \
+            `rho=[1,2,3]`.\n\n\
+            **Bodies** may be sent with `Content-Encoding: gzip` or `br`; limits count decoded bytes.\n\n\
+            **Failures** are `application/problem+json` (RFC 9457) with a stable `code`. Bad fields are listed in `errors` with \
             a JSON Pointer into the body, or `/query/<name>`. Unknown and repeated fields are refused."
     ),
     servers((url = "/", description = "This service.")),

@@ -1,14 +1,17 @@
-//! The one map from errors to HTTP: status, stable `code`, and the problem document (RFC 9457).
+//! From errors to HTTP: the problem document (RFC 9457) with status and stable `code`, and its headers.
+
+mod code;
 
 use axum::body::{Body, Bytes, HttpBody};
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::http::{HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::{BoxError, Extension};
-use headers::{ContentRange, HeaderMapExt};
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use crate::coding::Coding;
 use crate::error::{Error, Fault};
+pub(crate) use code::Code;
 
 /// Seconds after which a service that is being restarted is worth asking again.
 const PAUSE: u64 = 5;
@@ -52,48 +55,6 @@ impl From<Fault> for FieldProblem {
     }
 }
 
-fn status_and_code(error: &Error) -> (StatusCode, &'static str) {
-    match error {
-        Error::Syntax(_) => (StatusCode::BAD_REQUEST, "bad_json"),
-        Error::BodyLost(_) => (StatusCode::BAD_REQUEST, "bad_request"),
-        Error::Fields(_) => (StatusCode::UNPROCESSABLE_ENTITY, "invalid_request"),
-        Error::Unauthorized => (StatusCode::UNAUTHORIZED, "unauthorized"),
-        Error::Forbidden(_) => (StatusCode::FORBIDDEN, "forbidden"),
-        Error::TooManyRequests(_) => (StatusCode::TOO_MANY_REQUESTS, "too_many_requests"),
-        Error::Overloaded => (StatusCode::SERVICE_UNAVAILABLE, "overloaded"),
-        Error::NotJson(_) => (StatusCode::UNSUPPORTED_MEDIA_TYPE, "unsupported_media_type"),
-        Error::BodyTooLarge(_) => (StatusCode::PAYLOAD_TOO_LARGE, "body_too_large"),
-        Error::TooManyRows { .. } => (StatusCode::PAYLOAD_TOO_LARGE, "too_many_rows"),
-        Error::NoSuchMachine(_) => (StatusCode::NOT_FOUND, "machine_not_found"),
-        Error::NoSuchWorkspace(_) => (StatusCode::NOT_FOUND, "workspace_not_found"),
-        Error::NoMesh(_) => (StatusCode::NOT_FOUND, "no_mesh"),
-        Error::NoSlice(_) => (StatusCode::NOT_FOUND, "no_slice"),
-        Error::NoCells(_) => (StatusCode::NOT_FOUND, "no_cells"),
-        Error::NoSuchJob(_) => (StatusCode::NOT_FOUND, "job_not_found"),
-        Error::QueueFull(_) => (StatusCode::SERVICE_UNAVAILABLE, "queue_full"),
-        Error::Stopping => (StatusCode::SERVICE_UNAVAILABLE, "stopping"),
-        Error::JobsUnavailable => (StatusCode::SERVICE_UNAVAILABLE, "jobs_unavailable"),
-        Error::DiskFailing => (StatusCode::SERVICE_UNAVAILABLE, "disk_failing"),
-        Error::Cancelled | Error::JobCancelled => (StatusCode::CONFLICT, "job_cancelled"),
-        Error::JobTooLong => (StatusCode::SERVICE_UNAVAILABLE, "job_too_long"),
-        Error::OtherVersion => (StatusCode::CONFLICT, "other_version"),
-        Error::NoRoom => (StatusCode::INSUFFICIENT_STORAGE, "no_room"),
-        Error::NotAcceptable(_) | Error::NoEncoding => (StatusCode::NOT_ACCEPTABLE, "not_acceptable"),
-        Error::RangeNotSatisfiable(_) => (StatusCode::RANGE_NOT_SATISFIABLE, "range_not_satisfiable"),
-        Error::NoSuchPath => (StatusCode::NOT_FOUND, "not_found"),
-        Error::MethodNotAllowed => (StatusCode::METHOD_NOT_ALLOWED, "method_not_allowed"),
-        Error::TimedOut => (StatusCode::SERVICE_UNAVAILABLE, "timed_out"),
-        Error::Internal => (StatusCode::INTERNAL_SERVER_ERROR, "internal"),
-    }
-}
-
-impl Problem {
-    /// The HTTP status.
-    pub(crate) fn status(&self) -> u16 {
-        self.status
-    }
-}
-
 /// The error behind a bare status that the framework answered by itself.
 fn error_behind(status: StatusCode) -> Error {
     match status {
@@ -108,14 +69,15 @@ fn error_behind(status: StatusCode) -> Error {
 
 impl From<Error> for Problem {
     fn from(error: Error) -> Self {
-        let (status, code) = status_and_code(&error);
+        let code = Code::from(&error);
+        let status = code.status();
         let title = status.canonical_reason().unwrap_or("Error").to_owned();
         let detail = error.to_string();
         let errors = match error {
             Error::Fields(faults) => faults.into_iter().map(FieldProblem::from).collect(),
             _ => Vec::new(),
         };
-        Self { kind: "about:blank", title, status: status.as_u16(), code, detail, errors }
+        Self { kind: "about:blank", title, status: status.as_u16(), code: code.name(), detail, errors }
     }
 }
 
@@ -134,25 +96,29 @@ impl IntoResponse for Problem {
 
 impl IntoResponse for Error {
     fn into_response(self) -> Response {
-        let keyless = self == Self::Unauthorized;
-        let length = if let Self::RangeNotSatisfiable(length) = self { Some(length) } else { None };
-        let pause = match self {
-            Self::QueueFull(seconds) | Self::TooManyRequests(seconds) => Some(seconds),
-            Self::Overloaded => Some(1),
-            Self::Stopping | Self::JobsUnavailable | Self::DiskFailing => Some(PAUSE),
-            _ => None,
-        };
+        let header = header_of(&self);
         let mut response = Problem::from(self).into_response();
-        if let Some(length) = length {
-            response.headers_mut().typed_insert(ContentRange::unsatisfied_bytes(length));
-        }
-        if keyless {
-            response.headers_mut().insert(header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
-        }
-        if let Some(pause) = pause {
-            response.headers_mut().insert(header::RETRY_AFTER, pause.into());
-        }
+        response.headers_mut().extend(header);
         response
+    }
+}
+
+/// What an error says in a header.
+fn header_of(error: &Error) -> Option<(HeaderName, HeaderValue)> {
+    let pause = |seconds: u64| Some((header::RETRY_AFTER, seconds.into()));
+    match error {
+        Error::QueueFull(seconds) | Error::TooManyRequests(seconds) => pause(*seconds),
+        Error::Overloaded => pause(1),
+        Error::Stopping | Error::JobsUnavailable | Error::DiskFailing => pause(PAUSE),
+        Error::Unauthorized => Some((header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"))),
+        Error::UnknownCoding(_) => {
+            Some((header::ACCEPT_ENCODING, HeaderValue::from_static(Coding::ACCEPTED)))
+        }
+        Error::RangeNotSatisfiable(length) => {
+            let range = HeaderValue::try_from(format!("bytes */{length}")).ok()?;
+            Some((header::CONTENT_RANGE, range))
+        }
+        _ => None,
     }
 }
 

@@ -110,14 +110,21 @@ impl Results {
     }
 
     /// A part of a result, made if it is not there.
+    ///
+    /// `None` where what it is made of is not there either.
     pub(crate) async fn part_or(
         &self,
         id: ResultId,
         name: &str,
-        make: impl Future<Output = Result<Vec<u8>, Error>> + Send,
-    ) -> Result<Content, Error> {
-        let make = async { make.await.map(Into::into) };
-        self.store.get_or_make(&id.key(name), make).await
+        make: impl Future<Output = Result<Option<Vec<u8>>, Error>> + Send,
+    ) -> Result<Option<Content>, Error> {
+        // The store keeps what is made, and nothing else.
+        let make = async { make.await.map_err(Some)?.map(Into::into).ok_or(None) };
+        match self.store.get_or_make(&id.key(name), make).await {
+            Ok(content) => Ok(Some(content)),
+            Err(None) => Ok(None),
+            Err(Some(error)) => Err(error),
+        }
     }
 }
 
@@ -127,8 +134,8 @@ pub(crate) fn packed_mesh(mesh: &Mesh) -> Result<Vec<u8>, Error> {
 }
 
 /// A mesh that is part of a result. One that cannot be read is as if not there: another version wrote it.
-pub(crate) fn unpacked_mesh(part: &Content) -> Result<Mesh, Error> {
-    packed::unpack(&part.bytes).map_err(|_| Error::NoRoom)
+pub(crate) fn unpacked_mesh(part: &Content) -> Option<Mesh> {
+    packed::unpack(&part.bytes).ok()
 }
 
 fn raw(json: &[u8]) -> Result<Box<RawValue>, Error> {

@@ -13,7 +13,8 @@ use crate::admission::Load::{Question, Watch, Work};
 use crate::handlers::{
     batch, contains, dexterity, jobs, kinematics, machines, service, workspace, workspace_results,
 };
-use crate::openapi::{Document, access};
+use crate::openapi::{Document, access, problems};
+use crate::parameters::only_known;
 use crate::state::Shared;
 
 /// Every route with who may use it, and what it is to the service.
@@ -55,9 +56,10 @@ pub(crate) fn probes(gate: &Gate) -> Router<Shared> {
 
 /// Every route behind the gate, with its documentation.
 pub(crate) fn routes(gate: &Gate) -> OpenApiRouter<Shared> {
-    let document = access::with_scheme(Document::openapi());
+    let document = problems::with_codes(access::with_scheme(Document::openapi()));
     let router = OpenApiRouter::with_openapi(document).fallback(service::nothing_here);
     list().into_iter().fold(router, |router, (access, (schemas, paths, route))| {
-        router.routes((schemas, access::documented(paths, access), gate.before(route, access)))
+        let route = gate.before(only_known(route, &paths), access);
+        router.routes((schemas, access::documented(paths, access), route))
     })
 }

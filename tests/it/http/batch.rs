@@ -84,6 +84,30 @@ async fn forward_rows_have_a_part_where_they_have_a_table() {
 }
 
 #[tokio::test]
+async fn a_bad_forward_row_spoils_no_other() {
+    let good = "[674, 685, 250]";
+    let bad = [
+        "null",
+        "[674, null, 250]",
+        "[674, \"685\", 250]",
+        "[674, 685]",
+        "[674, 685, 250, 1]",
+        "[1e8, 2, 3]",
+        "[1, 2, 3, 4e5, 6]",
+        "{}",
+        "true",
+        "7",
+        "[[1, 2, 3]]",
+        "[674, 685, 1e999]",
+    ];
+    for bad in bad {
+        let reply = post("/fk/batch", format!("{{\"joints\": [{good}, {bad}, {good}]}}")).await;
+        assert_eq!(reply.json["status"], json!(["ok", "invalid", "ok"]), "{bad}: {}", reply.json);
+        assert_eq!(reply.json["errors"][0]["row"], 1, "{bad}");
+    }
+}
+
+#[tokio::test]
 async fn a_batch_that_is_too_long_is_refused_with_the_limit() {
     let poses = vec![[0.0, 0.0, 1200.0]; 2_001];
     let reply = post("/ik/batch", json!({"frame": "platform", "poses": poses})).await;

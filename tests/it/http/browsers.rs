@@ -26,7 +26,7 @@ async fn preflight(service: &Router, origin: &str) -> HeaderMap {
         .uri("/workspace")
         .header(ORIGIN, origin)
         .header(ACCESS_CONTROL_REQUEST_METHOD, "POST")
-        .header(ACCESS_CONTROL_REQUEST_HEADERS, "content-type,prefer,authorization")
+        .header(ACCESS_CONTROL_REQUEST_HEADERS, "content-type,prefer,authorization,traceparent")
         .body(Body::empty())
         .unwrap();
     send_to(service.clone(), request).await.headers
@@ -50,7 +50,9 @@ async fn pages_of_the_origins_that_are_named_may_ask() {
         assert_eq!(told[ACCESS_CONTROL_ALLOW_ORIGIN], origin);
         assert!(told[ACCESS_CONTROL_ALLOW_METHODS].to_str().unwrap().contains("DELETE"));
         let headers = told[ACCESS_CONTROL_ALLOW_HEADERS].to_str().unwrap();
-        for header in ["content-type", "prefer", "authorization"] {
+        for header in
+            ["content-type", "content-encoding", "prefer", "authorization", "traceparent", "tracestate"]
+        {
             assert!(headers.contains(header), "{headers}");
         }
         for uri in URIS {
@@ -60,6 +62,10 @@ async fn pages_of_the_origins_that_are_named_may_ask() {
             for header in ["location", "retry-after", "etag", "x-request-id"] {
                 assert!(exposed.contains(header), "{exposed}");
             }
+            // What an isolated page may load; our own pages are not for others.
+            let page = uri == "/" || uri.starts_with("/docs/");
+            let loaded_by = if page { "same-origin" } else { "cross-origin" };
+            assert_eq!(reply.headers["cross-origin-resource-policy"], loaded_by, "{uri}");
             let mut vary = reply.headers.get_all(VARY).iter();
             assert!(vary.any(|vary| vary.to_str().unwrap().contains("origin")), "caches tell origins apart");
         }

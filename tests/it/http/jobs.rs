@@ -99,7 +99,8 @@ pub(super) async fn events(service: &Router, id: &str) -> Vec<Value> {
 
 /// The job in an event; comments keep a connection alive.
 fn data(event: &str) -> Option<Value> {
-    event.strip_prefix("data: ").map(|json| serde_json::from_str(json).unwrap())
+    let json = event.lines().find_map(|line| line.strip_prefix("data: "))?;
+    Some(serde_json::from_str(json).unwrap())
 }
 
 /// Asks again and again until some job is in a state; its id.

@@ -71,7 +71,7 @@ async fn a_restart_loses_nothing() {
     let service = open(place.path()).await;
     assert_eq!(job(&service.router, id).await, ended);
     assert_eq!(get_from(&service.router, "/jobs", &[]).await.json["jobs"], json!([ended]));
-    assert_eq!(events(&service.router, id).await, [ended]);
+    assert_eq!(events(&service.router, id).await, [ended.clone(), ended], "the change and the end");
     answers(&service.router).await.assert_same(&before, "after a restart");
     let metrics = String::from_utf8(get_from(&service.router, "/metrics", &[]).await.bytes).unwrap();
     assert!(metrics.contains("verne_jobs_started_total 0\n"), "nothing is computed again: {metrics}");

@@ -70,11 +70,27 @@ async fn the_rotation_along_the_tables_axis_is_free() {
 
 #[tokio::test]
 async fn an_orientation_says_neither_too_little_nor_too_much() {
-    get("/ik?x=1&y=2&z=3").await.assert_bad_field("/query/phi1");
-    get("/ik?x=1&y=2&z=3&phi1=30").await.assert_bad_field("/query/phi2");
     get("/ik?x=1&y=2&z=3&phi1=30&axis=0,0,1").await.assert_bad_field("/query/axis");
     get("/ik?x=1&y=2&z=3&axis=0,0,0").await.assert_bad_field("/query/axis");
     get("/ik?x=1&y=2&z=3&axis=0,1,1&phi2=3").await.assert_bad_field("/query/phi2");
     get("/ik?frame=tool&x=1&y=2&z=3&phi1=3").await.assert_bad_field("/query/phi1");
-    post("/ik", json!({"pose": {"x": 1, "y": 2, "z": 3}})).await.assert_bad_field("/pose/phi1");
+    post("/ik", json!({"frame": "platform", "pose": {"x": 1, "y": 2, "z": 3, "phi2": 0}}))
+        .await
+        .assert_bad_field("/pose/phi2");
+}
+
+#[tokio::test]
+async fn angles_that_are_left_out_are_zero() {
+    let settled = get("/ik?x=100&y=50&z=150&phi1=0&phi2=0&tool_length=50").await;
+    let open = get("/ik?x=100&y=50&z=150&tool_length=50").await;
+    assert_eq!(open.json["free"], json!(["phi2"]));
+    assert_eq!(open.solutions(), settled.solutions());
+    let pose = json!({"x": 100, "y": 50, "z": 150});
+    assert_eq!(post("/ik", json!({"pose": pose, "tool_length": 50})).await.json, open.json);
+    for (short, whole) in [("phi1=30", "phi1=30&phi2=0"), ("phi2=40", "phi1=0&phi2=40")] {
+        let [short, whole] =
+            [short, whole].map(|angles| format!("/ik?x=100&y=50&z=150&{angles}&tool_length=50"));
+        assert_eq!(get(&short).await.json, get(&whole).await.json, "{short}");
+        assert!(!get(&short).await.solutions().is_empty());
+    }
 }

@@ -36,20 +36,15 @@ pub(super) fn orientations(pose: &TargetPose, near: Option<&Near>, faults: &mut 
     faults.angle("/pose/phi1", pose.phi1);
     faults.angle("/pose/phi2", pose.phi2);
     match (pose.phi1, pose.phi2, pose.axis) {
-        (Some(phi1), Some(phi2), None) => Orientations::one(from_degrees(phi1), from_degrees(phi2)),
-        (Some(phi1), None, None) if phi1 % 180.0 == 0.0 => Orientations::family(from_degrees(phi1), near),
-        (Some(_), None, None) => {
-            faults
-                .add("/pose/phi2", "is required: phi2 is free only where phi1 is a multiple of 180 degrees");
-            Orientations::default()
+        (phi1, None, None) if phi1.unwrap_or(0.0) % 180.0 == 0.0 => {
+            Orientations::family(from_degrees(phi1.unwrap_or(0.0)), near)
+        }
+        (phi1, phi2, None) => {
+            Orientations::one(from_degrees(phi1.unwrap_or(0.0)), from_degrees(phi2.unwrap_or(0.0)))
         }
         (None, phi2, Some(axis)) => along_axis(axis.0, phi2, near, faults),
         (Some(_), _, Some(_)) => {
             faults.add("/pose/axis", "stands in place of phi1 and phi2: give it or them");
-            Orientations::default()
-        }
-        (None, _, None) => {
-            faults.add("/pose/phi1", "is required in frame part: give phi1 and phi2, or axis");
             Orientations::default()
         }
     }

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::extract::Single;
 use crate::negotiation::Accept;
 use crate::obtain::Obtained;
-use crate::openapi::problems::{MeshProblems, WorkspaceBodyProblems};
+use crate::openapi::problems::{CellsProblems, DexterityProblems};
 use crate::prefer::Prefer;
 use crate::results::CELLS;
 use crate::state::Shared;
@@ -29,7 +29,7 @@ use crate::wire::job::JobObject;
     responses(
         (status = 200, description = "The map in figures.", body = DexteritySummary),
         (status = 202, description = "The job that computes it, at the path in Location.", body = JobObject),
-        WorkspaceBodyProblems
+        DexterityProblems
     )
 )]
 pub(crate) async fn post_dexterity(
@@ -55,7 +55,7 @@ pub(crate) async fn post_dexterity(
         (status = 200, description = "The points.", body = DexterityCells),
         (status = 202, description = "The points have made room for others: the job that computes them again.",
             body = JobObject),
-        MeshProblems
+        CellsProblems
     )
 )]
 pub(crate) async fn get_cells(

@@ -7,17 +7,18 @@ use axum::Json;
 use axum::extract::rejection::PathRejection;
 use axum::extract::{Path, State};
 use axum::http::header::{CACHE_CONTROL, LOCATION, RETRY_AFTER};
-use axum::http::{HeaderName, StatusCode};
+use axum::http::{HeaderMap, HeaderName, StatusCode};
 use axum::response::sse::{Event, KeepAlive};
 use axum::response::{IntoResponse, Response, Sse};
-use futures_util::{Stream, StreamExt};
+use futures_util::StreamExt;
+use humantime::format_rfc3339_millis;
 use verne_jobs::{Filter, Job, JobId};
 
 use crate::access::Caller;
 use crate::error::{Error, Fault};
 use crate::extract::Params;
 use crate::openapi::binary::JobEvent;
-use crate::openapi::problems::{JobProblems, QueryProblems};
+use crate::openapi::problems::{JobProblems, JobsProblems};
 use crate::state::Shared;
 use crate::wire::job::{JobList, JobObject, JobsQuery};
 
@@ -25,6 +26,12 @@ type Id = Result<Path<String>, PathRejection>;
 
 /// A job changes: no cache may answer for it.
 const LIVE: (HeaderName, &str) = (CACHE_CONTROL, "no-store");
+
+/// A proxy, such as nginx, passes each event on at once.
+const UNBUFFERED: (HeaderName, &str) = (HeaderName::from_static("x-accel-buffering"), "no");
+
+/// The header with the id of the last event that a client has.
+const LAST_EVENT: HeaderName = HeaderName::from_static("last-event-id");
 
 /// How long an idle stream of events is silent at most.
 const SILENCE: Duration = Duration::from_secs(15);
@@ -35,7 +42,7 @@ const SILENCE: Duration = Duration::from_secs(15);
 /// kept apart from them.
 #[utoipa::path(
     get, path = "/jobs", operation_id = "jobs", tag = "jobs", params(JobsQuery),
-    responses((status = 200, description = "A page of jobs.", body = JobList), QueryProblems)
+    responses((status = 200, description = "A page of jobs.", body = JobList), JobsProblems)
 )]
 pub(crate) async fn get_jobs(
     State(state): State<Shared>,
@@ -75,12 +82,17 @@ pub(crate) async fn get_job(
 /// A job's changes
 ///
 /// Server-sent events: the job as GET /jobs/{id} answers it, now and at each change, progress at most some ten times a
-/// second. The stream ends with the job.
+/// second. The stream ends with the job; its last event is an `end` with the job as it ended. A browser's EventSource
+/// connects again all the same: with the id of that event it is answered 204, which ends it.
 #[utoipa::path(
     get, path = "/jobs/{id}/events", operation_id = "job_events", tag = "jobs",
-    params(("id" = String, Path, description = "The id that /workspace answered.")),
+    params(
+        ("id" = String, Path, description = "The id that /workspace answered."),
+        ("Last-Event-ID" = Option<String>, Header, nullable = false, description = "The `id` of the last event that was received.")
+    ),
     responses(
         (status = 200, description = "Events whose data is a job.", content((JobEvent = "text/event-stream"))),
+        (status = 204, description = "The job has ended, and Last-Event-ID is the id of its last event."),
         JobProblems
     )
 )]
@@ -88,25 +100,36 @@ pub(crate) async fn get_events(
     State(state): State<Shared>,
     caller: Caller,
     id: Id,
+    headers: HeaderMap,
 ) -> Result<Response, Error> {
-    let Job { id, .. } = visible(&state, &caller, id).await?;
-    let watcher = state.jobs.watch(id).await?.ok_or_else(|| Error::NoSuchJob(id.to_string()))?;
+    let job = visible(&state, &caller, id).await?;
+    if job.state.is_final() && headers.get(LAST_EVENT).is_some_and(|last| *last == *event_id(&job)) {
+        return Ok(([LIVE], StatusCode::NO_CONTENT).into_response());
+    }
+    let watcher = state.jobs.watch(job.id).await?.ok_or_else(|| Error::NoSuchJob(job.id.to_string()))?;
     let stopping = state.stopping.clone().cancelled_owned();
     let stream = state.admission.stream(caller.sharer())?;
-    let events = watcher.take_until(stopping).filter_map(move |job| {
+    let events = watcher.take_until(stopping).flat_map(move |job| {
         // Counted until it is dropped.
         let _stream = &stream;
-        std::future::ready(event(&job))
+        futures_util::stream::iter(events(&job).into_iter().flatten().map(Ok::<_, Infallible>))
     });
-    Ok(([LIVE], Sse::new(endless(events)).keep_alive(KeepAlive::new().interval(SILENCE))).into_response())
+    Ok(([LIVE, UNBUFFERED], Sse::new(events).keep_alive(KeepAlive::new().interval(SILENCE))).into_response())
 }
 
-fn endless(events: impl Stream<Item = Event>) -> impl Stream<Item = Result<Event, Infallible>> {
-    events.map(Ok)
+/// The events that tell of a job: it, and where nothing follows, the end.
+fn events(job: &Job) -> Option<impl Iterator<Item = Event> + use<>> {
+    let event = || Event::default().id(event_id(job)).json_data(JobObject::new(job).ok()?).ok();
+    let end = if job.state.is_final() { Some(event()?.event("end")) } else { None };
+    Some(std::iter::once(event()?).chain(end))
 }
 
-fn event(job: &Job) -> Option<Event> {
-    Event::default().json_data(JobObject::new(job).ok()?).ok()
+/// Tells apart how a job stood. A job that is asked for again after its end ends at another time.
+fn event_id(job: &Job) -> String {
+    match job.finished {
+        Some(finished) => format!("{}-{}", job.state.name(), format_rfc3339_millis(finished)),
+        None => format!("{}-{}", job.state.name(), job.progress),
+    }
 }
 
 /// Cancel a job

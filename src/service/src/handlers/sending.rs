@@ -70,9 +70,8 @@ pub(super) async fn mesh(
         return Ok(Obtained::Ready(sent(content, false)));
     }
     let make = || async {
-        let made = made(state, &question, set, format, &file, patience.caller.sharer()).await;
         // Without the mesh a job is to compute it again.
-        (made != Err(Error::NoRoom)).then_some(made)
+        made(state, &question, set, format, &file, patience.caller.sharer()).await.transpose()
     };
     Ok(match state.part(&question, patience, make).await? {
         Obtained::Ready(made) => {
@@ -84,14 +83,13 @@ pub(super) async fn mesh(
 }
 
 /// The file of a mesh.
-#[derive(PartialEq, Eq)]
 struct Made {
     content: Content,
     /// Here, and not for another who asked at the same time.
     own: bool,
 }
 
-/// Makes the file of a mesh, once for all who ask for it now; [`Error::NoRoom`] where the mesh is not kept. It has its turn
+/// Makes the file of a mesh, once for all who ask for it now; `None` where the mesh is not kept. It has its turn
 /// until the file is made, whether anybody waits or not, and while somebody does until it is kept.
 async fn made(
     state: &State,
@@ -100,23 +98,23 @@ async fn made(
     format: MeshFormat,
     file: &str,
     client: Option<&str>,
-) -> Result<Made, Error> {
+) -> Result<Option<Made>, Error> {
     let (id, part) = (question.id(), surface(question, set)?.0);
     let mut turn = None;
     let make = Box::pin(async {
         let taken = Arc::clone(turn.insert(Arc::new(state.admission.mesh(client).await?)));
-        let packed = state.results.part(id, part).await.ok_or(Error::NoRoom)?;
+        let Some(packed) = state.results.part(id, part).await else { return Ok(None) };
         let question = question.clone();
         on_workers(move || {
             let _taken = taken;
-            let mesh = unpacked_mesh(&packed)?;
+            let Some(mesh) = unpacked_mesh(&packed) else { return Ok(None) };
             drop(packed);
-            write_mesh(&surface(&question, set)?.1, &mesh, format)
+            write_mesh(&surface(&question, set)?.1, &mesh, format).map(Some)
         })
         .await
     });
     let content = state.results.part_or(id, file, make).await?;
-    Ok(Made { content, own: turn.is_some() })
+    Ok(content.map(|content| Made { content, own: turn.is_some() }))
 }
 
 /// The answer, or the address of the job that will have it.

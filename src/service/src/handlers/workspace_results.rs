@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::extract::Params;
 use crate::negotiation::Accept;
 use crate::openapi::binary::{Binary, Summary, Text};
-use crate::openapi::problems::{KeptProblems, KeptQueryProblems, MeshProblems};
+use crate::openapi::problems::{KeptProblems, MeshProblems, SliceProblems};
 use crate::prefer::Prefer;
 use crate::results::{Record, content};
 use crate::state::Shared;
@@ -99,7 +99,7 @@ pub(crate) async fn get_mesh(
             (SliceObject = "application/json"), (Text = "image/svg+xml"), (Text = "image/vnd.dxf"),
             (Text = "application/dxf"),
         )),
-        KeptQueryProblems
+        SliceProblems
     )
 )]
 pub(crate) async fn get_slice(

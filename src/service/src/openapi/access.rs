@@ -1,15 +1,18 @@
 //! What keys mean for the document.
 
-use utoipa::IntoResponses;
 use utoipa::openapi::OpenApi;
 use utoipa::openapi::path::{Operation, Paths};
 use utoipa::openapi::security::{Http, HttpAuthScheme, SecurityRequirement, SecurityScheme};
 
-use super::problems::{ForbiddenProblem, KeyProblems, RateProblems};
+use super::problems::document;
 use crate::access::{Access, Role};
 use crate::admission::Load;
+use crate::problem::Code;
 
 const BEARER: &str = "bearer";
+
+/// Failures of what is not for watching the service.
+const LIMITS: &[Code] = &[Code::TooManyRequests, Code::Overloaded];
 
 /// The document with the scheme by which keys are sent.
 pub(crate) fn with_scheme(mut document: OpenApi) -> OpenApi {
@@ -26,7 +29,7 @@ pub(crate) fn documented(mut paths: Paths, access: Access) -> Paths {
         for operation in [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten() {
             match access {
                 Access::Probe => {}
-                Access::Open => operation.responses.responses.extend(RateProblems::responses()),
+                Access::Open => document(&mut operation.responses.responses, LIMITS),
                 Access::For(role, load) => ask_for_key(operation, role, load),
             }
         }
@@ -39,11 +42,11 @@ fn ask_for_key(operation: &mut Operation, role: Role, load: Load) {
     let either = [SecurityRequirement::new(BEARER, [""; 0]), SecurityRequirement::default()];
     operation.security = Some(either.into());
     let responses = &mut operation.responses.responses;
-    responses.extend(KeyProblems::responses());
+    document(responses, &[Code::Unauthorized]);
     if load != Load::Watch {
-        responses.extend(RateProblems::responses());
+        document(responses, LIMITS);
     }
     if role > Role::Read {
-        responses.extend(ForbiddenProblem::responses());
+        document(responses, &[Code::Forbidden]);
     }
 }

@@ -24,8 +24,16 @@ pub(crate) struct JobEvent;
 
 impl PartialSchema for JobEvent {
     fn schema() -> RefOr<Schema> {
-        let data = ObjectBuilder::new().schema_type(Type::String).content_media_type("application/json");
-        ObjectBuilder::new().schema_type(Type::Object).property("data", data).required("data").into()
+        let text = || ObjectBuilder::new().schema_type(Type::String);
+        let event = text().description(Some("`end` for the last event; the others have none."));
+        ObjectBuilder::new()
+            .schema_type(Type::Object)
+            .property("data", text().content_media_type("application/json"))
+            .property("event", event)
+            .property("id", text())
+            .required("data")
+            .required("id")
+            .into()
     }
 }
 

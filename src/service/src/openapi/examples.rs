@@ -16,8 +16,9 @@ use crate::wire::alphas::Alphas;
 use crate::wire::catalogue::{Health, Status};
 use crate::wire::family::WorkspaceBody;
 use crate::wire::format::SliceFormat;
-use crate::wire::parse::{parse_body, parse_query};
+use crate::wire::parse::parse_body;
 use crate::wire::query::{FkQuery, IkQuery};
+use crate::wire::query_string::parse_query;
 
 /// Rows that an example may have.
 const ROWS: usize = 100;

@@ -3,38 +3,46 @@
 use serde::Deserialize;
 use serde_json::error::Category;
 use serde_path_to_error::{Path, Segment};
+use utoipa::ToSchema;
 
+use super::missing::missing_fields;
 use super::object::Object;
 use crate::error::{Error, Fault};
 
+/// The UTF-8 byte order mark, which Windows writes before a text.
+const MARK: &[u8] = b"\xEF\xBB\xBF";
+
+/// How many bytes of a body that is not JSON are shown.
+const SHOWN: usize = 64;
+
 /// Parses a JSON body that holds an object.
-pub(crate) fn parse_body<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Result<T, Error> {
+pub(crate) fn parse_body<'de, T: Deserialize<'de> + ToSchema>(body: &'de [u8]) -> Result<T, Error> {
+    let body = without_mark(body);
     // Tracking the path costs time on every field: only a body that failed is read again with it.
     serde_json::from_slice(body).map(|Object(request)| request).map_err(|_| explain_body::<T>(body))
 }
 
 /// Parses a JSON body that holds an object, if it is as expected; [`parse_body`] says what else it is.
 pub(crate) fn parse_usual<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Option<T> {
-    serde_json::from_slice(body).map(|Object(request)| request).ok()
+    serde_json::from_slice(without_mark(body)).map(|Object(request)| request).ok()
 }
 
-/// Parses a query string.
-pub(crate) fn parse_query<'de, T: Deserialize<'de>>(query: &'de str) -> Result<T, Error> {
-    let pairs = serde_urlencoded::Deserializer::new(form_urlencoded::parse(query.as_bytes()));
-    serde_path_to_error::deserialize(pairs).map_err(|error| {
-        let message = error.inner().to_string();
-        let pointer = format!("/query{}", pointer(error.path(), &message));
-        Error::Fields(vec![Fault::new(pointer, message)])
-    })
+fn without_mark(body: &[u8]) -> &[u8] {
+    body.strip_prefix(MARK).unwrap_or(body)
 }
 
-fn explain_body<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Error {
+fn explain_body<'de, T: Deserialize<'de> + ToSchema>(body: &'de [u8]) -> Error {
     let mut json = serde_json::Deserializer::from_slice(body);
     let Err(error) = serde_path_to_error::deserialize::<_, Object<T>>(&mut json) else {
         let rest = json.end().err();
-        return Error::Syntax(rest.map_or("trailing characters".to_owned(), |error| error.to_string()));
+        return not_json(body, &rest.map_or("trailing characters".to_owned(), |error| error.to_string()));
     };
     let message = error.inner().to_string();
+    if let Some(name) = missing_name(&message) {
+        let missing = missing_fields::<T>(body);
+        let first = || vec![Fault::missing(pointer(error.path(), &message), name)];
+        return Error::Fields(if missing.is_empty() { first() } else { missing });
+    }
     let detail = if message.starts_with("number out of range") {
         "must be a number that double precision can hold".to_owned()
     } else if is_not_a_number(body, error.inner()) {
@@ -42,9 +50,19 @@ fn explain_body<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Error {
     } else if error.inner().classify() == Category::Data {
         message.clone()
     } else {
-        return Error::Syntax(message);
+        return not_json(body, &message);
     };
     Error::Fields(vec![Fault::new(pointer(error.path(), &message), detail)])
+}
+
+fn not_json(body: &[u8], reason: &str) -> Error {
+    if body.is_empty() {
+        return Error::Syntax("the body is empty".to_owned());
+    }
+    let shown = body.get(..SHOWN).unwrap_or(body);
+    let escaped = shown.escape_ascii().to_string().replace("\\'", "'");
+    let more = if shown.len() < body.len() { "..." } else { "" };
+    Error::Syntax(format!("{reason}; it begins with \"{escaped}\"{more}"))
 }
 
 /// Whether the parser stumbled over one of the words that other languages write for numbers that
@@ -63,7 +81,7 @@ fn is_not_a_number(body: &[u8], error: &serde_json::Error) -> bool {
 }
 
 /// The JSON Pointer of a path. A missing or repeated field is not on the path; the message names it.
-fn pointer(path: &Path, message: &str) -> String {
+pub(super) fn pointer(path: &Path, message: &str) -> String {
     let mut pointer = String::new();
     for segment in path {
         match segment {
@@ -72,14 +90,23 @@ fn pointer(path: &Path, message: &str) -> String {
             Segment::Enum { .. } | Segment::Unknown => {}
         }
     }
-    let named = ["missing field `", "duplicate field `"].iter().find_map(|words| message.strip_prefix(words));
-    if let Some(name) = named.and_then(|rest| rest.split('`').next()) {
+    if let Some(name) = missing_name(message).or_else(|| quoted(message, "duplicate field `")) {
         push(&mut pointer, name);
     }
     pointer
 }
 
-fn push(pointer: &mut String, part: &str) {
+/// The field that is missing, if that is what the parser says.
+fn missing_name(message: &str) -> Option<&str> {
+    quoted(message, "missing field `")
+}
+
+fn quoted<'a>(message: &'a str, words: &str) -> Option<&'a str> {
+    message.strip_prefix(words)?.split('`').next()
+}
+
+/// Adds a part to a JSON Pointer.
+pub(super) fn push(pointer: &mut String, part: &str) {
     pointer.push('/');
     pointer.push_str(&part.replace('~', "~0").replace('/', "~1"));
 }

@@ -80,12 +80,12 @@ pub(crate) struct IkQuery {
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -1e7, maximum = 1e7)]
     pub z: f64,
-    /// Inclination of the tool, degrees; only in `part`.
+    /// Inclination of the tool, degrees; only in `part`, there 0 unless `phi1` or `axis` is given.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -36000, maximum = 36000, nullable = false)]
     pub phi1: Option<f64>,
-    /// Azimuth of the tool, degrees; only in `part`. Where the tool stands along the table's own axis it may be
-    /// left out, also beside `axis`: see `free` in the answer.
+    /// Azimuth of the tool, degrees; only in `part`, there 0 unless `phi2` or `axis` is given. Where the tool stands
+    /// along the table's own axis it is left open unless given, also beside `axis`: see `free` in the answer.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -36000, maximum = 36000, nullable = false)]
     pub phi2: Option<f64>,

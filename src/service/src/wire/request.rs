@@ -85,11 +85,11 @@ pub(crate) struct TargetPose {
     /// mm; down in the base frame, up from the table in the part frame.
     #[schema(minimum = -1e7, maximum = 1e7)]
     pub z: f64,
-    /// Inclination of the tool, degrees; only in `part`.
+    /// Inclination of the tool, degrees; only in `part`, there 0 unless `phi1` or `axis` is given.
     #[schema(minimum = -36000, maximum = 36000)]
     pub phi1: Option<f64>,
-    /// Azimuth of the tool, degrees; only in `part`. Where the tool stands along the table's own axis it may be
-    /// left out, also beside `axis`: see `free` in the answer.
+    /// Azimuth of the tool, degrees; only in `part`, there 0 unless `phi2` or `axis` is given. Where the tool stands
+    /// along the table's own axis it is left open unless given, also beside `axis`: see `free` in the answer.
     #[schema(minimum = -36000, maximum = 36000)]
     pub phi2: Option<f64>,
     /// Tool axis in the table frame, from tip to holder, of any length; only in `part`, instead of phi1 and phi2.

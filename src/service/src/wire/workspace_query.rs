@@ -83,7 +83,7 @@ pub(crate) struct SliceQuery {
     /// Lines of constant alpha within the cut: `true` for every five degrees, or the angles in degrees, separated by
     /// commas.
     #[serde(default)]
-    #[param(inline)]
+    #[param(inline, explode = false)]
     pub alpha: Alphas,
     /// The slice in this format, whatever Accept says.
     #[param(inline, nullable = false)]

@@ -1,0 +1,63 @@
+//! Which required fields a JSON body lacks, by the schema that documents it. The parser stops at the first.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+use utoipa::ToSchema;
+use utoipa::openapi::schema::Object;
+use utoipa::openapi::{RefOr, Schema};
+
+use super::parse::push;
+use crate::error::Fault;
+
+/// The missing fields of a body that should be a `T`, the outer ones first.
+pub(super) fn missing_fields<T: ToSchema>(body: &[u8]) -> Vec<Fault> {
+    let Ok(body) = serde_json::from_slice::<Value>(body) else { return Vec::new() };
+    let mut named = Vec::new();
+    T::schemas(&mut named);
+    let mut search = Search { named: named.into_iter().collect(), found: Vec::new() };
+    search.visit(&T::schema(), &body, "");
+    search.found
+}
+
+struct Search {
+    /// Schemas by the names that references have.
+    named: BTreeMap<String, RefOr<Schema>>,
+    found: Vec<Fault>,
+}
+
+impl Search {
+    fn visit(&mut self, schema: &RefOr<Schema>, value: &Value, pointer: &str) {
+        let (Some(object), Value::Object(fields)) = (self.object(schema).cloned(), value) else { return };
+        for name in object.required.iter().filter(|name| !fields.contains_key(*name)) {
+            self.found.push(Fault::missing(pointer_to(pointer, name), name));
+        }
+        for (name, schema) in &object.properties {
+            if let Some(value) = fields.get(name) {
+                self.visit(schema, value, &pointer_to(pointer, name));
+            }
+        }
+    }
+
+    /// The one kind of object that a schema allows. Of several kinds nobody knows which is meant.
+    fn object<'a>(&'a self, schema: &'a RefOr<Schema>) -> Option<&'a Object> {
+        let items = match schema {
+            RefOr::Ref(reference) => {
+                return self.object(self.named.get(reference.ref_location.rsplit('/').next()?)?);
+            }
+            RefOr::T(Schema::Object(object)) => return (!object.properties.is_empty()).then_some(object),
+            RefOr::T(Schema::OneOf(any)) => &any.items,
+            RefOr::T(Schema::AnyOf(any)) => &any.items,
+            RefOr::T(Schema::AllOf(all)) => &all.items,
+            RefOr::T(_) => return None,
+        };
+        let mut objects = items.iter().filter_map(|item| self.object(item));
+        objects.next().filter(|_| objects.next().is_none())
+    }
+}
+
+fn pointer_to(pointer: &str, name: &str) -> String {
+    let mut pointer = pointer.to_owned();
+    push(&mut pointer, name);
+    pointer
+}

@@ -1,0 +1,65 @@
+//! From a query string to a typed request.
+
+use form_urlencoded::Serializer;
+use serde::de::DeserializeOwned;
+use utoipa::IntoParams;
+use utoipa::openapi::Required;
+use utoipa::openapi::path::Parameter;
+
+use super::parse::pointer;
+use crate::error::{Error, Fault};
+
+/// Parses a query string. A list is `name=1,2`, `name=1&name=2` or `name=[1,2]`.
+pub(crate) fn parse_query<T: DeserializeOwned + IntoParams>(query: &str) -> Result<T, Error> {
+    // Nearly every query can be read as it is: only another one is compared with the parameters.
+    read(query).or_else(|_| {
+        let parameters = T::into_params(|| None);
+        let missing = missing(query, &parameters);
+        if missing.is_empty() {
+            read(&with_plain_lists(query, &parameters))
+        } else {
+            Err(Error::Fields(missing))
+        }
+    })
+}
+
+fn read<T: DeserializeOwned>(query: &str) -> Result<T, Error> {
+    let pairs = serde_urlencoded::Deserializer::new(form_urlencoded::parse(query.as_bytes()));
+    serde_path_to_error::deserialize(pairs).map_err(|error| {
+        let message = error.inner().to_string();
+        let pointer = format!("/query{}", pointer(error.path(), &message));
+        Error::Fields(vec![Fault::new(pointer, message)])
+    })
+}
+
+fn missing(query: &str, parameters: &[Parameter]) -> Vec<Fault> {
+    let given = |name: &str| form_urlencoded::parse(query.as_bytes()).any(|(given, _)| given == name);
+    parameters
+        .iter()
+        .filter(|parameter| parameter.required == Required::True && !given(&parameter.name))
+        .map(|parameter| Fault::missing(format!("/query/{}", parameter.name), &parameter.name))
+        .collect()
+}
+
+/// The query with each list at its first place, its items separated by commas.
+fn with_plain_lists(query: &str, parameters: &[Parameter]) -> String {
+    let mut pairs: Vec<(String, String)> = Vec::new();
+    for (name, value) in form_urlencoded::parse(query.as_bytes()) {
+        if !parameters.iter().any(|parameter| is_list(parameter) && parameter.name == name) {
+            pairs.push((name.into_owned(), value.into_owned()));
+            continue;
+        }
+        let bare = value.trim().strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+        let items = bare.unwrap_or(&value);
+        match pairs.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, list)) => *list = format!("{list},{items}"),
+            None => pairs.push((name.into_owned(), items.to_owned())),
+        }
+    }
+    Serializer::new(String::new()).extend_pairs(pairs).finish()
+}
+
+/// Whether the document says that commas separate items.
+fn is_list(parameter: &Parameter) -> bool {
+    parameter.explode == Some(false)
+}
