@@ -6,6 +6,7 @@
 
 mod column;
 mod contains;
+mod cover;
 pub mod dexterity;
 mod domain;
 mod image;

@@ -6,6 +6,7 @@
 //! line's structure changes. There the inner integral goes like a square root, which the
 //! substitution x = x0 + (x1 - x0)(3 t² - 2 t³) makes smooth.
 
+mod crossing;
 mod line;
 mod panels;
 

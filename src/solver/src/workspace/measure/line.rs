@@ -3,10 +3,12 @@
 use std::convert::Infallible;
 
 use super::super::column::Column;
+use super::super::cover::Cover;
 use super::super::domain::Domain;
-use super::super::path::{End, Path};
+use super::super::path::End;
 use super::super::quadrature::{Integral, rule};
 use super::super::root;
+use super::crossing;
 
 /// Halvings of an interval whose integrand is not smooth.
 const DEPTH: u32 = 12;
@@ -44,15 +46,9 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// The line at x over a range of y, looked at in so many pieces.
-    pub(super) fn new(domain: &'a Domain<'a>, x: f64, range: [f64; 2], pieces: u32) -> Self {
-        let path = Path { domain, at: |y: f64| [x, y] };
-        Self { domain, x, intervals: path.intervals(range, pieces) }
-    }
-
-    /// Whether the domain is in pieces here.
-    pub(super) fn is_parted(&self) -> bool {
-        self.intervals.len() > 1
+    /// The line at x through a domain's cover.
+    pub(super) fn new(domain: &'a Domain<'a>, cover: &Cover, x: f64) -> Self {
+        Self { domain, x, intervals: crossing::intervals(domain, cover, x) }
     }
 
     pub(super) fn structure(&self) -> Structure {

@@ -1,0 +1,316 @@
+//! Every limit over a box: bounds of its values and of its gradient.
+//!
+//! Leg I decides alpha. In the working mode, R1 cos a > r1 and w1 > |v|, the cubic's root is the
+//! one nearer to a = 0: with u² + v² = C - k cos a the derivative H of y u + v w1 along a is
+//! w1 (u² + v²) / u + r1 (w1² - v²) / w1 > 0. The cubic falls with X1² and with y², and so cos a,
+//! w1 and w1 - |v| fall with both: over a box each is between its values at the corner nearest to
+//! X1 = y = 0 and at the furthest. The gradient of alpha follows from
+//!
+//! ```text
+//! d(alpha)/dy = -1 / (w1 + r1 u (w1 - v²/w1) / (u² + v²))
+//! d(alpha)/dx = -d(alpha)/dy · X1 u v / (w1 (u² + v²))
+//! ```
+//!
+//! and everything else from sums, products and roots of functions over the box.
+
+use super::super::column::Column;
+use super::super::domain::{Domain, INTERFERENCE, PAIRS, STROKES, TILT};
+use super::super::image::Image;
+use super::interval::{Interval, Jet};
+use super::separation::separation;
+use crate::inverse::first_leg::FirstLeg;
+use crate::rods::Rods;
+
+/// Least drop of a rod that is told from none, over its length: what it leaves out is narrower
+/// than the rounding of a position.
+const FLAT: f64 = 1e-7;
+
+/// What (x, y) decides, over a box that does not straddle y = 0, as far as leg I works there.
+pub(super) struct Ranges<'a> {
+    pub(super) domain: &'a Domain<'a>,
+    /// Half of the box's sizes.
+    pub(super) half: [f64; 2],
+    /// The sign of y.
+    pub(super) side: f64,
+    /// Whether leg I works all over the box.
+    pub(super) first: bool,
+    /// Whether legs II and III reach all over the box.
+    pub(super) others: bool,
+    /// x + e1 and x + e2, and y.
+    x: [Jet; 2],
+    y: Jet,
+    alpha: Jet,
+    pub(super) c: Jet,
+    pub(super) s: Jet,
+    /// The drops' squares of legs II and III, and the drops.
+    squares: [Jet; 2],
+    drops: [Jet; 3],
+    pub(super) vectors: [[Jet; 3]; 4],
+    /// The column in the middle of the box.
+    middle: Column,
+    pub(super) rods: Rods,
+}
+
+/// Leg I at the corner nearest to its guideway and at the furthest.
+struct First {
+    /// cos alpha.
+    c: Interval,
+    /// |sin alpha| and |alpha|.
+    s: Interval,
+    angle: Interval,
+    w: Interval,
+    whole: bool,
+}
+
+impl<'a> Ranges<'a> {
+    /// `None` where leg I works nowhere in the box.
+    pub(super) fn over(domain: &'a Domain<'a>, [low, high]: [[f64; 2]; 2]) -> Option<Self> {
+        let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
+        let first = First::over(domain, [low, high])?;
+        let side = if low[1] >= 0.0 { 1.0 } else { -1.0 };
+        let signed = |size: Interval| size.times(-side);
+        let (s, c) = (signed(first.s), first.c);
+        let box_x = Interval::new(low[0], high[0]);
+        let x = [d.e1, d.e2].map(|offset| Jet::coordinate(box_x.plus(offset), 0));
+        let y = Jet::coordinate(Interval::new(low[1], high[1]), 1);
+        let [ax, ay] = angle_rates(domain, &first, s, x[0].value);
+        let alpha = Jet { value: signed(first.angle), slopes: [ax, ay] };
+        let cosine = Jet { value: c, slopes: [-(s * ax), -(s * ay)] };
+        let sine = Jet { value: s, slopes: [c * ax, c * ay] };
+        let bend = s.times(0.5 * d.k);
+        let inverse = -first.w.reciprocal();
+        let slopes = [(x[0].value + bend * ax) * inverse, (y.value + bend * ay) * inverse];
+        let w1 = Jet { value: first.w, slopes };
+        let at = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+        let half = [0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])];
+        let middle = domain.column(at);
+        let (u, v) = (cosine.times(g.R1).plus(-g.r1), sine.times(g.R1));
+        let p = cosine.times(g.R2).plus(-g.r4);
+        let reaches = [y - p, y + p];
+        let margin = domain.machine.limits().serial_margin;
+        let squares = [0, 1].map(|leg| {
+            let length = [g.L2, g.L3][leg];
+            let square = (-(x[1].square() + reaches[leg].square())).plus(length * length);
+            if first.whole { square.centred(middle.square[leg + 1], half) } else { square }
+        });
+        let least = [g.L2, g.L3].map(|length| (margin.max(FLAT) * length).powi(2));
+        let others = (0..2).all(|leg| squares[leg].value.low >= least[leg]);
+        let [w2, w3] = [0, 1].map(|leg| squares[leg].root(least[leg]));
+        let vectors =
+            [[x[0], y + u, w1 + v], [x[0], y - u, w1 - v], [x[1], reaches[0], w2], [x[1], reaches[1], w3]];
+        let rods = domain.rods(&middle);
+        Some(Self {
+            domain,
+            half,
+            side,
+            first: first.whole,
+            others,
+            x,
+            y,
+            alpha,
+            c: cosine,
+            s: sine,
+            squares,
+            drops: [w1, w2, w3],
+            vectors,
+            middle,
+            rods,
+        })
+    }
+
+    /// Whether every leg reaches all over the box: only then a value at its middle, with the
+    /// gradient, bounds those elsewhere.
+    pub(super) fn is_whole(&self) -> bool {
+        self.first && self.others
+    }
+
+    /// One limit.
+    pub(super) fn limit(&self, limit: usize) -> Jet {
+        let jet = self.plainly(limit);
+        if self.is_whole() && !(INTERFERENCE..STROKES).contains(&limit) {
+            let middle = self.domain.with_rods(limit, &self.middle, &self.rods);
+            jet.centred(middle, self.half)
+        } else {
+            jet
+        }
+    }
+
+    fn plainly(&self, limit: usize) -> Jet {
+        let (g, limits) = (self.domain.machine.geometry(), self.domain.machine.limits());
+        match limit {
+            // Where leg I works it reaches.
+            0 => self.c,
+            1 => self.c.times(g.R1).plus(-g.r1),
+            2 | 3 => self.vectors[limit - 2][2].plus(-limits.serial_margin * g.L1),
+            4 => self.squares[0].plus(-(limits.serial_margin * g.L2).powi(2)),
+            5 => self.squares[1].plus(-(limits.serial_margin * g.L3).powi(2)),
+            6 => self.determinant(),
+            7..=10 => self.cone(limit - 7, false),
+            11..INTERFERENCE => self.cone(limit - 11, true),
+            // A parallelogram's own rods depend on x alone: the cover lies where they keep apart.
+            16 => self.c,
+            INTERFERENCE..STROKES => separation(self, limit > INTERFERENCE, 2.0 * g.rod_radius),
+            STROKES..TILT => self.stroke(limit - STROKES),
+            _ => self.tilt(limit - TILT),
+        }
+    }
+
+    /// The squared chord of the half-angle less that of a rod's angle from its axis.
+    fn cone(&self, rod: usize, platform: bool) -> Jet {
+        let d = &self.domain.machine.derived;
+        let axes = if platform { &d.platform_axes } else { &d.slider_axes };
+        let [ax, ay, az] = [axes[0][rod], axes[1][rod], axes[2][rod]];
+        let [x, y, z] = self.vectors[rod];
+        let along = if platform {
+            let [turned_y, turned_z] =
+                [self.c.times(ay) - self.s.times(az), self.s.times(ay) + self.c.times(az)];
+            x.times(ax) + turned_y * y + turned_z * z
+        } else {
+            x.times(ax) + y.times(ay) + z.times(az)
+        };
+        along.times(2.0 * d.inverse_lengths[rod]).plus(self.domain.chords[usize::from(platform)] - 2.0)
+    }
+
+    fn determinant(&self) -> Jet {
+        let (g, d) = (self.domain.machine.geometry(), &self.domain.machine.derived);
+        let ratio = g.R2 / g.R1;
+        let arms = [1.0, -1.0, -ratio, ratio];
+        let m = [0, 1, 2, 3].map(|i| {
+            let [x, y, z] = self.vectors[i].map(|part| part.times(d.inverse_lengths[i]));
+            [x, y, z, (self.c * z - self.s * y).times(arms[i])]
+        });
+        let upper = |i: usize, j: usize| m[0][i] * m[1][j] - m[0][j] * m[1][i];
+        let lower = |i: usize, j: usize| m[2][i] * m[3][j] - m[2][j] * m[3][i];
+        let det = upper(0, 1) * lower(2, 3) - upper(0, 2) * lower(1, 3)
+            + upper(0, 3) * lower(1, 2)
+            + upper(1, 2) * lower(0, 3)
+            - upper(1, 3) * lower(0, 2)
+            + upper(2, 3) * lower(0, 1);
+        det.times(d.home_det.signum()).plus(-self.domain.machine.limits().parallel_margin)
+    }
+
+    /// z - rho of each slider.
+    fn sliders(&self) -> [Jet; 3] {
+        let q = self.s.times(self.domain.machine.geometry().R2);
+        let [w1, w2, w3] = self.drops;
+        [w1, q + w2, w3 - q]
+    }
+
+    fn stroke(&self, number: usize) -> Jet {
+        let (stroke, f) = (&self.domain.machine.limits().stroke, self.sliders());
+        let Some(height) = self.domain.height else {
+            let (i, j) = PAIRS[number];
+            return (f[i] - f[j]).plus(stroke[i][1] - stroke[j][0]);
+        };
+        let (slider, end) = (number / 2, number % 2);
+        let Some(z) = self.at_height(height) else {
+            return Jet { value: Interval::ALL, slopes: [Interval::ALL; 2] };
+        };
+        let over = (z - f[slider]).plus(-stroke[slider][end]);
+        if end == 0 { over } else { -over }
+    }
+
+    /// The z at which the columns meet a plane of the image's frame; `None` where some do not.
+    fn at_height(&self, height: f64) -> Option<Jet> {
+        let level = Jet { value: Interval::of(height), slopes: [Interval::ZERO; 2] };
+        match self.domain.image {
+            Image::Platform => Some(level),
+            Image::Tool { length } => Some(level - self.c.times(length)),
+            Image::Part { length, table, phi1: [cp, sp], .. } => {
+                let cosine = self.c.times(cp) + self.s.times(sp);
+                let sine = self.s.times(cp) - self.c.times(sp);
+                let over = (self.y * sine).plus(table.dt - height - length * cp);
+                let part = match cosine.value.sign() {
+                    1 => over.over(cosine),
+                    -1 => (-over).over(-cosine),
+                    _ => return None,
+                };
+                Some(part.plus(table.da))
+            }
+        }
+    }
+
+    fn tilt(&self, end: usize) -> Jet {
+        let piece = |[sign, offset]: [f64; 2]| self.alpha.times(sign).plus(offset);
+        let [a, b] = self.domain.tilt_pieces(end).map(piece);
+        let value = Interval::new(a.value.low.max(b.value.low), a.value.high.max(b.value.high));
+        if a.value.low >= b.value.high {
+            a
+        } else if b.value.low >= a.value.high {
+            b
+        } else {
+            Jet { value, slopes: [0, 1].map(|axis| a.slopes[axis].hull(b.slopes[axis])) }
+        }
+    }
+
+    /// A bound of a column's volume over its area: its greatest height times the greatest Jacobian
+    /// determinant.
+    pub(super) fn weight(&self) -> f64 {
+        let stroke = &self.domain.machine.limits().stroke;
+        let height = stroke.iter().map(|[low, high]| high - low).fold(f64::INFINITY, f64::min);
+        let turn = self.alpha.slopes[1];
+        let det = match self.domain.image {
+            Image::Platform => 1.0,
+            Image::Tool { length } => (self.c.value * turn).times(-length).plus(1.0).magnitude(),
+            Image::Part { table, .. } => {
+                let w = self.drops[0].value;
+                let z = Interval::new(stroke[0][0] + w.low, stroke[0][1] + w.high);
+                (turn * z.plus(-table.da)).plus(1.0).magnitude()
+            }
+        };
+        height * det
+    }
+
+    /// The sign of x + e1, if it has one.
+    pub(super) fn beside(&self) -> i8 {
+        self.x[0].value.sign()
+    }
+}
+
+impl First {
+    fn over(domain: &Domain<'_>, [low, high]: [[f64; 2]; 2]) -> Option<Self> {
+        let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
+        let margin = domain.machine.limits().serial_margin * g.L1;
+        let x = Interval::new(low[0] + d.e1, high[0] + d.e1);
+        let y = Interval::new(low[1], high[1]);
+        let nearest = |i: Interval| i.low.max(-i.high).max(0.0);
+        let leg = |x: f64, y: f64| FirstLeg::new(domain.machine, x - d.e1, y).nearest();
+        let room = |w: f64, s: f64| w - g.R1 * s - margin;
+        let slack = 1e-11 * d.scale;
+        let near = leg(nearest(x), nearest(y))?;
+        let near_s = near.s.abs();
+        if g.R1 * near.c - g.r1 < -slack || room(near.w1, near_s) < -slack {
+            return None;
+        }
+        let far = leg(x.magnitude(), y.magnitude());
+        let far = far.filter(|far| g.R1 * far.c > g.r1);
+        let whole = far.as_ref().is_some_and(|far| room(far.w1, far.s.abs()) > slack);
+        let (far_c, far_s) = match &far {
+            Some(far) => (far.c, far.s.abs()),
+            None => (g.r1 / g.R1, (1.0 - (g.r1 / g.R1).powi(2)).sqrt()),
+        };
+        let far_w = far.as_ref().map_or(0.0, |far| far.w1);
+        let far_w = if whole { far_w } else { far_w.max(margin + g.R1 * near_s) };
+        let far_s = far_s.max(near_s);
+        Some(Self {
+            c: Interval::new(far_c.min(near.c), near.c),
+            s: Interval::new(near_s, far_s),
+            angle: Interval::new(near_s.atan2(near.c), far_s.atan2(far_c)),
+            w: Interval::new(far_w.clamp(FLAT * g.L1, near.w1.max(FLAT * g.L1)), near.w1.max(FLAT * g.L1)),
+            whole,
+        })
+    }
+}
+
+/// d(alpha)/dx and d(alpha)/dy.
+fn angle_rates(domain: &Domain<'_>, first: &First, s: Interval, x: Interval) -> [Interval; 2] {
+    let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
+    let w = first.w;
+    let u = first.c.times(g.R1).plus(-g.r1).clamp(0.0, f64::INFINITY);
+    let v = s.times(g.R1);
+    let square = v.square();
+    let arms = first.c.times(-d.k).plus(d.c).reciprocal();
+    let lead = Interval::new((w.low - square.high / w.low).max(0.0), (w.high - square.low / w.high).max(0.0));
+    let turn = (w + (u * lead).times(g.r1) * arms).reciprocal();
+    [turn * x * u * v * arms * w.reciprocal(), -turn]
+}
