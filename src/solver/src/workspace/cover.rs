@@ -10,6 +10,8 @@
 mod interval;
 mod ranges;
 mod separation;
+#[cfg(test)]
+mod tests;
 
 use super::domain::{Domain, INTERFERENCE, LIMITS, STROKES};
 use super::observer::{Observer, Pace};
@@ -134,6 +136,14 @@ impl Cover {
         self.nodes.iter().filter(|node| node.halves.is_none() && !node.is_outside()).map(leaf)
     }
 
+    /// Whether some box that is inside is at least so wide.
+    pub(super) fn holds(&self, width: f64) -> bool {
+        self.leaves().any(|leaf| {
+            let [low, high] = leaf.place;
+            matches!(leaf.state, State::Inside) && (high[0] - low[0]).min(high[1] - low[1]) >= width
+        })
+    }
+
     /// A rectangle that holds the domain; `None` where it is empty.
     pub(super) fn bounds(&self) -> Option<Rectangle> {
         bounds(self.nodes.iter())
@@ -248,8 +258,8 @@ impl Search<'_> {
         let (state, open, weight) = match found {
             Judgement::Outside => (State::Outside, true, 0.0),
             Judgement::Inside => (State::Inside, true, 0.0),
-            Judgement::Crossed { limits, simple, open, weight } => {
-                let event = !simple || limits.count_ones() > 1;
+            Judgement::Crossed { limits, simple, smooth, open, weight } => {
+                let event = !simple || !smooth || limits.count_ones() > 1;
                 (State::Crossed { limits, simple, event }, open, weight)
             }
         };
@@ -267,7 +277,14 @@ impl Search<'_> {
                 if !event {
                     self.settled += 0.5 * area(&place);
                 }
-                Some(Task { node, limits, grain: if open { grain } else { f64::INFINITY }, size, open, event })
+                Some(Task {
+                    node,
+                    limits,
+                    grain: if open { grain } else { f64::INFINITY },
+                    size,
+                    open,
+                    event,
+                })
             }
         }
     }
@@ -276,13 +293,13 @@ impl Search<'_> {
 enum Judgement {
     Outside,
     Inside,
-    Crossed { limits: u32, simple: bool, open: bool, weight: f64 },
+    Crossed { limits: u32, simple: bool, smooth: bool, open: bool, weight: f64 },
 }
 
 /// What the bounds of the limits tell of a box.
 fn judged(domain: &Domain<'_>, place: Rectangle, pending: u32) -> Judgement {
     let Some(ranges) = Ranges::over(domain, place) else { return Judgement::Outside };
-    let (mut left, mut simple, mut open) = (0, true, [true; DIRECTIONS.len()]);
+    let (mut left, mut simple, mut smooth, mut open) = (0, true, true, [true; DIRECTIONS.len()]);
     if !ranges.first {
         // Leg I's limits that hold together at X1 = y = 0 cease to hold, the further away, with the
         // one on its rod that is the less steep: where the rods cross, w1 is 0.
@@ -294,7 +311,7 @@ fn judged(domain: &Domain<'_>, place: Rectangle, pending: u32) -> Judgement {
         }
     }
     for limit in (OTHERS..LIMITS).filter(|limit| pending & (1 << limit) != 0) {
-        let jet = ranges.limit(limit);
+        let (jet, kinked) = ranges.limit(limit);
         let room = ROUNDING * unit(domain, limit);
         if jet.value.high < -room {
             return Judgement::Outside;
@@ -303,7 +320,9 @@ fn judged(domain: &Domain<'_>, place: Rectangle, pending: u32) -> Judgement {
             continue;
         }
         left |= 1 << limit;
-        simple &= jet.slopes[1].sign() != 0;
+        smooth &= !kinked;
+        // u falls with |y|: leg I's rods come nearer.
+        simple &= jet.slopes[1].sign() != 0 || limit == INTERFERENCE;
         for (open, [x, y]) in open.iter_mut().zip(DIRECTIONS) {
             *open &= (jet.slopes[0].times(x) + jet.slopes[1].times(y)).low > 0.0;
         }
@@ -311,7 +330,7 @@ fn judged(domain: &Domain<'_>, place: Rectangle, pending: u32) -> Judgement {
     if left == 0 {
         return Judgement::Inside;
     }
-    Judgement::Crossed { limits: left, simple, open: open.contains(&true), weight: ranges.weight() }
+    Judgement::Crossed { limits: left, simple, smooth, open: open.contains(&true), weight: ranges.weight() }
 }
 
 /// The size of a limit's values.
@@ -355,10 +374,7 @@ fn parallelograms_apart(domain: &Domain<'_>) -> Option<Rectangle> {
 
 fn bounds<'a>(nodes: impl Iterator<Item = &'a Node>) -> Option<Rectangle> {
     nodes.filter(|node| node.halves.is_none() && !node.is_outside()).map(|node| node.place).reduce(|a, b| {
-        [
-            [a[0][0].min(b[0][0]), a[0][1].min(b[0][1])],
-            [a[1][0].max(b[1][0]), a[1][1].max(b[1][1])],
-        ]
+        [[a[0][0].min(b[0][0]), a[0][1].min(b[0][1])], [a[1][0].max(b[1][0]), a[1][1].max(b[1][1])]]
     })
 }
 

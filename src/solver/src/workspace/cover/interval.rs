@@ -164,12 +164,16 @@ impl Jet {
         Self { value: self.value.square(), slopes }
     }
 
-    /// √f where f is at least `least`, a positive number.
+    /// √f, or the root of `least`, a positive number, where f is less.
     #[inline]
     pub(super) fn root(self, least: f64) -> Self {
         let value = Interval::new(self.value.low.max(least), self.value.high.max(least)).root();
         let half = value.reciprocal().times(0.5);
-        Self { value, slopes: self.slopes.map(|slope| slope * half) }
+        let slopes = self.slopes.map(|slope| {
+            let slope = slope * half;
+            if self.value.low < least { slope.hull(Interval::ZERO) } else { slope }
+        });
+        Self { value, slopes }
     }
 
     /// f/g of a g that is positive.
@@ -181,11 +185,12 @@ impl Jet {
         Self { value, slopes }
     }
 
-    /// Values that are also known to be near the one at the box's middle.
+    /// Values that are also known from the one at a point of the box, `offsets` from which the others
+    /// lie.
     #[inline]
-    pub(super) fn centred(self, middle: f64, half: [f64; 2]) -> Self {
-        let reach = self.slopes[0] * Interval::around(half[0]) + self.slopes[1] * Interval::around(half[1]);
-        let common = self.value.common(reach.plus(middle));
+    pub(super) fn from_point(self, value: f64, offsets: [Interval; 2]) -> Self {
+        let change = self.slopes[0] * offsets[0] + self.slopes[1] * offsets[1];
+        let common = self.value.common(change.plus(value));
         // Rounding may part two enclosures of nearly one number.
         Self { value: if common.is_empty() { self.value } else { common }, ..self }
     }
@@ -221,8 +226,7 @@ impl Mul for Jet {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        let slopes =
-            [0, 1].map(|axis| self.slopes[axis] * other.value + self.value * other.slopes[axis]);
+        let slopes = [0, 1].map(|axis| self.slopes[axis] * other.value + self.value * other.slopes[axis]);
         Self { value: self.value * other.value, slopes }
     }
 }

@@ -28,14 +28,12 @@ const FLAT: f64 = 1e-7;
 /// What (x, y) decides, over a box that does not straddle y = 0, as far as leg I works there.
 pub(super) struct Ranges<'a> {
     pub(super) domain: &'a Domain<'a>,
-    /// Half of the box's sizes.
-    pub(super) half: [f64; 2],
+    /// The box, from the point at which the limits are also evaluated.
+    pub(super) offsets: [Interval; 2],
     /// The sign of y.
     pub(super) side: f64,
     /// Whether leg I works all over the box.
     pub(super) first: bool,
-    /// Whether legs II and III reach all over the box.
-    pub(super) others: bool,
     /// x + e1 and x + e2, and y.
     x: [Jet; 2],
     y: Jet,
@@ -46,8 +44,9 @@ pub(super) struct Ranges<'a> {
     squares: [Jet; 2],
     drops: [Jet; 3],
     pub(super) vectors: [[Jet; 3]; 4],
-    /// The column in the middle of the box.
-    middle: Column,
+    /// The column at a point from which leg I works all the way to wherever it works: the box's
+    /// middle, or its corner nearest to X1 = y = 0.
+    column: Column,
     pub(super) rods: Rods,
 }
 
@@ -81,9 +80,13 @@ impl<'a> Ranges<'a> {
         let inverse = -first.w.reciprocal();
         let slopes = [(x[0].value + bend * ax) * inverse, (y.value + bend * ay) * inverse];
         let w1 = Jet { value: first.w, slopes };
-        let at = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
-        let half = [0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])];
-        let middle = domain.column(at);
+        let at = if first.whole {
+            [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])]
+        } else {
+            [(-d.e1).clamp(low[0], high[0]), 0.0_f64.clamp(low[1], high[1])]
+        };
+        let offsets = [0, 1].map(|axis| Interval::new(low[axis] - at[axis], high[axis] - at[axis]));
+        let mut column = domain.column(at);
         let (u, v) = (cosine.times(g.R1).plus(-g.r1), sine.times(g.R1));
         let p = cosine.times(g.R2).plus(-g.r4);
         let reaches = [y - p, y + p];
@@ -91,20 +94,22 @@ impl<'a> Ranges<'a> {
         let squares = [0, 1].map(|leg| {
             let length = [g.L2, g.L3][leg];
             let square = (-(x[1].square() + reaches[leg].square())).plus(length * length);
-            if first.whole { square.centred(middle.square[leg + 1], half) } else { square }
+            square.from_point(column.square[leg + 1], offsets)
         });
-        let least = [g.L2, g.L3].map(|length| (margin.max(FLAT) * length).powi(2));
-        let others = (0..2).all(|leg| squares[leg].value.low >= least[leg]);
-        let [w2, w3] = [0, 1].map(|leg| squares[leg].root(least[leg]));
+        // Where a leg does not reach its least drop it is taken to have it.
+        let least = [g.L2, g.L3].map(|length| margin.max(FLAT) * length);
+        let [w2, w3] = [0, 1].map(|leg| squares[leg].root(least[leg] * least[leg]));
+        let q = g.R2 * column.s;
+        column.w = [column.w[0], column.w[1].max(least[0]), column.w[2].max(least[1])];
+        column.f = [column.w[0], q + column.w[1], column.w[2] - q];
         let vectors =
             [[x[0], y + u, w1 + v], [x[0], y - u, w1 - v], [x[1], reaches[0], w2], [x[1], reaches[1], w3]];
-        let rods = domain.rods(&middle);
+        let rods = domain.rods(&column);
         Some(Self {
             domain,
-            half,
+            offsets,
             side,
             first: first.whole,
-            others,
             x,
             y,
             alpha,
@@ -113,25 +118,22 @@ impl<'a> Ranges<'a> {
             squares,
             drops: [w1, w2, w3],
             vectors,
-            middle,
+            column,
             rods,
         })
     }
 
-    /// Whether every leg reaches all over the box: only then a value at its middle, with the
-    /// gradient, bounds those elsewhere.
-    pub(super) fn is_whole(&self) -> bool {
-        self.first && self.others
-    }
-
-    /// One limit.
-    pub(super) fn limit(&self, limit: usize) -> Jet {
-        let jet = self.plainly(limit);
-        if self.is_whole() && !(INTERFERENCE..STROKES).contains(&limit) {
-            let middle = self.domain.with_rods(limit, &self.middle, &self.rods);
-            jet.centred(middle, self.half)
-        } else {
-            jet
+    /// One limit, or of leg I's rods one of the same sign; and whether it may have a kink where it
+    /// vanishes.
+    pub(super) fn limit(&self, limit: usize) -> (Jet, bool) {
+        match limit {
+            INTERFERENCE => (self.leg_one_apart(), false),
+            // A parallelogram's own rods depend on x alone: the cover lies where they keep apart.
+            INTERFERENCE..STROKES => separation(self, 2.0 * self.domain.machine.geometry().rod_radius),
+            _ => {
+                let value = self.domain.with_rods(limit, &self.column, &self.rods);
+                (self.plainly(limit).from_point(value, self.offsets), false)
+            }
         }
     }
 
@@ -147,12 +149,25 @@ impl<'a> Ranges<'a> {
             6 => self.determinant(),
             7..=10 => self.cone(limit - 7, false),
             11..INTERFERENCE => self.cone(limit - 11, true),
-            // A parallelogram's own rods depend on x alone: the cover lies where they keep apart.
-            16 => self.c,
-            INTERFERENCE..STROKES => separation(self, limit > INTERFERENCE, 2.0 * g.rod_radius),
             STROKES..TILT => self.stroke(limit - STROKES),
             _ => self.tilt(limit - TILT),
         }
+    }
+
+    /// Leg I's rods begin at one slider, 2 r1 apart along y, and with R1 cos a > r1 they diverge: the
+    /// nearest points are a slider end and its foot on the other rod, or that rod's end. Their
+    /// distance falls with |y| - u, from 2 r1.
+    fn leg_one_apart(&self) -> Jet {
+        let g = self.domain.machine.geometry();
+        let (r1, radius) = (g.r1, g.rod_radius);
+        let foot = g.L1 * (1.0 - (radius / r1).powi(2)).max(0.0).sqrt();
+        let end = r1 + (0.25 * g.L1 * g.L1 - radius * radius) / r1;
+        let most = if 2.0 * r1 * foot <= g.L1 * g.L1 { foot } else { end };
+        let most = if radius > r1 { f64::NEG_INFINITY } else { most };
+        let u = self.c.times(g.R1).plus(-g.r1);
+        let size = self.y.times(self.side);
+        let value = most - self.column.y.abs() + g.R1 * self.column.c - r1;
+        (u - size).plus(most).from_point(value, self.offsets)
     }
 
     /// The squared chord of the half-angle less that of a rod's angle from its axis.

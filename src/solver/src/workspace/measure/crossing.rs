@@ -45,7 +45,9 @@ fn end(domain: &Domain<'_>, x: f64, y: f64) -> End {
 /// Adds an interval; one that begins where the last one ends, on no limit, continues it.
 fn join(found: &mut Vec<[End; 2]>, interval: [End; 2]) {
     match found.last_mut() {
-        Some(last) if last[1].t == interval[0].t && last[1].limit.is_none() && interval[0].limit.is_none() => {
+        Some(last)
+            if last[1].t == interval[0].t && last[1].limit.is_none() && interval[0].limit.is_none() =>
+        {
             last[1] = interval[1];
         }
         _ => found.push(interval),

@@ -18,7 +18,7 @@ const ACCURACY: f64 = 1e-7;
 /// Halvings of a panel.
 const DEPTH: u32 = 14;
 /// Errors are given larger than they are estimated.
-const SAFETY: f64 = 2.0;
+const SAFETY: f64 = 4.0;
 
 /// Area and signed volume.
 pub(super) fn integrate(
@@ -32,10 +32,10 @@ pub(super) fn integrate(
     let mut outer = Outer { domain, cover: &cover, observer, extremes: Extremes::default() };
     let (ends, rough) = outer.changes([x0, x1])?;
     let mut total = Integral::ZERO;
-    let allowed = rough.map(|r| r * ACCURACY);
+    let scale = Scale { rough, allowed: rough.map(|r| r * ACCURACY) };
     for panel in ends.windows(2) {
         observer.progress(0.5 + 0.5 * (panel[0] - x0) / (x1 - x0));
-        total.add(&outer.panel([panel[0], panel[1]], [0.0, 1.0], &rough, &allowed, DEPTH)?);
+        total.add(&outer.panel([panel[0], panel[1]], &scale, None, [0.0, 1.0], DEPTH)?);
     }
     // Between a change and its computed place a line may be twice as long as the mean one.
     let misplaced = 2.0 * RESOLUTION * f64::from(u32::try_from(ends.len()).unwrap_or(u32::MAX));
@@ -144,33 +144,60 @@ impl Outer<'_> {
         self.change([middle, b], [&between, new], least, found)
     }
 
-    /// The part `[from, to]` of a panel, in the parameter t of the substitution.
+    /// A panel, accepted where its two halves confirm it: what lies between all lines of one rule, or
+    /// beside its last one, shows in the other.
     fn panel(
         &mut self,
         panel: [f64; 2],
+        scale: &Scale,
+        whole: Option<Integral<2>>,
         [from, to]: [f64; 2],
-        rough: &[f64; 2],
-        allowed: &[f64; 2],
         depth: u32,
+    ) -> Result<Integral<2>, WorkspaceError> {
+        let whole = match whole {
+            Some(whole) => whole,
+            None => self.rule(panel, [from, to], scale)?,
+        };
+        let middle = 0.5 * (from + to);
+        let halves = [[from, middle], [middle, to]];
+        let parts = [self.rule(panel, halves[0], scale)?, self.rule(panel, halves[1], scale)?];
+        let mut total = parts[0];
+        total.add(&parts[1]);
+        for axis in 0..2 {
+            total.error[axis] = total.error[axis].max((total.value[axis] - whole.value[axis]).abs());
+        }
+        if depth == 0 || total.within(&scale.allowed.map(|allowed| allowed * (to - from))) {
+            return Ok(total);
+        }
+        let mut total = self.panel(panel, scale, Some(parts[0]), halves[0], depth - 1)?;
+        total.add(&self.panel(panel, scale, Some(parts[1]), halves[1], depth - 1)?);
+        Ok(total)
+    }
+
+    /// The part `[from, to]` of a panel, in the parameter t of the substitution.
+    fn rule(
+        &mut self,
+        panel: [f64; 2],
+        part: [f64; 2],
+        scale: &Scale,
     ) -> Result<Integral<2>, WorkspaceError> {
         let width = panel[1] - panel[0];
         let mut extremes = self.extremes;
-        let whole = rule([from, to], |t| {
+        let whole = rule(part, |t| {
             let x = panel[0] + width * t * t * (3.0 - 2.0 * t);
             let weight = width * 6.0 * t * (1.0 - t);
-            let mut part = self.line(x)?.integrals(&rough.map(|r| r / width), &mut extremes);
+            let mut part = self.line(x)?.integrals(&scale.rough.map(|r| r / width), &mut extremes);
             part.value = part.value.map(|v| v * weight);
             part.error = part.error.map(|e| e * weight);
             Ok(part)
         })?;
         self.extremes = extremes;
-        if depth == 0 || whole.within(allowed) {
-            return Ok(whole);
-        }
-        let middle = 0.5 * (from + to);
-        let allowed = allowed.map(|a| 0.5 * a);
-        let mut total = self.panel(panel, [from, middle], rough, &allowed, depth - 1)?;
-        total.add(&self.panel(panel, [middle, to], rough, &allowed, depth - 1)?);
-        Ok(total)
+        Ok(whole)
     }
+}
+
+/// Rough values of the integrals, and the errors allowed of a panel's.
+struct Scale {
+    rough: [f64; 2],
+    allowed: [f64; 2],
 }
