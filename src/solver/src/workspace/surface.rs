@@ -69,7 +69,7 @@ fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Resul
         if plane.triangles.is_empty() && cover.holds(tolerance) {
             return Err(WorkspaceError::Disagreement);
         }
-        if plane.is_thin(tolerance) {
+        if plane.is_thin(&cover, tolerance) {
             return Ok(Surface::default());
         }
         let mut pace = Pace::new(observer);

@@ -1,6 +1,6 @@
 //! What the bounds of all limits tell of one box.
 
-use super::super::domain::{Domain, INTERFERENCE, LIMITS, STROKES, TILT};
+use super::super::domain::{Domain, INTERFERENCE, LIMITS, TILT};
 use super::ranges::Ranges;
 use super::rectangle::Rectangle;
 
@@ -69,8 +69,7 @@ fn unit(domain: &Domain<'_>, limit: usize) -> f64 {
     let scale = domain.machine.derived.scale;
     match limit {
         4 | 5 => scale * scale,
-        INTERFERENCE..STROKES => scale,
-        STROKES.. if limit < TILT => scale,
+        INTERFERENCE..TILT => scale,
         _ => 1.0,
     }
 }
