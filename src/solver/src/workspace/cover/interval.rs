@@ -188,7 +188,7 @@ impl Jet {
     /// Values that are also known from the one at a point of the box, `offsets` from which the others
     /// lie.
     #[inline]
-    pub(super) fn from_point(self, value: f64, offsets: [Interval; 2]) -> Self {
+    pub(super) fn centred_at(self, value: f64, offsets: [Interval; 2]) -> Self {
         let change = self.slopes[0] * offsets[0] + self.slopes[1] * offsets[1];
         let common = self.value.common(change.plus(value));
         // Rounding may part two enclosures of nearly one number.
@@ -226,7 +226,8 @@ impl Mul for Jet {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        let slopes = [0, 1].map(|axis| self.slopes[axis] * other.value + self.value * other.slopes[axis]);
+        let slopes =
+            [0, 1].map(|axis| (self.slopes[axis] * other.value).add(self.value * other.slopes[axis]));
         Self { value: self.value * other.value, slopes }
     }
 }

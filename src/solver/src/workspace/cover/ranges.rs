@@ -11,6 +11,9 @@ use super::interval::{Interval, Jet};
 use super::separation::separation;
 use crate::rods::Rods;
 
+/// First of the limits of rods other than leg I's two.
+const OTHER_RODS: usize = INTERFERENCE + 1;
+
 /// What (x, y) decides, over a box that does not straddle y = 0, as far as leg I works there.
 pub(super) struct Ranges<'a> {
     pub(super) domain: &'a Domain<'a>,
@@ -69,7 +72,7 @@ impl<'a> Ranges<'a> {
         let squares = [0, 1].map(|leg| {
             let length = [g.L2, g.L3][leg];
             let square = (-(x[1].square() + reaches[leg].square())).plus(length * length);
-            square.from_point(column.square[leg + 1], offsets)
+            square.centred_at(column.square[leg + 1], offsets)
         });
         // Where a leg does not reach its least drop it is taken to have it.
         let least = [g.L2, g.L3].map(|length| margin.max(FLAT) * length);
@@ -104,10 +107,10 @@ impl<'a> Ranges<'a> {
         match limit {
             INTERFERENCE => (self.leg_one_apart(), false),
             // A parallelogram's own rods depend on x alone: the cover lies where they keep apart.
-            INTERFERENCE..STROKES => separation(self, 2.0 * self.domain.machine.geometry().rod_radius),
+            OTHER_RODS..STROKES => separation(self, 2.0 * self.domain.machine.geometry().rod_radius),
             _ => {
                 let value = self.domain.with_rods(limit, &self.column, &self.rods);
-                (self.plainly(limit).from_point(value, self.offsets), false)
+                (self.plainly(limit).centred_at(value, self.offsets), false)
             }
         }
     }
@@ -142,7 +145,7 @@ impl<'a> Ranges<'a> {
         let u = self.c.times(g.R1).plus(-g.r1);
         let size = self.y.times(self.side);
         let value = most - self.column.y.abs() + g.R1 * self.column.c - r1;
-        (u - size).plus(most).from_point(value, self.offsets)
+        (u - size).plus(most).centred_at(value, self.offsets)
     }
 
     /// The squared chord of the half-angle less that of a rod's angle from its axis.

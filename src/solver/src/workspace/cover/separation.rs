@@ -56,7 +56,7 @@ fn of_pair(ranges: &Ranges<'_>, pair: [usize; 2], here: f64, enough: f64) -> Jet
     // No point of a segment moves faster than one of its ends.
     let rates = [0, 1].map(|axis| fastest([&gap, a, b], axis));
     let quick = Jet { value: Interval::new(0.0, f64::INFINITY), slopes: rates.map(Interval::around) };
-    let quick = quick.from_point(here, ranges.offsets);
+    let quick = quick.centred_at(here, ranges.offsets);
     if quick.value.low > enough || quick.value.high < enough {
         return quick;
     }
@@ -76,7 +76,7 @@ fn of_pair(ranges: &Ranges<'_>, pair: [usize; 2], here: f64, enough: f64) -> Jet
     });
     let value = quick.value.common(found.value);
     let jet = Jet { value: if value.is_empty() { quick.value } else { value }, slopes };
-    jet.from_point(here, ranges.offsets)
+    jet.centred_at(here, ranges.offsets)
 }
 
 /// From rod j's platform end to rod i's.
@@ -114,7 +114,7 @@ fn difference(ranges: &Ranges<'_>, pair: [usize; 2]) -> Vector {
     let x = Jet { value: Interval::of(offset), slopes: [Interval::ZERO; 2] };
     let [a, b] = pair.map(|rod| FAMILY[rod]);
     let here = ranges.rods.vectors[a][2] - ranges.rods.vectors[b][2];
-    let z = (ranges.vectors[a][2] - ranges.vectors[b][2]).from_point(here, ranges.offsets);
+    let z = (ranges.vectors[a][2] - ranges.vectors[b][2]).centred_at(here, ranges.offsets);
     [x, ranges.c.times(factor).plus(rest), z]
 }
 
@@ -165,7 +165,7 @@ fn of_lines(
         along([0, 1, 2].map(|i| gap[i].slopes[axis] - a[i].slopes[axis] * s + b[i].slopes[axis] * t))
     });
     let signed = Jet { value: along([0, 1, 2].map(|i| gap[i].value)), slopes };
-    let signed = signed.from_point(signed_distance(ranges, pair), ranges.offsets);
+    let signed = signed.centred_at(signed_distance(ranges, pair), ranges.offsets);
     match signed.value.sign() {
         1 => signed,
         -1 => -signed,

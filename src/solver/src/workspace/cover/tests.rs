@@ -134,5 +134,5 @@ fn column_is_one(numbers: &mut Random, domain: &Domain<'_>, [low, high]: Rectang
         changes += usize::from(member && !before);
         before = member;
     }
-    assert!(changes <= 1, "{:?} {low:?} {high:?} {limits:b} {domain:?}", x);
+    assert!(changes <= 1, "{x:?} {low:?} {high:?} {limits:b} {domain:?}");
 }
