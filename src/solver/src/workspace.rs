@@ -4,13 +4,14 @@
 //! alone, and the workspace is a set of vertical columns over a plane domain: nothing is sampled
 //! in three dimensions. The domain's boundary is found by root-finding on the constraints.
 
+mod agreement;
 mod column;
 mod contains;
+mod cover;
 pub mod dexterity;
 mod domain;
 mod image;
 mod measure;
-mod narrow;
 mod observer;
 mod path;
 mod plane;
@@ -20,6 +21,7 @@ mod root;
 mod slice;
 mod surface;
 
+pub use agreement::agree;
 pub use contains::{Membership, contains};
 pub use domain::Binding;
 pub use measure::{Measure, Volume, measure};

@@ -7,6 +7,8 @@
 mod brute;
 #[path = "workspace/dexterity.rs"]
 mod dexterity;
+#[path = "workspace/lost.rs"]
+mod lost;
 #[path = "workspace/machines.rs"]
 mod machines;
 #[path = "workspace/measure.rs"]
@@ -15,6 +17,8 @@ mod measure;
 mod membership;
 #[path = "workspace/orientations.rs"]
 mod orientations;
+#[path = "workspace/partition.rs"]
+mod partition;
 #[path = "workspace/pieces.rs"]
 mod pieces;
 #[path = "workspace/slices.rs"]

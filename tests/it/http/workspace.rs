@@ -170,3 +170,28 @@ async fn bad_questions_name_the_field() {
     }
     post("/workspace?format=step", "{}").await.assert_bad_field("/query/format");
 }
+
+/// Of 2 mm² of area there is a volume, and at a coarse tolerance no triangle; the answer says why.
+#[tokio::test]
+async fn a_workspace_thinner_than_the_tolerance_says_so() {
+    let mut machine = get("/machines/verne").await.json["definition"].clone();
+    machine["limits"]["serial_margin"] = 0.835_024_823_061_727_1.into();
+    let service = service().await;
+    let coarse = ask(&service, json!({"machine": machine, "tolerance": 20})).await.json;
+    assert_eq!((&coarse["bounds"], &coarse["triangles"]), (&Value::Null, &json!(0)));
+    assert!(coarse["explanation"].as_str().unwrap().contains("thinner than the tolerance"));
+    let fine = ask(&service, json!({"machine": machine, "tolerance": 0.05})).await.json;
+    assert!(fine["triangles"].as_u64().unwrap() > 0 && fine["explanation"].is_null());
+    assert_eq!((&fine["volume"], &fine["area"]), (&coarse["volume"], &coarse["area"]));
+    assert!(fine["area"].as_f64().unwrap() > 1.0);
+}
+
+/// theta1 jumps by a turn beyond its range, and not through it: nothing is there.
+#[tokio::test]
+async fn a_tool_beyond_the_tilting_range_reaches_nothing() {
+    let answer = get("/workspace?kind=part&tool_length=50&phi1=170&tolerance=20").await.json;
+    for field in ["volume", "volume_error", "area", "area_error"] {
+        assert_eq!(answer[field], 0.0, "{field}");
+    }
+    assert_eq!((&answer["triangles"], &answer["explanation"]), (&json!(0), &Value::Null));
+}

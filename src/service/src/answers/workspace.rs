@@ -1,7 +1,7 @@
 //! `/workspace`: volume, area, surface.
 
 use verne_mesh::Mesh;
-use verne_solver::workspace::{Measure, Observer, Request, Surface, Volume, measure, surface};
+use verne_solver::workspace::{Measure, Observer, Request, Surface, Volume, agree, measure, surface};
 
 use super::stage::Stage;
 use super::workspace_colours::coloured;
@@ -19,6 +19,8 @@ const SUMMARY_BYTES: usize = 1024;
 
 const FOLDED: &str = "the workspace folds: some of its positions are reached from two platform positions, so that the \
                       integral is not the volume of the set";
+
+const THIN: &str = "the workspace is thinner than the tolerance: it has no triangles";
 
 /// A computed workspace.
 #[derive(Debug)]
@@ -40,7 +42,9 @@ pub(crate) fn compute_workspace(
     let measuring = Stage::of(observer, 0.0, MEASURING);
     let measure = measure(machine, &request, &measuring).map_err(workspace_error)?;
     let meshing = Stage::of(observer, MEASURING, 1.0);
-    let mesh = meshed(surface(machine, &request, &meshing).map_err(workspace_error)?)?;
+    let surface = surface(machine, &request, &meshing).map_err(workspace_error)?;
+    agree(&measure, &surface, request.tolerance, &meshing).map_err(workspace_error)?;
+    let mesh = meshed(surface)?;
     let summary = write_json(&summarised(question, &measure, &mesh), SUMMARY_BYTES)?;
     Ok(Workspace { summary, mesh, inclination: measure.inclination })
 }
@@ -50,6 +54,17 @@ fn meshed(surface: Surface) -> Result<Mesh, Error> {
     let mesh = Mesh::new(surface.positions, surface.triangles, tags, palette).map_err(|_| Error::Internal)?;
     debug_assert!(mesh.audit().is_watertight(), "{:?}", mesh.audit());
     Ok(mesh)
+}
+
+/// Why there is no volume, or no mesh though there is a workspace.
+fn explained(measure: &Measure, mesh: &Mesh) -> Option<&'static str> {
+    if measure.folded() {
+        Some(FOLDED)
+    } else if mesh.triangles().is_empty() && measure.area > measure.area_error {
+        Some(THIN)
+    } else {
+        None
+    }
 }
 
 fn summarised(question: &WorkspaceQuestion, measure: &Measure, mesh: &Mesh) -> WorkspaceSummary {
@@ -73,7 +88,7 @@ fn summarised(question: &WorkspaceQuestion, measure: &Measure, mesh: &Mesh) -> W
         vertices: mesh.positions().len(),
         triangles: mesh.triangles().len(),
         folded: measure.folded(),
-        explanation: measure.folded().then_some(FOLDED),
+        explanation: explained(measure, mesh),
         links: Links::of(question.id),
     }
 }

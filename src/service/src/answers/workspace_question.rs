@@ -149,6 +149,7 @@ pub(crate) fn workspace_error(error: WorkspaceError) -> Error {
             "/tolerance",
             "gives a surface that cannot be closed on this machine; a finer or coarser one may do",
         )]),
+        WorkspaceError::Disagreement => Error::Internal,
         WorkspaceError::Cancelled => Error::Cancelled,
     }
 }

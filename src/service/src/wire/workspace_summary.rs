@@ -29,7 +29,7 @@ pub(crate) struct WorkspaceSummary {
     pub area: f64,
     /// The true area lies within `area` ± this, mm².
     pub area_error: f64,
-    /// The mesh's least and greatest coordinates, within the tolerance of the true ones; null where it is empty.
+    /// The mesh's least and greatest coordinates, within the tolerance of the true ones; null where it has no triangles.
     pub bounds: Option<BoundsObject>,
     /// Vertices of the mesh.
     pub vertices: usize,
@@ -37,7 +37,7 @@ pub(crate) struct WorkspaceSummary {
     pub triangles: usize,
     /// Whether some positions are reached from two platform positions.
     pub folded: bool,
-    /// Why there is no volume; only where there is none.
+    /// Why there is no volume, or why there are no triangles though the area is not zero; else absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, value_type = String)]
     pub explanation: Option<&'static str>,

@@ -140,7 +140,7 @@ fn square_parallel(width: f64, length: f64, [x, ..]: &[f64; 3]) -> f64 {
 /// Squared distance of two segments that run back from their platform ends, which lie `gap`
 /// apart, along -a and -b: the nearest points of the lines, then each clamped to its segment in
 /// turn (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.9).
-fn square_distance(gap: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> f64 {
+pub(crate) fn square_distance(gap: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> f64 {
     let (along_a, along_b) = (dot(a, gap), dot(b, gap));
     let (square_a, square_b, across) = (dot(a, a), dot(b, b), dot(a, b));
     let gram = square_a * square_b - across * across;

@@ -18,13 +18,13 @@ use crate::table::table_angles;
 pub(super) const LIMITS: usize = 26;
 /// First of the limits that stem from the rods' distances: of leg I's, of a parallelogram's, between
 /// legs.
-const INTERFERENCE: usize = 15;
+pub(super) const INTERFERENCE: usize = 15;
 /// First of the limits that stem from the strokes, and their number.
 pub(super) const STROKES: usize = 18;
 /// First of the two limits that stem from the table.
 pub(super) const TILT: usize = 24;
 /// Pairs of sliders (i, j): `z_hi` of slider i over `z_lo` of slider j.
-const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
+pub(super) const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
 const RODS: [u8; 4] = [11, 12, 21, 31];
 
 /// What limits a piece of the workspace's boundary.
@@ -45,9 +45,9 @@ pub(super) struct Domain<'a> {
     pub(super) machine: &'a Machine,
     pub(super) image: Image,
     /// The plane, for a slice.
-    height: Option<f64>,
+    pub(super) height: Option<f64>,
     /// Squared chords of the cones' half-angles at the sliders and at the platform.
-    chords: [f64; 2],
+    pub(super) chords: [f64; 2],
     /// Middle and half of the tilting range, moved by phi1 so that it holds for alpha.
     tilt: Option<[f64; 2]>,
     /// The rotary angle, which is constant, is out of its range.
@@ -95,14 +95,14 @@ impl<'a> Domain<'a> {
     }
 
     #[inline]
-    fn rods(&self, column: &Column) -> Rods {
+    pub(super) fn rods(&self, column: &Column) -> Rods {
         let d = &self.machine.derived;
         let x = [column.x + d.e1, column.x + d.e2];
         Rods::new(self.machine.geometry(), &d.inverse_lengths, x, column.y, column.f, [column.c, column.s])
     }
 
     #[inline]
-    fn with_rods(&self, limit: usize, column: &Column, rods: &Rods) -> f64 {
+    pub(super) fn with_rods(&self, limit: usize, column: &Column, rods: &Rods) -> f64 {
         let (g, d, limits) = (self.machine.geometry(), &self.machine.derived, self.machine.limits());
         match limit {
             0 => FirstLeg::new(self.machine, column.x, column.y).slack(),
@@ -151,10 +151,28 @@ impl<'a> Domain<'a> {
 
     /// How far theta1 is above its least value, or below its greatest.
     fn tilt(&self, end: usize, column: &Column) -> f64 {
-        let Some([middle, half]) = self.tilt else { return half_turn() };
-        let off = column.alpha() - middle;
-        let off = off - TAU * (off / TAU).round();
-        if end == 0 { half + off } else { half - off }
+        let alpha = column.alpha();
+        let [a, b] = self.tilt_pieces(end).map(|[sign, offset]| sign * alpha + offset);
+        a.max(b)
+    }
+
+    /// A tilt limit as the greater of two linear functions of alpha, each a slope and an offset.
+    ///
+    /// In the working mode |alpha| is below a right angle, so that of the range's copies, a turn
+    /// apart, at most two matter: the one around the middle nearest to 0, and of a range of more
+    /// than half a turn the copy on the other side of 0. It joins the limit whose end it is next to,
+    /// so that no limit jumps.
+    pub(super) fn tilt_pieces(&self, end: usize) -> [[f64; 2]; 2] {
+        let Some([middle, half]) = self.tilt else { return [[0.0, half_turn()]; 2] };
+        let middle = middle - TAU * (middle / TAU).round();
+        let copy = (middle.abs() + half > 1.5 * PI).then_some(middle - TAU.copysign(middle));
+        let (low, high) = ([1.0, half - middle], [-1.0, half + middle]);
+        match (end, copy) {
+            (0, Some(copy)) if middle > 0.0 => [low, [-1.0, half + copy]],
+            (1, Some(copy)) if middle <= 0.0 => [high, [1.0, half - copy]],
+            (0, _) => [low; 2],
+            _ => [high; 2],
+        }
     }
 
     /// The lowest z of each slider's stroke at this column; their maximum is `z_lo`.

@@ -1,11 +1,12 @@
 //! Volume and area by integration over the plane domain.
 //!
 //! V = ∬ (`z_hi` - `z_lo`)(j0 + j1 (`z_hi` + `z_lo`)/2), where j0 + j1 z is the Jacobian determinant of the
-//! kind's map. The inner integral runs over the exactly found intervals of a line x = const, cut
-//! where another slider begins to bind; the outer one over panels between the x at which the
-//! line's structure changes. There the inner integral goes like a square root, which the
+//! kind's map. The inner integral runs over the intervals of a line x = const, which are found from
+//! the domain's cover, cut where another slider begins to bind; the outer one over panels between
+//! the x at which the line's structure changes: the cover proves where it may. There the inner integral goes like a square root, which the
 //! substitution x = x0 + (x1 - x0)(3 t² - 2 t³) makes smooth.
 
+mod crossing;
 mod line;
 mod panels;
 
@@ -46,7 +47,11 @@ pub struct Measure {
     pub inclination: Option<f64>,
 }
 
-/// Volume and area of the workspace, with bounds of their errors: relative 1e-6 or better.
+/// Volume and area of the workspace, with bounds of their errors: relative 1e-6 or better as a rule.
+///
+/// Where so much of the domain's boundary cannot be decided at reasonable cost that a part of the
+/// domain might be missed, the errors include it: the undecided area, and it times a bound of the
+/// columns' volume. The quadrature's own errors are estimated by refinement.
 ///
 /// The tolerance of the request is without effect: it belongs to surfaces and slices.
 pub fn measure(

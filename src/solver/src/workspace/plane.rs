@@ -10,13 +10,14 @@ mod leaf;
 mod patch;
 mod refine;
 mod site;
+mod thin;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::cover::{Cover, Rectangle};
 use super::domain::Domain;
-use super::narrow::narrowed;
 use super::observer::{Observer, Pace};
 use super::request::WorkspaceError;
 use patch::Patch;
@@ -24,22 +25,11 @@ pub(super) use patch::{Rim, Triangle, Vertex};
 use refine::Refinement;
 use site::Site;
 
-/// Squares along the rectangle in which the lattice lies.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Attempt {
-    /// Along its longer side.
-    squares: u32,
-    /// Whether it is all that the legs reach, not only what a coarse look found.
-    whole: bool,
-}
-
-/// The lattices, in turn until the result closes. A piece of the domain may be so narrow that the
-/// coarse look misses it, and the rectangle cuts it off.
-pub(super) const ATTEMPTS: [Attempt; 3] = [
-    Attempt { squares: 12, whole: false },
-    Attempt { squares: 24, whole: true },
-    Attempt { squares: 29, whole: true },
-];
+/// Squares along the longer side of the rectangle that holds the domain, in turn until the result
+/// closes.
+pub(super) const ATTEMPTS: [u32; 3] = [12, 24, 29];
+/// Room between the domain and the lattice's border, as a part of the lattice.
+const BORDER: f64 = 0.017;
 
 /// The domain's triangles and its sides, the domain to their left.
 pub(super) struct Plane {
@@ -51,19 +41,16 @@ pub(super) struct Plane {
 impl Plane {
     pub(super) fn trace(
         domain: &Domain<'_>,
-        attempt: Attempt,
+        cover: &Cover,
+        squares: u32,
         tolerance: f64,
         observer: &dyn Observer,
     ) -> Result<Self, WorkspaceError> {
-        if domain.empty {
-            return Ok(Self { vertices: Vec::new(), triangles: Vec::new(), rims: Vec::new() });
-        }
-        let found = if attempt.whole { Some(domain.rectangle()) } else { narrowed(domain) };
-        let Some(rectangle) = found else {
+        let Some(rectangle) = cover.bounds() else {
             return Ok(Self { vertices: Vec::new(), triangles: Vec::new(), rims: Vec::new() });
         };
-        let lattice = Lattice::new(rectangle, attempt.squares);
-        let refinement = Refinement { domain, tolerance, observer };
+        let lattice = Lattice::new(with_border(rectangle), squares);
+        let refinement = Refinement { domain, cover, tolerance, observer };
         let (count, done) = (lattice.count(), AtomicUsize::new(0));
         let patches: Result<Vec<Patch>, WorkspaceError> = (0..count)
             .into_par_iter()
@@ -88,6 +75,12 @@ impl Plane {
     }
 }
 
+/// A larger rectangle: no limit ends the domain on the lattice's border.
+fn with_border([low, high]: Rectangle) -> Rectangle {
+    let border = BORDER * (high[0] - low[0]).max(high[1] - low[1]);
+    [low.map(|end| end - border), high.map(|end| end + border)]
+}
+
 fn ratio(part: usize, whole: usize) -> f64 {
     let number = |n: usize| f64::from(u32::try_from(n).unwrap_or(u32::MAX));
     number(part) / number(whole)
@@ -110,7 +103,7 @@ struct Lattice {
 }
 
 impl Lattice {
-    fn new([low, high]: [[f64; 2]; 2], along: u32) -> Self {
+    fn new([low, high]: Rectangle, along: u32) -> Self {
         let sizes = [high[0] - low[0], high[1] - low[1]];
         let size = sizes[0].max(sizes[1]) / f64::from(along);
         let lines = [0, 1].map(|axis| {

@@ -51,6 +51,9 @@ pub enum WorkspaceError {
         /// Their number.
         nodes: f64,
     },
+    /// The volume and the surface of one workspace disagree by more than their errors: a fault of
+    /// the computation.
+    Disagreement,
     /// The surface or the slice could not be closed: nothing is answered rather than a mesh with
     /// a gap.
     Open,
@@ -63,6 +66,7 @@ impl fmt::Display for WorkspaceError {
             Self::Cancelled => write!(f, "cancelled"),
             Self::TooFine => write!(f, "the tolerance needs more vertices than can be numbered"),
             Self::TooManyNodes { nodes } => write!(f, "the grid would have {nodes} nodes"),
+            Self::Disagreement => write!(f, "the volume and the surface disagree"),
             Self::Open => write!(f, "the surface could not be closed at this tolerance"),
         }
     }

@@ -3,6 +3,7 @@
 mod contour;
 mod loops;
 
+use super::cover::{Cover, Purpose};
 use super::domain::Domain;
 use super::observer::{Observer, go_on};
 use super::plane::{ATTEMPTS, Plane};
@@ -61,8 +62,9 @@ pub fn slice(
 
 /// The domain on the first lattice on which its sides close.
 fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Plane, WorkspaceError> {
-    for attempt in ATTEMPTS {
-        let plane = Plane::trace(domain, attempt, tolerance, observer)?;
+    let cover = Cover::of(domain, Purpose::Pieces(tolerance), observer)?;
+    for squares in ATTEMPTS {
+        let plane = Plane::trace(domain, &cover, squares, tolerance, observer)?;
         if plane.closes() {
             return Ok(plane);
         }

@@ -4,6 +4,7 @@ mod part;
 mod tidy;
 mod twins;
 
+use super::cover::{Cover, Purpose};
 use super::domain::{Binding, Domain, stroke_binding};
 use super::observer::{Observer, Pace, go_on};
 use super::plane::{ATTEMPTS, Plane, Rim};
@@ -27,6 +28,8 @@ pub struct Surface {
 }
 
 /// The boundary surface, within the request's tolerance of the true one, both ways.
+///
+/// A workspace that is nowhere as thick as the tolerance has no triangles.
 ///
 /// Where the request's map folds (see [`super::Measure::folded`]), the surface is the image of the
 /// platform workspace's boundary and passes through itself.
@@ -59,9 +62,16 @@ pub fn surface(
 /// The surface over the first lattice on which it closes.
 fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Surface, WorkspaceError> {
     let mut answer = Err(WorkspaceError::Open);
-    for attempt in ATTEMPTS {
-        let plane = Plane::trace(domain, attempt, tolerance, observer)?;
+    let cover = Cover::of(domain, Purpose::Pieces(tolerance), observer)?;
+    for squares in ATTEMPTS {
+        let plane = Plane::trace(domain, &cover, squares, tolerance, observer)?;
         go_on(observer)?;
+        if plane.triangles.is_empty() && cover.holds(tolerance) {
+            return Err(WorkspaceError::Disagreement);
+        }
+        if plane.is_thin(&cover, tolerance) {
+            return Ok(Surface::default());
+        }
         let mut pace = Pace::new(observer);
         answer = made_one(Surface::over(domain, &plane, &mut pace)?, tolerance, &mut pace);
         if answer != Err(WorkspaceError::Open) {
@@ -85,8 +95,15 @@ impl Surface {
         self.triangles.iter().map(|triangle| self.six_volumes(triangle)).sum::<f64>() / 6.0
     }
 
+    pub(super) fn area_of(&self, triangle: &[u32; 3]) -> f64 {
+        let [a, b, c] = triangle.map(|corner| self.positions[corner as usize]);
+        let (p, q) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
+        let normal = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+        0.5 * normal.iter().map(|part| part * part).sum::<f64>().sqrt()
+    }
+
     /// Six times the volume between a triangle and the first vertex.
-    fn six_volumes(&self, triangle: &[u32; 3]) -> f64 {
+    pub(super) fn six_volumes(&self, triangle: &[u32; 3]) -> f64 {
         let Some(&[ox, oy, oz]) = self.positions.first() else { return 0.0 };
         let [a, b, c] = triangle.map(|corner| {
             let [x, y, z] = self.positions[corner as usize];

@@ -103,3 +103,36 @@ pub(crate) fn random(random: &mut Random) -> Option<Machine> {
     }
     Machine::new(data).ok()
 }
+
+/// Any machine: dimensions up to e^1.4 times the reference machine's, or as small, cones of 30° to
+/// 180°, rods of 5 to 90 mm.
+pub(crate) fn spread(random: &mut Random) -> Option<Machine> {
+    let mut data = Machine::verne().data().clone();
+    let spread = random.between(0.2, 1.4);
+    let g = &mut data.geometry;
+    for length in [
+        &mut g.D1,
+        &mut g.d1,
+        &mut g.D2,
+        &mut g.d2,
+        &mut g.R1,
+        &mut g.r1,
+        &mut g.R2,
+        &mut g.r4,
+        &mut g.L1,
+        &mut g.L2,
+        &mut g.L3,
+        &mut g.parallelogram_half_width,
+    ] {
+        *length *= random.between(-spread, spread).exp();
+    }
+    g.rod_radius = random.between(5.0, 90.0);
+    let limits = &mut data.limits;
+    for stroke in &mut limits.stroke {
+        stroke[1] *= random.between(-spread, spread).exp();
+    }
+    limits.slider_cone = random.between(30.0, 180.0).to_radians();
+    limits.platform_cone = random.between(30.0, 180.0).to_radians();
+    limits.serial_margin = random.between(-0.1, 0.4).max(0.0);
+    Machine::new(data).ok()
+}

@@ -3,10 +3,13 @@
 use std::convert::Infallible;
 
 use super::super::column::Column;
+use super::super::cover::Cover;
 use super::super::domain::Domain;
-use super::super::path::{End, Path};
+use super::super::path::End;
 use super::super::quadrature::{Integral, rule};
 use super::super::root;
+use super::crossing;
+use crate::limit::Element;
 
 /// Halvings of an interval whose integrand is not smooth.
 const DEPTH: u32 = 12;
@@ -32,9 +35,10 @@ impl Extremes {
     }
 }
 
-/// What a line's integrals are made of: the limits that end its intervals, and the sliders that
-/// bind `z_lo` and `z_hi` along each. Between lines of equal structure the integrals are smooth in x.
-pub(super) type Structure = Vec<([Option<usize>; 2], Vec<[usize; 2]>)>;
+/// What a line's integrals are made of: the limits that end its intervals, each with the rods that
+/// are nearest there if it is theirs, and the sliders that bind `z_lo` and `z_hi` along each. Between
+/// lines of equal structure the integrals are smooth in x.
+pub(super) type Structure = Vec<([Option<(usize, Element)>; 2], Vec<[usize; 2]>)>;
 
 /// A line and its feasible intervals, cut where another slider binds.
 pub(super) struct Line<'a> {
@@ -44,15 +48,9 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// The line at x over a range of y, looked at in so many pieces.
-    pub(super) fn new(domain: &'a Domain<'a>, x: f64, range: [f64; 2], pieces: u32) -> Self {
-        let path = Path { domain, at: |y: f64| [x, y] };
-        Self { domain, x, intervals: path.intervals(range, pieces) }
-    }
-
-    /// Whether the domain is in pieces here.
-    pub(super) fn is_parted(&self) -> bool {
-        self.intervals.len() > 1
+    /// The line at x through a domain's cover.
+    pub(super) fn new(domain: &'a Domain<'a>, cover: &Cover, x: f64) -> Self {
+        Self { domain, x, intervals: crossing::intervals(domain, cover, x) }
     }
 
     pub(super) fn structure(&self) -> Structure {
@@ -60,9 +58,15 @@ impl<'a> Line<'a> {
         for [low, high] in &self.intervals {
             let mut sliders = vec![self.sliders(&low.column)];
             self.creases(&low.column, &high.column, &mut |_, after| sliders.push(after));
-            found.push(([low.limit, high.limit], sliders));
+            found.push(([self.bound(low), self.bound(high)], sliders));
         }
         found
+    }
+
+    fn bound(&self, end: &End) -> Option<(usize, Element)> {
+        let limit = end.limit?;
+        let number = u8::try_from(limit).unwrap_or(u8::MAX);
+        Some((limit, self.domain.binding_at(number, [end.column.x, end.column.y]).element))
     }
 
     /// The sliders that bind `z_lo` and `z_hi`.

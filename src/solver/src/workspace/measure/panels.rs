@@ -1,16 +1,16 @@
 //! The outer integral: panels between the lines at which the structure changes.
 
+use super::super::cover::{Cover, Purpose, State};
 use super::super::domain::Domain;
-use super::super::narrow::narrowed;
 use super::super::observer::{Observer, go_on};
 use super::super::quadrature::{Integral, rule};
 use super::super::request::WorkspaceError;
 use super::line::{Extremes, Line, Structure};
 
-/// Lines first looked at, and the pieces of each: odd, so that the symmetry plane is not an end.
-const COARSE: Look = Look { lines: 40, pieces: 13 };
-/// The same for a domain in several pieces, some of which may be narrow.
-const FINE: Look = Look { lines: 400, pieces: 53 };
+/// Lines first looked at besides those at events.
+const LINES: u32 = 40;
+/// Most intervals of x with events that are kept apart.
+const EVENTS: usize = 400;
 /// Width, as a part of the domain's, within which a change of structure is found.
 const RESOLUTION: f64 = 2e-9;
 /// Aim of the relative error of each integral.
@@ -18,91 +18,107 @@ const ACCURACY: f64 = 1e-7;
 /// Halvings of a panel.
 const DEPTH: u32 = 14;
 /// Errors are given larger than they are estimated.
-const SAFETY: f64 = 2.0;
+const SAFETY: f64 = 4.0;
 
 /// Area and signed volume.
 pub(super) fn integrate(
     domain: &Domain<'_>,
     observer: &dyn Observer,
 ) -> Result<(Integral<2>, Extremes), WorkspaceError> {
-    let Some([[mut x0, mut y0], [mut x1, mut y1]]) = narrowed(domain) else {
+    let cover = Cover::of(domain, Purpose::Lines, observer)?;
+    let Some([[x0, _], [x1, _]]) = cover.bounds() else {
         return Ok((Integral::ZERO, Extremes::default()));
     };
-    let mut outer = Outer {
-        domain,
-        range: [y0, y1],
-        observer,
-        look: COARSE,
-        parted: false,
-        extremes: Extremes::default(),
-    };
-    let (mut ends, mut rough) = outer.changes([x0, x1])?;
-    if outer.parted {
-        // A piece may also lie beside what the others occupy.
-        [[x0, y0], [x1, y1]] = domain.rectangle();
-        (outer.look, outer.range) = (FINE, [y0, y1]);
-        (ends, rough) = outer.changes([x0, x1])?;
-    }
+    let mut outer = Outer { domain, cover: &cover, observer, extremes: Extremes::default() };
+    let (ends, rough) = outer.changes([x0, x1])?;
     let mut total = Integral::ZERO;
-    let allowed = rough.map(|r| r * ACCURACY);
+    let scale = Scale { rough, allowed: rough.map(|r| r * ACCURACY) };
     for panel in ends.windows(2) {
         observer.progress(0.5 + 0.5 * (panel[0] - x0) / (x1 - x0));
-        total.add(&outer.panel([panel[0], panel[1]], [0.0, 1.0], &rough, &allowed, DEPTH)?);
+        total.add(&outer.panel([panel[0], panel[1]], &scale, None, [0.0, 1.0], DEPTH)?);
     }
     // Between a change and its computed place a line may be twice as long as the mean one.
     let misplaced = 2.0 * RESOLUTION * f64::from(u32::try_from(ends.len()).unwrap_or(u32::MAX));
-    for (error, rough) in total.error.iter_mut().zip(rough) {
-        *error = SAFETY * *error + misplaced * rough;
+    let undecided = undecided(&cover);
+    for axis in 0..2 {
+        total.error[axis] = SAFETY * total.error[axis] + misplaced * rough[axis] + undecided[axis];
     }
     Ok((total, outer.extremes))
 }
 
-/// How closely a domain is looked at.
-#[derive(Clone, Copy)]
-struct Look {
-    lines: u32,
-    pieces: u32,
+/// Area, and a bound of the volume, of the boxes in which lines may miss a part of the domain.
+fn undecided(cover: &Cover) -> [f64; 2] {
+    events(cover).fold([0.0; 2], |[area, volume], ([x, y], weight)| {
+        let part = (x[1] - x[0]) * (y[1] - y[0]);
+        [area + part, volume + part * weight]
+    })
+}
+
+/// The ranges of x and y of the boxes in which a line's structure may change, and a bound of a
+/// column's volume over its area.
+fn events(cover: &Cover) -> impl Iterator<Item = ([[f64; 2]; 2], f64)> {
+    cover.leaves().filter(|leaf| matches!(leaf.state, State::Crossed { event: true, .. })).map(|leaf| {
+        let [low, high] = leaf.place;
+        ([[low[0], high[0]], [low[1], high[1]]], leaf.weight)
+    })
 }
 
 struct Outer<'a> {
     domain: &'a Domain<'a>,
-    range: [f64; 2],
+    cover: &'a Cover,
     observer: &'a dyn Observer,
-    look: Look,
-    /// Whether a line crossed several pieces of the domain.
-    parted: bool,
     extremes: Extremes,
 }
 
 impl Outer<'_> {
     fn line(&self, x: f64) -> Result<Line<'_>, WorkspaceError> {
         go_on(self.observer)?;
-        Ok(Line::new(self.domain, x, self.range, self.look.pieces))
+        Ok(Line::new(self.domain, self.cover, x))
+    }
+
+    /// The x of the lines that are looked at: evenly spaced ones, and around every event.
+    fn places(&self, [x0, x1]: [f64; 2]) -> Vec<f64> {
+        let step = (x1 - x0) / f64::from(LINES);
+        let mut places: Vec<f64> = (1..LINES).map(|number| x0 + step * f64::from(number)).collect();
+        let mut events: Vec<[f64; 2]> = events(self.cover).map(|([x, _], _)| x).collect();
+        events.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        // Events that are many are not told apart where they are close.
+        let least = if events.len() > EVENTS { (x1 - x0) / f64::from(LINES) / 10.0 } else { 0.0 };
+        let mut last: Option<[f64; 2]> = None;
+        for event in events {
+            match &mut last {
+                Some(last) if event[0] <= last[1] + least => last[1] = last[1].max(event[1]),
+                _ => {
+                    places.extend(last.iter().flatten());
+                    last = Some(event);
+                }
+            }
+        }
+        places.extend(last.iter().flatten());
+        places.extend([x0, x1]);
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        places
     }
 
     /// The x between which the structure stays the same, and rough values of the integrals.
-    fn changes(&mut self, [x0, x1]: [f64; 2]) -> Result<(Vec<f64>, [f64; 2]), WorkspaceError> {
-        let lines = self.look.lines;
-        let step = (x1 - x0) / f64::from(lines);
-        let (mut found, mut rough) = (vec![], [0.0; 2]);
-        let mut last: Option<(f64, Structure)> = None;
-        for number in 0..=lines {
-            self.observer.progress(0.5 * f64::from(number) / f64::from(lines));
-            let x = x0 + step * f64::from(number);
+    fn changes(&self, [x0, x1]: [f64; 2]) -> Result<(Vec<f64>, [f64; 2]), WorkspaceError> {
+        let (mut found, mut rough) = (vec![x0], [0.0; 2]);
+        let mut last: Option<(f64, Structure, [f64; 2])> = None;
+        for x in self.places([x0, x1]) {
+            self.observer.progress(0.5 * (x - x0) / (x1 - x0));
             let line = self.line(x)?;
-            let parted = line.is_parted();
             let structure = line.structure();
-            let mut extremes = Extremes::default();
-            let value = line.integrals(&[f64::INFINITY; 2], &mut extremes).value;
-            for (rough, value) in rough.iter_mut().zip(value) {
-                *rough += step * value.abs();
-            }
-            self.parted |= parted;
-            if let Some((before, old)) = last {
+            let value = line.integrals(&[f64::INFINITY; 2], &mut Extremes::default()).value;
+            if let Some((before, old, lengths)) = last {
+                for axis in 0..2 {
+                    rough[axis] += 0.5 * (x - before) * (value[axis].abs() + lengths[axis].abs());
+                }
                 self.change([before, x], [&old, &structure], RESOLUTION * (x1 - x0), &mut found)?;
             }
-            last = Some((x, structure));
+            last = Some((x, structure, value));
         }
+        found.push(x1);
         // Changes that cannot be told apart are one.
         found.dedup_by(|b, a| *b - *a <= 2.0 * RESOLUTION * (x1 - x0));
         Ok((found, rough))
@@ -128,33 +144,60 @@ impl Outer<'_> {
         self.change([middle, b], [&between, new], least, found)
     }
 
-    /// The part `[from, to]` of a panel, in the parameter t of the substitution.
+    /// A panel, accepted where its two halves confirm it: what lies between all lines of one rule, or
+    /// beside its last one, shows in the other.
     fn panel(
         &mut self,
         panel: [f64; 2],
+        scale: &Scale,
+        whole: Option<Integral<2>>,
         [from, to]: [f64; 2],
-        rough: &[f64; 2],
-        allowed: &[f64; 2],
         depth: u32,
+    ) -> Result<Integral<2>, WorkspaceError> {
+        let whole = match whole {
+            Some(whole) => whole,
+            None => self.rule(panel, [from, to], scale)?,
+        };
+        let middle = 0.5 * (from + to);
+        let halves = [[from, middle], [middle, to]];
+        let parts = [self.rule(panel, halves[0], scale)?, self.rule(panel, halves[1], scale)?];
+        let mut total = parts[0];
+        total.add(&parts[1]);
+        for axis in 0..2 {
+            total.error[axis] = total.error[axis].max((total.value[axis] - whole.value[axis]).abs());
+        }
+        if depth == 0 || total.within(&scale.allowed.map(|allowed| allowed * (to - from))) {
+            return Ok(total);
+        }
+        let mut total = self.panel(panel, scale, Some(parts[0]), halves[0], depth - 1)?;
+        total.add(&self.panel(panel, scale, Some(parts[1]), halves[1], depth - 1)?);
+        Ok(total)
+    }
+
+    /// The part `[from, to]` of a panel, in the parameter t of the substitution.
+    fn rule(
+        &mut self,
+        panel: [f64; 2],
+        part: [f64; 2],
+        scale: &Scale,
     ) -> Result<Integral<2>, WorkspaceError> {
         let width = panel[1] - panel[0];
         let mut extremes = self.extremes;
-        let whole = rule([from, to], |t| {
+        let whole = rule(part, |t| {
             let x = panel[0] + width * t * t * (3.0 - 2.0 * t);
             let weight = width * 6.0 * t * (1.0 - t);
-            let mut part = self.line(x)?.integrals(&rough.map(|r| r / width), &mut extremes);
+            let mut part = self.line(x)?.integrals(&scale.rough.map(|r| r / width), &mut extremes);
             part.value = part.value.map(|v| v * weight);
             part.error = part.error.map(|e| e * weight);
             Ok(part)
         })?;
         self.extremes = extremes;
-        if depth == 0 || whole.within(allowed) {
-            return Ok(whole);
-        }
-        let middle = 0.5 * (from + to);
-        let allowed = allowed.map(|a| 0.5 * a);
-        let mut total = self.panel(panel, [from, middle], rough, &allowed, depth - 1)?;
-        total.add(&self.panel(panel, [middle, to], rough, &allowed, depth - 1)?);
-        Ok(total)
+        Ok(whole)
     }
+}
+
+/// Rough values of the integrals, and the errors allowed of a panel's.
+struct Scale {
+    rough: [f64; 2],
+    allowed: [f64; 2],
 }

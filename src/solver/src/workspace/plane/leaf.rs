@@ -58,7 +58,7 @@ impl<'a> Leaf<'a> {
                 sites.push(Site { border: 1 << edge, ..point });
             }
         }
-        let Refinement { domain, tolerance, observer } = *refinement;
+        let Refinement { domain, tolerance, observer, .. } = *refinement;
         Self { domain, tolerance, observer, sites, pieces: vec![piece], divided: Vec::new() }
     }
 

@@ -3,6 +3,7 @@
 //! Whether an edge is halved depends on that edge alone, so that the two triangles at it agree
 //! without knowing of each other, and parts of the plane can be worked on in any order.
 
+use super::super::cover::Cover;
 use super::super::domain::{Domain, LIMITS};
 use super::super::observer::Observer;
 use super::super::path::{Shape, control, shape};
@@ -23,6 +24,8 @@ const SHORTEST: [f64; 2] = [1.0, 0.02];
 /// Part of the tolerance by which a curve may cross an edge and come back, and by which slider 1
 /// may bind between the others.
 const SHALLOW: f64 = 0.25;
+/// Longest edge beside which nothing is hidden, over the size of the boxes that it crosses.
+const GRAIN: f64 = 2.0;
 /// Step beside an edge that shows a limit's gradient, in units of the edge.
 const STEP: f64 = 1e-4;
 
@@ -42,6 +45,7 @@ use Edge::{Halved, Kept};
 
 pub(super) struct Refinement<'a> {
     pub(super) domain: &'a Domain<'a>,
+    pub(super) cover: &'a Cover,
     pub(super) tolerance: f64,
     pub(super) observer: &'a dyn Observer,
 }
@@ -136,18 +140,25 @@ impl Refinement<'_> {
         let mut doubtful = 0_u32;
         for limit in 0..LIMITS {
             match shape(a.values[limit], middle.values[limit], b.values[limit]) {
-                Shape::Outside => return Edge::Kept,
+                Shape::Outside => return if self.hides([a, b], true) { Edge::Halved } else { Edge::Kept },
                 Shape::Simple => {}
                 Shape::Doubtful => doubtful |= 1 << limit,
             }
         }
         let length = length(a, b) / self.tolerance;
         let crossed = |limit: usize| doubtful & (1 << limit) != 0 && self.crossed(limit, [a, middle, b]);
-        let halved = length > SHORTEST[0] && (0..LIMITS).any(crossed)
+        let halved = length > SHORTEST[0] && ((0..LIMITS).any(crossed) || self.hides([a, b], false))
             || length > SHORTEST[1]
                 && !self.domain.flat()
                 && (self.curved([a, middle, b]) || self.hidden([a, b]));
         if halved { Edge::Halved } else { Edge::Kept }
+    }
+
+    /// Whether there may be a piece of the domain, or a hole, beside an edge so long that its ends and
+    /// its middle do not show it.
+    fn hides(&self, [a, b]: [&Site; 2], outside: bool) -> bool {
+        let length = length(a, b);
+        length > SHORTEST[0] * self.tolerance && length > GRAIN * self.cover.grain([a.at(), b.at()], outside)
     }
 
     /// Whether a limit's curve may cross an edge twice, or close on itself beside it, by more than

@@ -1,0 +1,103 @@
+//! What the bounds of all limits tell of one box.
+
+use super::super::domain::{Domain, INTERFERENCE, LIMITS, TILT};
+use super::ranges::Ranges;
+use super::rectangle::Rectangle;
+
+/// Room for rounding in a bound, in units of the limit.
+const ROUNDING: f64 = 1e-11;
+/// Directions in which all limits may rise together.
+const DIRECTIONS: [[f64; 2]; 8] =
+    [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+/// First of the limits that are not leg I's.
+pub(super) const OTHERS: usize = 4;
+
+/// Proved of a box.
+pub(super) enum Judgement {
+    Outside,
+    Inside,
+    /// Some limits may vanish: see [`State`](super::State). `smooth` tells that none of them may have a
+    /// kink where it does, and `weight` bounds a column's volume over its area.
+    Crossed {
+        limits: u32,
+        simple: bool,
+        smooth: bool,
+        open: bool,
+        weight: f64,
+    },
+}
+
+/// What the bounds of the limits tell of a box.
+pub(super) fn judged(domain: &Domain<'_>, place: Rectangle, pending: u32) -> Judgement {
+    let Some(ranges) = Ranges::over(domain, place) else { return Judgement::Outside };
+    let (mut left, mut simple, mut smooth, mut open) = (0, true, true, [true; DIRECTIONS.len()]);
+    if !ranges.first {
+        // Leg I's limits that hold together at X1 = y = 0 cease to hold, the further away, with the
+        // one on its rod that is the less steep: where the rods cross, w1 is 0.
+        let side = if ranges.side > 0.0 { 2 } else { 3 };
+        left |= 1 << side;
+        for (open, [x, y]) in open.iter_mut().zip(DIRECTIONS) {
+            let inwards = f64::from(ranges.beside());
+            *open = y * ranges.side < 0.0 && (x == 0.0 || x * inwards < 0.0);
+        }
+    }
+    for limit in (OTHERS..LIMITS).filter(|limit| pending & (1 << limit) != 0) {
+        let (jet, kinked) = ranges.limit(limit);
+        let room = ROUNDING * unit(domain, limit);
+        if jet.value.high < -room {
+            return Judgement::Outside;
+        }
+        if jet.value.low > room {
+            continue;
+        }
+        left |= 1 << limit;
+        smooth &= !kinked;
+        // u falls with |y|: leg I's rods come nearer.
+        simple &= jet.slopes[1].sign() != 0 || limit == INTERFERENCE;
+        for (open, [x, y]) in open.iter_mut().zip(DIRECTIONS) {
+            *open &= (jet.slopes[0].times(x) + jet.slopes[1].times(y)).low > 0.0;
+        }
+    }
+    if left == 0 {
+        return Judgement::Inside;
+    }
+    Judgement::Crossed { limits: left, simple, smooth, open: open.contains(&true), weight: ranges.weight() }
+}
+
+/// The size of a limit's values.
+fn unit(domain: &Domain<'_>, limit: usize) -> f64 {
+    let scale = domain.machine.derived.scale;
+    match limit {
+        4 | 5 => scale * scale,
+        INTERFERENCE..TILT => scale,
+        _ => 1.0,
+    }
+}
+
+/// Every limit that can be broken. Leg I's two rods and those of different legs are never nearer
+/// than nothing.
+pub(super) fn all_limits(domain: &Domain<'_>) -> u32 {
+    let all = (1 << LIMITS) - 1;
+    let parallelogram = 1 << (INTERFERENCE + 1);
+    let rods = if domain.machine.geometry().rod_radius > 0.0 { 0 } else { 0b111 << INTERFERENCE };
+    all & !(1 | parallelogram | rods)
+}
+
+/// The rectangle that the legs reach, as far as a parallelogram's rods keep apart: their distance
+/// depends on x alone and falls with |x + e2|.
+pub(super) fn parallelograms_apart(domain: &Domain<'_>) -> Option<Rectangle> {
+    let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
+    let (width, least) = (2.0 * g.parallelogram_half_width, 2.0 * g.rod_radius);
+    if width < least {
+        return None;
+    }
+    let across = |length: f64| {
+        let aligned = (1.0 - (least / width).powi(2)).sqrt();
+        let beside = (width * width + length * length - least * least) / (2.0 * width * length);
+        length * if aligned * width <= length { aligned } else { beside.min(1.0) }
+    };
+    let most = across(g.L2).min(across(g.L3));
+    let [[x0, y0], [x1, y1]] = domain.rectangle();
+    let (x0, x1) = (x0.max(-d.e2 - most), x1.min(most - d.e2));
+    (x0 < x1).then_some([[x0, y0], [x1, y1]])
+}
