@@ -1,8 +1,8 @@
 """Checks that the image's build finds what it needs: check_context.py [DEPENDENCIES]
 
-Copies the build context to a temporary directory: what .dockerignore leaves, by the rules of Docker's own client, and of
-that what the Dockerfile's COPY lines take. Cargo must resolve the workspace there. DEPENDENCIES is the file that cargo writes
-beside a binary (target/debug/verne.d): the copy must hold every file of this repository that it names.
+Copies the build context to a temporary directory: what .dockerignore leaves, by the rules of Docker's own client, and
+of that what the Dockerfile's COPY lines take. Cargo must resolve the workspace there. DEPENDENCIES is the file that
+cargo writes beside a binary (target/debug/verne.d): the copy must hold every file of this repository that it names.
 """
 
 import re

@@ -32,7 +32,8 @@ def answers(port, path="/"):
 
 
 class Broker:
-    """A NATS server with the configuration in docker/nats, its permissions among it; one of a cluster if `routes` are given."""
+    """A NATS server with the configuration in docker/nats, and with its permissions; one of a cluster if `routes` are
+    given."""
 
     def __init__(self, program, directory, name="alone", routes=()):
         self.port, self.program = free_port(), program
@@ -54,7 +55,8 @@ class Broker:
         self.start()
 
     def start(self):
-        self.process = subprocess.Popen([self.program, "-c", self.file], env=self.environment, stderr=subprocess.DEVNULL)
+        self.process = subprocess.Popen([self.program, "-c", self.file], env=self.environment,
+                                        stderr=subprocess.DEVNULL)
         while True:
             try:
                 return socket.create_connection(("127.0.0.1", self.port)).close()

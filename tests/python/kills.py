@@ -1,6 +1,6 @@
 """Asks many clients' questions of a service that is killed (SIGKILL) and started again on the same data directory:
-no job may be lost, and every answer must be that of a service that is left alone. Then backs its jobs up and restores them
-elsewhere, and stops it (SIGTERM) while it computes. python kills.py VERNE [--jobs N] [--clients N] [--kills N]"""
+no job may be lost, and every answer must be that of a service that is left alone. Then backs its jobs up and restores
+them elsewhere, and stops it (SIGTERM) while it computes. python kills.py VERNE [--jobs N] [--clients N] [--kills N]"""
 
 import argparse
 import os
@@ -48,8 +48,8 @@ def stopped_under_load(served):
 
 
 def backed_up(served, data, fresh):
-    """Backs up the jobs while one runs, as the sqlite3 program's .backup does, and restores them: a service on the copy must
-    know every job."""
+    """Backs up the jobs while one runs, as the sqlite3 program's .backup does, and restores them: a service on the copy
+    must know every job."""
     client = Client(served.port)
     running = client.ask("POST", "/workspace", {**LONG, "phi1": 9}, Prefer="respond-async").json()["id"]
     before = {job["id"] for job in listed(client)}

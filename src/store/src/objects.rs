@@ -125,8 +125,8 @@ impl Objects {
         }
     }
 
-    /// Asks, where the marker is there before: nothing is written to the directory below a mount that is gone. And after: else
-    /// the mount may have gone meanwhile.
+    /// Asks, where the marker is there before: nothing is written to the directory below a mount that is gone. And
+    /// after: else the mount may have gone meanwhile.
     async fn asked<T, F: Future<Output = Result<T, Error>>>(&self, ask: impl Fn() -> F) -> Result<T, Error> {
         let Some(marker) = &self.marker else { return ask().await };
         marker.check().await?;

@@ -20,7 +20,8 @@ use crate::Unavailable;
 /// How often a process checks that the broker lets it write.
 const CHECKED: Duration = Duration::from_secs(10);
 
-/// A denial is reported for so long. One that is still in force is repeated before: a check and its time-out are shorter.
+/// A denial is reported for so long. One that is still in force is repeated before: a check and its time-out are
+/// shorter.
 const REPORTED: Duration = Duration::from_secs(30);
 
 /// The broker's words for a denial begin so.
@@ -31,8 +32,8 @@ const VIOLATION: &str = "permissions violation";
 pub(super) struct Denials(Arc<watch::Sender<Option<(Instant, String)>>>);
 
 impl Denials {
-    /// Keeps what the broker says if it is a denial, and logs it unless one is reported already. A new connection may have
-    /// other permissions.
+    /// Keeps what the broker says if it is a denial, and logs it unless one is reported already. A new connection may
+    /// have other permissions.
     pub(super) fn note(&self, event: Event) {
         let told = match event {
             Event::ServerError(ServerError::Other(told)) if told.to_lowercase().starts_with(VIOLATION) => {
@@ -70,8 +71,8 @@ impl Bus {
         drop(self.denials.or_denied(self.check_writes()).await);
     }
 
-    /// Sends a record and a message for each line that the broker must refuse, because they name a predecessor that is not
-    /// there. So nothing is written. No answer comes where the broker forbids the subject.
+    /// Sends a record and a message for each line that the broker must refuse, because they name a predecessor that is
+    /// not there. So nothing is written. No answer comes where the broker forbids the subject.
     async fn check_writes(&self) -> Result<(), Unavailable> {
         let checks = self.checked_subjects().into_iter().map(|subject| async {
             let mut headers = HeaderMap::new();

@@ -14,8 +14,8 @@ pub(super) struct StoreCommand {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Prepare a directory as a store: make it, and the file `verne-store` in it. Needed once, while it is mounted. Without
-    /// that file --store refuses the directory: it is a mount point whose file system is not mounted.
+    /// Prepare a directory as a store: make it, and the file `verne-store` in it. Needed once, while it is mounted.
+    /// Without that file --store refuses the directory: it is a mount point whose file system is not mounted.
     Init {
         /// The directory: file:///SHARED/DIRECTORY. A store on S3 needs no preparation.
         #[arg(value_name = "URL")]

@@ -40,7 +40,8 @@ impl Shared {
         Self::tried_over(objects, address, counts).await
     }
 
-    /// Makes the directory at an address, and its marker, where they are not there. Answers whether the marker was made.
+    /// Makes the directory at an address, and its marker, where they are not there. Answers whether the marker was
+    /// made.
     pub(crate) fn init(address: &str) -> Result<bool, OpenError> {
         let url = read(address)?;
         if url.scheme() != "file" {

@@ -17,7 +17,8 @@ struct Identity {
 }
 
 impl Files {
-    /// Of a database that has been written. Where the file system cannot have the journal of the mode WAL there is none.
+    /// Of a database that has been written. Where the file system cannot have the journal of the mode WAL there is
+    /// none.
     pub(super) fn of(database: &Path) -> io::Result<Self> {
         let mut files = vec![(database.to_owned(), Identity::of(&fs::metadata(database)?))];
         let journal = journal(database);

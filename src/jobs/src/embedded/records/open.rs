@@ -83,8 +83,8 @@ fn error(path: &Path, fault: Fault) -> OpenError {
     }
 }
 
-/// Keeps other verne processes out. SQLite's own locks must not: programs that back the database up read it meanwhile. A file
-/// of its own: SQLite's locks are the process's, not the connection's, and go with any other handle.
+/// Keeps other verne processes out. SQLite's own locks must not: programs that back the database up read it meanwhile.
+/// A file of its own: SQLite's locks are the process's, not the connection's, and go with any other handle.
 fn lock(directory: &Path) -> Result<File, OpenError> {
     let path = directory.join("jobs.lock");
     let unusable =
