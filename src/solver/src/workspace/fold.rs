@@ -7,7 +7,6 @@
 //! position.
 
 use super::domain::Domain;
-use super::narrow::narrowed;
 use super::observer::{Observer, go_on};
 use super::request::{Kind, Request, WorkspaceError};
 use crate::inverse::{part_every_working, tool_every_working};
@@ -17,7 +16,7 @@ use crate::pose::{PartPose, Point};
 use crate::table::table_angles;
 
 /// Places of the rectangle that are looked at, at most.
-const PLACES: u32 = 20_000;
+const PLACES: u32 = 50_000;
 /// Points of the workspace that are looked at.
 const POINTS: u32 = 2_000;
 /// How many times as many where some point has a second solution that breaks a limit.
@@ -56,8 +55,10 @@ pub(super) fn covering(
     domain: &Domain<'_>,
     observer: &dyn Observer,
 ) -> Result<Covering, WorkspaceError> {
-    let rectangle = if request.kind == Kind::Platform { None } else { narrowed(domain) };
-    let Some(rectangle) = rectangle else { return Ok(Covering::Once { unseen: 0.0 }) };
+    if request.kind == Kind::Platform {
+        return Ok(Covering::Once { unseen: 0.0 });
+    }
+    let rectangle = domain.rectangle();
     let (mut suspected, mut seen) = (false, 0);
     for place in 0..SUSPECTED * PLACES {
         let wanted = if suspected { SUSPECTED } else { 1 };
