@@ -19,6 +19,7 @@ mod question;
 mod slice;
 mod solutions;
 mod stage;
+mod table;
 mod workspace;
 mod workspace_colours;
 mod workspace_question;

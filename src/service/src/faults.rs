@@ -1,6 +1,6 @@
 //! Collects every bad field of a request, so that one answer names them all.
 
-use verne_solver::DOMAIN;
+use verne_solver::{DOMAIN, MOST_RATIO, Machine};
 
 use crate::error::{Error, Fault};
 
@@ -47,10 +47,31 @@ impl Faults {
         }
     }
 
+    /// A length that has to be in proportion to the machine.
+    pub(crate) fn proportion(&mut self, pointer: &str, value: f64, machine: &Machine) {
+        if let Some(fault) = out_of_proportion(value, machine) {
+            self.add(pointer, fault);
+        }
+    }
+
     /// Ends the collection: an error if anything was found.
     pub(crate) fn into_result(self) -> Result<(), Error> {
         if self.0.is_empty() { Ok(()) } else { Err(Error::Fields(self.0)) }
     }
+}
+
+/// What is wrong with a length that is too long for the machine.
+pub(crate) fn out_of_proportion(value: f64, machine: &Machine) -> Option<String> {
+    (value.abs() > MOST_RATIO * machine.longest()).then(|| too_far(machine))
+}
+
+/// What lengths have to be for a machine.
+pub(crate) fn too_far(machine: &Machine) -> String {
+    format!(
+        "must be within ±{} mm for this machine: {MOST_RATIO:e} times its longest dimension. Beyond that double \
+         precision loses solutions",
+        MOST_RATIO * machine.longest()
+    )
 }
 
 /// Whether a number can be a length in a question.

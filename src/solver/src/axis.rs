@@ -1,10 +1,14 @@
 //! The tool axis in the part frame, and the two tool orientations that have it.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
-/// Below this length of (i, j) relative to (i, j, k) the azimuth phi2 is free: it is the rounding
-/// of an axis given with 16 digits.
-const FREE: f64 = 1e-15;
+/// Half-angle of the cone around the table's own axis in which an axis is the table's own, rad.
+/// Axes in tool paths carry noise of about 1e-7 rad, and six decimals round by up to 7e-7; such an
+/// inclination has no azimuth that means anything.
+pub const POLE: f64 = 1e-6;
+/// Width of the strip beside an azimuth of half a turn whose sign is rounding, rad: there, and at
+/// zero for the twin, an azimuth is not turned by a whole turn.
+const SEAM: f64 = 1e-9;
 
 /// The unit vector from tip to holder in the table frame.
 pub fn tool_axis(phi1: f64, phi2: f64) -> [f64; 3] {
@@ -15,29 +19,35 @@ pub fn tool_axis(phi1: f64, phi2: f64) -> [f64; 3] {
 /// The orientations (phi1, phi2) that have a given tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Preimages {
-    /// Both orientations: `[phi1, phi2]` with phi1 in (0, π), and its twin (-phi1, phi2 + π).
+    /// Both orientations: `[phi1, phi2]` with phi1 in (0, π), and its twin (-phi1, phi2 ± π).
+    /// phi2 of each is in (-π, π], but for rounding.
     Two([[f64; 2]; 2]),
-    /// The axis is the table's own: phi1 is 0 or π, and every phi2 serves.
+    /// The axis is within [`POLE`] of the table's own: phi1 is 0 or π, and every phi2 serves.
     Free {
         /// 0 or π.
         phi1: f64,
     },
 }
 
+/// The axis in numbers whose greatest magnitude is 1, without negative zeros; `None` if it is zero
+/// or not finite.
+pub(crate) fn direction(axis: [f64; 3]) -> Option<[f64; 3]> {
+    let largest = axis.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    let is_one = largest > 0.0 && axis.iter().all(|c| c.is_finite());
+    is_one.then(|| axis.map(|c| c / largest + 0.0))
+}
+
 /// Solves (i, j, k) = (sin phi1 sin phi2, -sin phi1 cos phi2, cos phi1). The axis may have any
 /// length but zero; `None` if it is zero or not finite.
 pub fn preimages(axis: [f64; 3]) -> Option<Preimages> {
-    let largest = axis.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-    if largest == 0.0 || !axis.iter().all(|c| c.is_finite()) {
-        return None;
-    }
-    let [i, j, k] = axis.map(|c| c / largest);
+    let [i, j, k] = direction(axis)?;
     let inclined = i.hypot(j);
-    if inclined <= FREE {
+    if inclined <= POLE * k.abs() {
         return Some(Preimages::Free { phi1: if k > 0.0 { 0.0 } else { PI } });
     }
     let phi1 = inclined.atan2(k);
-    let phi2 = i.atan2(-j);
-    let twin = if phi2 > 0.0 { phi2 - PI } else { phi2 + PI };
+    let azimuth = i.atan2(0.0 - j);
+    let phi2 = if azimuth <= SEAM - PI { azimuth + TAU } else { azimuth };
+    let twin = if phi2 > SEAM { phi2 - PI } else { phi2 + PI };
     Some(Preimages::Two([[phi1, phi2], [-phi1, twin]]))
 }

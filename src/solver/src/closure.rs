@@ -10,6 +10,7 @@
 
 mod sheet;
 mod touch;
+mod window;
 
 use std::f64::consts::{PI, TAU};
 
@@ -39,10 +40,13 @@ pub(crate) trait Closure<const M: usize> {
     fn w_at_root(&self, c: f64, s: f64) -> f64;
     /// The magnitude of w that counts as one.
     fn unit(&self) -> f64;
-    /// The size of the quadratic equation's terms.
-    fn square(&self) -> f64;
-    /// The Newton step whose square, times the closure's curvature, is nothing in double precision.
-    fn last_step(&self) -> f64;
+    /// Positive where the sheets exist, zero where they meet, negative where there are none.
+    fn discriminant(&self, c: f64, s: f64) -> f64;
+    /// Below this the linear equation is satisfied as far as residuals tell.
+    fn noise(&self, c: f64, s: f64, w: f64) -> f64;
+    /// The Newton step at a root whose square, times the closure's curvature there, is nothing in
+    /// double precision.
+    fn last_step(&self, root: &Root) -> f64;
 }
 
 /// A solution of the loop closure.
@@ -65,6 +69,24 @@ impl Root {
     pub(crate) fn at(a: f64, [c, s]: [f64; 2], w: f64) -> Self {
         Self { a, c, s, w, merged: false }
     }
+
+    /// About the angle between two solutions.
+    #[inline]
+    fn apart(&self, other: &Self) -> f64 {
+        (self.c - other.c).abs() + (self.s - other.s).abs()
+    }
+
+    /// Whether it is the same solution, up to rounding.
+    #[inline]
+    fn is(&self, other: &Self) -> bool {
+        self.apart(other) < SAME && (self.w - other.w).abs() <= 1e-6 * (self.w.abs() + other.w.abs())
+    }
+
+    /// The angle by whole turns on an arc, if it lies there.
+    #[inline]
+    fn turned_into(&self, low: f64, high: f64) -> Option<f64> {
+        [self.a, self.a + TAU, self.a - TAU].into_iter().find(|a| (low..=high).contains(a))
+    }
 }
 
 /// All solutions of a loop closure.
@@ -79,24 +101,70 @@ const NOISE: f64 = 1e-10;
 const APPROACH: usize = 60;
 /// Angle within which two roots of one closure count as found twice.
 const SAME: f64 = 1e-9;
+/// Angle within which Newton's method may end beside a double root.
+const BESIDE: f64 = 1e-5;
 
-/// Finds all solutions with |a| <= range.
+/// The solution that Newton's method finds from the level platform on the sheet w₊: the working
+/// mode's only basin in practice.
 #[inline]
-pub(crate) fn find_roots<const M: usize, C: Closure<M>>(closure: &C, range: f64, found: &mut Roots) {
+pub(crate) fn from_level<const M: usize, C: Closure<M>>(closure: &C) -> Option<Root> {
+    let [w, _] = closure.sheets(1.0, 0.0)?;
+    polish(closure, Root::at(0.0, [1.0, 0.0], w))
+}
+
+/// Finds all solutions with |a| <= range beside `known`, which is one: a solution that is met
+/// again stays as it is known, to the last bit.
+#[inline]
+pub(crate) fn find_roots<const M: usize, C: Closure<M>>(
+    closure: &C,
+    range: f64,
+    known: Option<Root>,
+    found: &mut Roots,
+) {
     let (poly, magnitude) = closure.polynomial();
+    // The known solution until it is met.
+    let mut sought = known;
     isolate(&poly, NOISE * magnitude, range, &mut |site| match site {
-        Site::Crossing { low, high, start } => add(found, alone(closure, &poly, [low, high], start)),
+        Site::Crossing { low, high, start } => {
+            let met = sought.take_if(|known| known.turned_into(low, high).is_some());
+            add(found, met.unwrap_or_else(|| alone(closure, &poly, [low, high], start)));
+        }
         Site::Pair { low, high, at } => {
+            let beside = sought.and_then(|known| sheet::beside(closure, [low, high], at, &known));
+            if let (Some(other), Some(known)) = (beside, sought) {
+                sought = None;
+                add(found, known);
+                add(found, other);
+                return;
+            }
             let pair = sheet::either_side(closure, [low, high], at).unwrap_or_else(|| {
                 let left = alone(closure, &poly, [low, at], 0.5 * (low + at));
                 [left, alone(closure, &poly, [at, high], 0.5 * (at + high))]
             });
             for root in pair {
-                add(found, root);
+                add(found, sought.filter(|known| known.is(&root)).unwrap_or(root));
             }
         }
-        Site::Touch { low, high, at } => touch::add_roots(closure, [low, high], at, found),
+        Site::Touch { low, high, at } => {
+            let first = found.len();
+            touch::add_roots(closure, [low, high], at, found);
+            for root in &mut found[first..] {
+                *root = known.filter(|known| known.is(root)).unwrap_or(*root);
+            }
+        }
     });
+    if let Some(known) = sought {
+        add_unmet(known, found);
+    }
+}
+
+/// Adds the known solution, unless it was met at a touch. Newton's method creeps towards two merged
+/// solutions; what it finds beside them is none.
+#[cold]
+fn add_unmet(known: Root, found: &mut Roots) {
+    if !found.iter().any(|root| root.merged && root.apart(&known) < BESIDE) {
+        add(found, known);
+    }
 }
 
 /// The root of a bracket that holds one.
@@ -144,12 +212,7 @@ fn at_angle<const M: usize, C: Closure<M>>(closure: &C, a: f64) -> Root {
 }
 
 fn add(roots: &mut Roots, root: Root) {
-    let found = roots.iter().any(|other| {
-        let apart = (other.c - root.c).abs() + (other.s - root.s).abs();
-        let size = other.w.abs() + root.w.abs();
-        apart < SAME && (other.w - root.w).abs() <= 1e-6 * size
-    });
-    if !found && !roots.is_full() {
+    if !roots.iter().any(|other| other.is(&root)) && !roots.is_full() {
         roots.push(root);
     }
 }

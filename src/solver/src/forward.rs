@@ -5,7 +5,7 @@ mod obstacle;
 
 use std::f64::consts::PI;
 
-use crate::closure::{Closure, Root, Roots, determinant, find_roots, polish, wrapped};
+use crate::closure::{Root, Roots, determinant, find_roots, from_level, wrapped};
 use crate::jacobian::at_home;
 use crate::limit::{Refusal, in_domain};
 use crate::machine::{Derived, Geometry, Machine};
@@ -18,7 +18,8 @@ use elimination::Assembly;
 pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, Refusal> {
     let assembly = question(machine, rho)?;
     let mut roots = Roots::new();
-    find_roots(&assembly, PI, &mut roots);
+    // The working mode's posture is the one that `forward_working` answers, to the last bit.
+    find_roots(&assembly, PI, from_level(&assembly), &mut roots);
     gathered(
         |found| found.extend(roots.iter().filter_map(|root| posture(machine, &assembly, rho, root))),
         || obstacle::nearest(machine, &assembly),
@@ -31,25 +32,30 @@ pub fn forward_working(machine: &Machine, rho: [f64; 3]) -> Result<Posture, Refu
     let assembly = question(machine, rho)?;
     // On the sheet λ > 0 from the level platform: the working mode's only basin in practice. What
     // is found there counts only in the working mode and on home's side of the singularity.
-    if let Some([w, _]) = assembly.sheets(1.0, 0.0)
-        && let Some(root) = polish(&assembly, Root::at(0.0, [1.0, 0.0], w))
+    let level = from_level(&assembly);
+    if let Some(root) = level
         && on_home_side(machine, &assembly, &root)
         && let Some(posture) = posture(machine, &assembly, rho, &root)
         && posture.working
     {
         return Ok(posture);
     }
-    among_all(machine, &assembly, rho)
+    among_all(machine, &assembly, rho, level)
 }
 
 /// The working mode among all roots of the sheet, wherever they are.
 #[cold]
-fn among_all(machine: &Machine, assembly: &Assembly, rho: [f64; 3]) -> Result<Posture, Refusal> {
+fn among_all(
+    machine: &Machine,
+    assembly: &Assembly,
+    rho: [f64; 3],
+    level: Option<Root>,
+) -> Result<Posture, Refusal> {
     // The rods of leg I cross beyond this angle.
     let uncrossed = machine.derived.uncrossed;
     let mut found: Option<Posture> = None;
     let mut roots = Roots::new();
-    find_roots(assembly, uncrossed, &mut roots);
+    find_roots(assembly, uncrossed, level, &mut roots);
     for root in roots {
         let working = posture(machine, assembly, rho, &root).filter(|posture| posture.working);
         if let Some(posture) = working
@@ -74,7 +80,7 @@ pub(crate) fn turn_at_home(g: &Geometry, derived: &Derived) -> f64 {
 }
 
 fn question(machine: &Machine, rho: [f64; 3]) -> Result<Assembly, Refusal> {
-    in_domain(&rho)?;
+    in_domain(machine, &rho, &[])?;
     let assembly = Assembly::new(machine.geometry(), &machine.derived, rho);
     if assembly.is_free(machine.derived.scale) { Err(Refusal::SelfMotion) } else { Ok(assembly) }
 }

@@ -51,7 +51,8 @@
 //! a turns: y and z are of the first degree in cos a and sin a, by (27) for a tool in the base
 //! frame and by (26) for one in the part frame. (15) becomes of the third degree on the circle, so
 //! of the sixth in tan(a/2), and it can have six real roots: **the whole machine has up to
-//! twenty-four inverse solutions**, not sixteen.
+//! twenty-four inverse solutions**, not sixteen. Several of them can be in the working mode, where
+//! the table is far from the platform ([`part_every_working`]).
 //!
 //! # Forward
 //!
@@ -70,7 +71,9 @@
 //!
 //! where D, N, T are of the first degree on the circle. Putting λ = N/D into the second equation
 //! gives F(a) = 0 of degree four: nine coefficients, eight roots at most (of which the machine has
-//! been seen to use six). The division by e1 - e2 is why a machine needs e1 ≠ e2.
+//! been seen to use six). The division by e1 - e2 is why a machine needs e1 ≠ e2. Near e1 = e2, and
+//! near R1 = r1, where u and v vanish together at a = 0, roots of F are closer together than double
+//! precision tells; such machines are refused ([`Machine::new`]).
 //!
 //! Where D and N vanish together λ is free, the second equation gives two values for it, and F has
 //! a double root although both solutions are regular. It happens on the symmetry plane
@@ -90,7 +93,9 @@
 //! root is then finished by Newton's method in (a, w), where the two of a double root of F lie on
 //! different sheets, each simple. An arc on which F touches zero more closely than its rounding is
 //! decided on the sheets: a root on each, two on one, or two that have merged, which is a
-//! parallel singularity and is said to be one ([`Posture::merged`]).
+//! parallel singularity and is said to be one ([`Posture::merged`]). The sheets are followed to where
+//! they meet: where leg I is nearly level, all of a small island on which they exist can lie within
+//! the polynomial's rounding.
 //!
 //! Evidence for the method, from the benches: a companion matrix takes about ten times as long and
 //! splits double roots by the square root of the rounding; tan(a/2) has no room for a = π; Sturm
@@ -101,7 +106,8 @@
 //! The machine itself uses one mode only: on all six rods the slider end is above the platform end,
 //! and leg I's rods do not cross (R1 cos a > r1). A platform position has at most one such
 //! posture. It is found by Newton's method from the level platform on the sheet w > 0; when that
-//! does not arrive, among all roots.
+//! does not arrive, among all roots. The search for all roots takes the one that is found so as it
+//! is: a posture is the same to the last bit whichever question finds it.
 //!
 //! # Singularities
 //!
@@ -128,11 +134,14 @@ mod table;
 pub mod workspace;
 
 pub use forward::{forward, forward_working};
-pub use inverse::{part, part_working, platform, platform_working, tool, tool_working};
-pub use limit::{Constraint, DOMAIN, Element, Margin, Refusal};
+pub use inverse::{
+    part, part_every_working, part_working, platform, platform_working, tool, tool_every_working,
+    tool_working,
+};
+pub use limit::{Constraint, DOMAIN, Element, MOST_RATIO, Margin, Refusal};
 pub use machine::{Machine, MachineData, MachineFault};
 pub use margins::Margins;
 pub use pose::{PartPose, PlatformPose, Point, TableAngles};
 pub use posture::{MOST, Mode, Posture, Postures, Side};
 pub use residual::RESIDUAL_TOLERANCE;
-pub use table::{part_pose, table_angles, tool_point};
+pub use table::{Winding, Wound, part_pose, table_angles, table_windings, tool_point};

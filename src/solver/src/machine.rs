@@ -6,7 +6,9 @@ mod validate;
 
 pub use fault::MachineFault;
 
+use crate::axis::direction;
 use crate::forward;
+use crate::inverse::LITTLE;
 use crate::jacobian;
 use crate::margins::cone::{Columns, columns};
 use crate::margins::interference;
@@ -113,6 +115,10 @@ pub(crate) struct Derived {
     /// C = R1² + r1² and k = 2 R1 r1, so that u² + v² = C - k cos a.
     pub(crate) c: f64,
     pub(crate) k: f64,
+    /// (R1 - r1)².
+    pub(crate) gap_square: f64,
+    /// What leg I has left for its drop is little below this, mm².
+    pub(crate) little: f64,
     /// 1/L of rod 11, rod 12, leg II, leg III.
     pub(crate) inverse_lengths: [f64; 4],
     /// 1/R1².
@@ -160,6 +166,12 @@ impl Machine {
         &self.data.name
     }
 
+    /// The longest dimension that the equations hold, mm: lengths in questions may be up to
+    /// [`MOST_RATIO`](crate::MOST_RATIO) times as long.
+    pub fn longest(&self) -> f64 {
+        self.derived.scale
+    }
+
     pub(crate) fn geometry(&self) -> &Geometry {
         &self.data.geometry
     }
@@ -180,10 +192,9 @@ impl Derived {
         let e2 = g.D2 - g.d2;
         let rods = jacobian::at_home(g).rods;
         let home = rods.directions.map(unit);
-        let slider_axes = data.limits.slider_axes.map_or(home, |axes| axes.map(unit));
-        let platform_axes = data.limits.platform_axes.map_or(home, |axes| axes.map(unit));
-        let scale =
-            [g.L1, g.L2, g.L3, g.R1, g.r1, g.R2, g.r4, e1.abs(), e2.abs()].into_iter().fold(0.0, f64::max);
+        let along = |axes: [[f64; 3]; 4]| axes.map(|axis| unit(direction(axis).unwrap_or(axis)));
+        let slider_axes = data.limits.slider_axes.map_or(home, along);
+        let platform_axes = data.limits.platform_axes.map_or(home, along);
         let home_det = jacobian::det_at_home(g);
         let home_distance = interference::nearest(g, &rods).0.max(SMALL_DISTANCE);
         let mut derived = Self {
@@ -191,10 +202,12 @@ impl Derived {
             e2,
             c: g.R1 * g.R1 + g.r1 * g.r1,
             k: 2.0 * g.R1 * g.r1,
+            gap_square: (g.R1 - g.r1) * (g.R1 - g.r1),
+            little: LITTLE * g.L1 * g.L1,
             inverse_lengths: [1.0 / g.L1, 1.0 / g.L1, 1.0 / g.L2, 1.0 / g.L3],
             inverse_r1_square: 1.0 / (g.R1 * g.R1),
             uncrossed: (g.r1 / g.R1).acos(),
-            scale,
+            scale: validate::longest(g),
             slider_axes: columns(&slider_axes),
             platform_axes: columns(&platform_axes),
             home_det,

@@ -1,5 +1,7 @@
 //! The tilting table and the tool: Eqs (7)-(9), (14), (26), (27).
 
+use std::f64::consts::TAU;
+
 use crate::angle::sin_cos;
 use crate::machine::Machine;
 use crate::pose::{PartPose, PlatformPose, Point, TableAngles};
@@ -31,18 +33,51 @@ pub fn part_pose(machine: &Machine, pose: &PlatformPose, table: TableAngles, too
 /// turned by whole revolutions into the machine's range where one of its values lies there, and
 /// otherwise to the value nearest to zero.
 pub fn table_angles(machine: &Machine, alpha: f64, phi1: f64, phi2: f64) -> TableAngles {
-    let limits = machine.limits();
-    TableAngles { theta1: turned_into(limits.tilt, alpha - phi1), theta2: turned_into(limits.rotary, -phi2) }
+    let asked = [alpha - phi1, -phi2].map(|angle| Winding { angle, turns: 0.0 });
+    let [theta1, theta2] = table_windings(machine, asked, [None; 2]).map(|winding| winding.value);
+    TableAngles { theta1, theta2 }
 }
 
-fn turned_into([low, high]: [f64; 2], angle: f64) -> f64 {
-    use std::f64::consts::TAU;
-    if (low..=high).contains(&angle) {
-        return angle;
-    }
-    let nearest = angle - TAU * (angle / TAU).round();
-    [nearest, nearest + TAU, nearest - TAU]
-        .into_iter()
-        .find(|turned| (low..=high).contains(turned))
-        .unwrap_or(nearest)
+/// An angle in whole turns and the rest, which keeps the digits of both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Winding {
+    /// The rest, rad.
+    pub angle: f64,
+    /// Whole turns.
+    pub turns: f64,
+}
+
+/// A table's angle on one of its windings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wound {
+    /// Whole turns beside the angle that was asked for.
+    pub turns: f64,
+    /// The angle with its turns, rad; within the range, should rounding alone put it outside.
+    pub value: f64,
+}
+
+/// The windings of theta1 and theta2 within the machine's ranges: of several, the one nearest to
+/// `near`, rad, where that is given; else the winding asked for; else the one nearest to zero. An
+/// angle without a winding in its range stays nearest to zero.
+pub fn table_windings(machine: &Machine, asked: [Winding; 2], near: [Option<f64>; 2]) -> [Wound; 2] {
+    let limits = machine.limits();
+    [wound(limits.tilt, asked[0], near[0]), wound(limits.rotary, asked[1], near[1])]
+}
+
+/// Rounding of an angle of some turns, rad.
+const ROUNDING: f64 = 1e-13;
+
+fn wound([low, high]: [f64; 2], Winding { angle, turns }: Winding, near: Option<f64>) -> Wound {
+    let nearest = |place: f64| ((place - angle) / TAU).round();
+    let (first, last) = (((low - ROUNDING - angle) / TAU).ceil(), ((high + ROUNDING - angle) / TAU).floor());
+    let admissible = first <= last;
+    let turns = match near {
+        _ if !admissible => nearest(0.0),
+        Some(near) => nearest(near).clamp(first, last),
+        None if (first..=last).contains(&turns) => turns,
+        None => nearest(0.0).clamp(first, last),
+    };
+    let value = angle + TAU * turns;
+    let within = if admissible && turns != 0.0 { value.clamp(low, high) } else { value };
+    Wound { turns, value: within }
 }

@@ -10,6 +10,7 @@ mod contains;
 mod cover;
 pub mod dexterity;
 mod domain;
+mod fold;
 mod image;
 mod measure;
 mod observer;

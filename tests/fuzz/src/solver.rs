@@ -51,7 +51,7 @@ fn check(machine: &Machine, question: &[f64], answer: &Result<Vec<Posture>, Refu
         Ok(postures) => inside && !postures.is_empty(),
         Err(Refusal::OutOfDomain) => !inside,
         Err(Refusal::Blocked(margin)) => inside && margin.value <= 0.0 && margin.value.is_finite(),
-        Err(Refusal::SelfMotion) => inside,
+        Err(Refusal::SelfMotion | Refusal::TooFar) => inside,
     };
     assert!(sound, "{answer:?}");
     for posture in answer.iter().flatten() {

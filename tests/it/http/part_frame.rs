@@ -69,6 +69,82 @@ async fn the_rotation_along_the_tables_axis_is_free() {
 }
 
 #[tokio::test]
+async fn near_chooses_the_winding_that_is_nearest_within_the_range() {
+    let theta2 = async |orientation: &str, near: &str| {
+        let uri = format!("/ik?x=100&y=50&z=150&tool_length=50&{orientation}&near_joints=500,500,500,{near}");
+        number(&get(&uri).await.solutions()[0]["joints"]["theta2"])
+    };
+    assert_eq!(theta2("phi1=10&phi2=10", "0,350").await, 350.0);
+    assert_eq!(theta2("phi1=10&phi2=10", "0,-20").await, -10.0);
+    assert_eq!(theta2("phi1=10&phi2=-10", "0,-340").await, -350.0);
+    // The range ends at 360°: no nearer winding is admissible.
+    assert_eq!(theta2("phi1=10&phi2=10", "0,720").await, 350.0);
+    assert_eq!(theta2("axis=0,0,1", "0,350").await, 350.0);
+
+    let mut machine = get("/machines/verne").await.json["definition"].clone();
+    machine["limits"]["tilt"] = json!([-400, 400]);
+    let near = json!({"rho": [500, 500, 500], "theta1": 340});
+    let pose = json!({"x": 100, "y": 0, "z": 150, "phi1": 10, "phi2": 0});
+    let reply = post("/ik", json!({"machine": machine, "pose": pose, "tool_length": 50, "near": near})).await;
+    assert!((number(&reply.solutions()[0]["joints"]["theta1"]) - 350.0).abs() < 2.0, "{}", reply.json);
+}
+
+#[tokio::test]
+async fn whole_turns_add_no_rounding() {
+    let plain = get("/ik?x=100&y=50&z=150&tool_length=50&phi1=10&phi2=10").await;
+    let turned = get("/ik?x=100&y=50&z=150&tool_length=50&phi1=370&phi2=370").await;
+    assert_eq!(number(&turned.solutions()[0]["joints"]["theta2"]), -10.0);
+    assert_eq!(turned.solutions()[0]["joints"], plain.solutions()[0]["joints"]);
+    let rows = json!({"tool_length": 50, "poses": [[100, 50, 150, 10, 10], [100, 50, 150, 370, 370]]});
+    let batch = post("/ik/batch", rows).await.json;
+    assert_eq!(batch["joints"][0], batch["joints"][1]);
+    assert_eq!(batch["joints"][1][4], -10.0);
+}
+
+#[tokio::test]
+async fn an_axis_has_any_length_and_its_noise_no_meaning() {
+    let ask = async |axis: &str| get(&format!("/ik?x=100&y=50&z=150&tool_length=50&axis={axis}")).await;
+    let plain = ask("1,1,3").await;
+    for axis in ["1e200,1e200,3e200", "1e-200,1e-200,3e-200", "2e7,2e7,6e7"] {
+        for (scaled, plain) in ask(axis).await.solutions().iter().zip(plain.solutions()) {
+            for joint in ["theta1", "theta2"] {
+                let off = number(&scaled["joints"][joint]) - number(&plain["joints"][joint]);
+                assert!(off.abs() < 1e-9, "{axis}: {scaled}");
+            }
+        }
+    }
+    let seam = ask("0,1,3").await;
+    for axis in ["-0.0,1,3", "1e-17,1,3", "-1e-17,1,3"] {
+        assert_eq!(ask(axis).await.json["solutions"], seam.json["solutions"], "{axis}");
+    }
+    let pole = ask("0,0,1").await;
+    for axis in ["1e-9,0,1", "0,-1e-7,1", "-0.0,-0.0,5"] {
+        assert_eq!(ask(axis).await.json, pole.json, "{axis}");
+    }
+    ask("inf,0,1").await.assert_bad_field("/query/axis");
+}
+
+#[tokio::test]
+async fn lengths_out_of_proportion_to_the_machine_are_refused() {
+    let mut machine = get("/machines/verne").await.json["definition"].clone();
+    for length in machine["geometry"].as_object_mut().unwrap().values_mut() {
+        *length = json!(0.01 * number(length));
+    }
+    let body = |z: f64| json!({"machine": machine, "frame": "platform", "pose": {"x": 0, "y": 0, "z": z}});
+    assert_eq!(post("/ik", body(1e5)).await.solutions().len(), 1);
+    let refused = post("/ik", body(1.1e5)).await;
+    refused.assert_bad_field("/pose/z");
+    assert!(refused.json["errors"][0]["detail"].as_str().unwrap().contains("longest dimension"));
+    let joints = json!({"machine": machine, "joints": {"rho": [5, 1.1e5, 5]}});
+    post("/fk", joints).await.assert_bad_field("/joints/rho/1");
+    let points = json!({"machine": machine, "points": [[0, 0, 12], [0, 0, 1.1e5]]});
+    let contains = post("/workspace/contains", points).await.json;
+    assert_eq!(contains["counts"]["invalid"], 1, "{contains}");
+    let rows = json!({"machine": machine, "frame": "platform", "poses": [[0, 0, 12], [0, 0, 1.1e5]]});
+    assert_eq!(post("/ik/batch", rows).await.json["status"][1], "invalid");
+}
+
+#[tokio::test]
 async fn an_orientation_says_neither_too_little_nor_too_much() {
     get("/ik?x=1&y=2&z=3&phi1=30&axis=0,0,1").await.assert_bad_field("/query/axis");
     get("/ik?x=1&y=2&z=3&axis=0,0,0").await.assert_bad_field("/query/axis");

@@ -111,11 +111,65 @@ async fn an_empty_workspace_is_an_answer() {
 
 #[tokio::test]
 async fn a_folded_workspace_has_no_volume_and_says_why() {
-    let question = json!({"kind": "tool", "tool_length": 5000});
-    let answer = ask(&service().await, question).await.json;
-    let jacobian_changes_sign = answer["folded"] == true;
-    assert_eq!(answer["volume"].is_null(), jacobian_changes_sign);
-    assert_eq!(answer["explanation"].is_string(), jacobian_changes_sign);
+    let service = service().await;
+    // The table's axis above the platform: the Jacobian determinant changes its sign within the workspace.
+    let mut above = get("/machines/verne").await.json["definition"].clone();
+    above["table"]["da"] = 0.into();
+    // Two separate parts of the platform's domain map onto one set, with one sign throughout.
+    for machine in [above, covered_twice()] {
+        let question = json!({"machine": machine, "kind": "part", "tolerance": 20});
+        let answer = ask(&service, question).await.json;
+        assert_eq!(answer["folded"], true, "{answer}");
+        assert!(answer["volume"].is_null() && answer["volume_error"].is_null(), "{answer}");
+        assert!(answer["explanation"].as_str().unwrap().contains("two platform positions"), "{answer}");
+    }
+    let plain = ask(&service, json!({"kind": "part", "tolerance": 20})).await.json;
+    assert_eq!(plain["folded"], false);
+    assert!(plain["volume"].is_number() && plain.get("explanation").is_none(), "{plain}");
+}
+
+/// A machine whose table is above the platform, and whose cones exclude the middle of the platform's domain.
+pub(super) fn covered_twice() -> Value {
+    json!({
+        "name": "covered twice",
+        "geometry": {
+            "D1": 0, "d1": 400, "D2": 0, "d2": -400, "R1": 220, "r1": 60, "R2": 40, "r4": 40, "L1": 840, "L2": 566,
+            "L3": 566, "parallelogram_half_width": 16, "rod_radius": 0,
+        },
+        "table": {"da": -608, "dt": 160},
+        "limits": {
+            "stroke": [[-1600, 1600], [0, 320], [0, 320]], "slider_cone": 61.6, "platform_cone": 180,
+            "serial_margin": 0.42, "parallel_margin": 0, "tilt": [-90, 90], "rotary": [-360, 360],
+            "slider_axes": [[-1, 0, 0], [-1, 0, 0], [0.7, 0, 0.7], [0.7, 0, 0.7]],
+        },
+    })
+}
+
+#[tokio::test]
+async fn every_working_solution_is_looked_at() {
+    let machine = covered_twice();
+    let point = [-16.3, 0.13, -789.0];
+    let [x, y, z] = point;
+    let ask = async |wanted: &str| {
+        let pose = json!({"x": x, "y": y, "z": z, "phi1": 0, "phi2": 0});
+        let reply = post("/ik", json!({"machine": machine, "pose": pose, "solutions": wanted})).await;
+        reply.solutions().clone()
+    };
+    let all = ask("all").await;
+    let of = |flag: &str| all.iter().filter(|solution| solution[flag] == true).cloned().collect::<Vec<_>>();
+    let (working, feasible) = (of("working"), of("feasible"));
+    assert!(working.len() == 3 && feasible.len() == 2, "{working:?}");
+    assert_eq!(ask("working").await, working);
+    assert_eq!(ask("feasible").await, feasible);
+    let contains =
+        post("/workspace/contains", json!({"machine": machine, "kind": "part", "points": [point]})).await;
+    assert_eq!(contains.json["inside"], json!([true]), "{}", contains.json);
+    let batch = post("/ik/batch", json!({"machine": machine, "poses": [[x, y, z, 0, 0]]})).await.json;
+    assert_eq!(batch["status"], json!(["ok"]));
+    let joints = &feasible[0]["joints"];
+    let first =
+        json!([joints["rho"][0], joints["rho"][1], joints["rho"][2], joints["theta1"], joints["theta2"]]);
+    assert_eq!(batch["joints"], json!([first]));
 }
 
 #[tokio::test]

@@ -51,7 +51,7 @@ fn preimages_of_an_orientation_hold_that_orientation() {
 
 #[test]
 fn a_small_inclination_keeps_its_azimuth() {
-    for inclined in [1e-3, 1e-6, 1e-9, 1e-12] {
+    for inclined in [1e-3, 1e-4, 1e-5, 1.1e-6] {
         let [first, _] = both([inclined * 0.6, -inclined * 0.8, 1.0]);
         assert!((first[0] / inclined - 1.0).abs() < 1e-6, "{first:?}");
         assert!((first[1] - 0.6_f64.atan2(0.8)).abs() < 1e-12, "{first:?}");
@@ -63,8 +63,26 @@ fn azimuth_is_free_along_the_table_s_own_axis() {
     assert_eq!(preimages([0.0, 0.0, 1.0]), Some(Preimages::Free { phi1: 0.0 }));
     assert_eq!(preimages([0.0, -0.0, 250.0]), Some(Preimages::Free { phi1: 0.0 }));
     assert_eq!(preimages([0.0, 0.0, -1.0]), Some(Preimages::Free { phi1: PI }));
+    for noise in [1e-17, 1e-9, 1e-7, 0.7e-6] {
+        assert_eq!(preimages([noise, -noise, 1.0]), Some(Preimages::Free { phi1: 0.0 }));
+        assert_eq!(preimages([-30.0 * noise, 30.0 * noise, -30.0]), Some(Preimages::Free { phi1: PI }));
+    }
     let printed = tool_axis(0.0, 2.0);
     assert_eq!(preimages(printed), Some(Preimages::Free { phi1: 0.0 }));
+}
+
+/// A zero's sign and rounding choose no other branch: they would turn the table by a whole turn.
+#[test]
+fn the_sign_of_nothing_makes_no_difference() {
+    for [i, j, k] in [[0.0, 1.0, 3.0], [0.0, -1.0, 3.0], [0.4, 0.0, 1.0], [-0.4, 0.0, 0.0], [0.0, 0.7, 0.0]] {
+        let plain = both([i, j, k]);
+        for noise in [-0.0, 1e-17, -1e-17, 1e-12, -1e-12] {
+            let noisy = both([i, j, k].map(|c| if c == 0.0 { noise } else { c }));
+            for (a, b) in plain.as_flattened().iter().zip(noisy.as_flattened()) {
+                assert!((a - b).abs() < 1e-11, "{plain:?} {noisy:?}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -57,6 +57,7 @@ impl Findings {
         let sound = match answer {
             Ok(postures) => !outside && !postures.is_empty(),
             Err(Refusal::OutOfDomain) => outside,
+            Err(Refusal::TooFar) => !outside,
             Err(Refusal::Blocked(margin)) => !outside && margin.value < 0.0 && margin.value.is_finite(),
             Err(Refusal::SelfMotion) => false,
         };

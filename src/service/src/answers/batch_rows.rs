@@ -6,7 +6,7 @@ use verne_solver::{DOMAIN, Machine, Margin, Margins, Posture, Refusal, TableAngl
 
 use super::solutions::unheld;
 use crate::error::Error;
-use crate::faults::{Faults, LARGEST_ANGLE, is_angle, is_length};
+use crate::faults::{Faults, LARGEST_ANGLE, is_angle, is_length, too_far};
 use crate::wire::batch::{Counts, Row, RowError, RowReport, Rows, Status};
 use crate::wire::limit::Limit;
 
@@ -107,6 +107,7 @@ pub(super) fn refuse(machine: &Machine, refusal: Refusal) -> Verdict {
         Refusal::Blocked(margin) => Verdict::Unreachable(margin),
         Refusal::SelfMotion => Verdict::Unreachable(unheld(machine)),
         Refusal::OutOfDomain => Verdict::Invalid("the numbers together are too large".to_owned()),
+        Refusal::TooFar => Verdict::Invalid(format!("the row's lengths {}", too_far(machine))),
     }
 }
 

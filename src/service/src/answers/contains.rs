@@ -7,6 +7,7 @@ use verne_solver::workspace::{Membership, Observer, Request, contains};
 use super::batch_rows::{CHUNK, EXPLAINED, Shape};
 use super::workspace_question::{WorkspaceQuestion, workspace_error};
 use crate::error::Error;
+use crate::faults::{Faults, out_of_proportion};
 use crate::registry::Registry;
 use crate::wire::answer::MachineId;
 use crate::wire::batch::{RowError, Rows};
@@ -37,15 +38,23 @@ pub(crate) fn answer_contains(
     let ContainsRequest { machine, kind, tool_length, phi1, phi2, points } = asked;
     let whole = WorkspaceRequest { machine, kind, tool_length, phi1, phi2, tolerance: COARSE };
     let question = WorkspaceQuestion::new(&whole, machines)?;
+    let machine = &question.published.machine;
+    let mut faults = Faults::default();
+    faults.proportion("/tool_length", question.request.tool_length.unwrap_or_default(), machine);
+    faults.into_result()?;
     let (shape, points) = (Shape { lengths: &[3], words: "[x, y, z]" }, Rows::Text(points));
     let read: Vec<Result<Point, String>> = (0..rows)
         .into_par_iter()
         .with_min_len(CHUNK)
-        .map(|i| shape.row(&points, i).map(|row| [row[0], row[1], row[2]]))
+        .map(|i| {
+            let row = shape.row(&points, i)?;
+            let fault = row.iter().find_map(|&length| out_of_proportion(length, machine));
+            fault.map_or(Ok([row[0], row[1], row[2]]), |fault| Err(format!("each coordinate {fault}")))
+        })
         .collect();
     let good: Vec<Point> = read.iter().flatten().copied().collect();
     let request = Request::from(&question.request);
-    let found = contains(&question.published.machine, &request, &good, observer).map_err(workspace_error)?;
+    let found = contains(machine, &request, &good, observer).map_err(workspace_error)?;
     let mut answer = ContainsAnswer::with_room(question.published.id.clone(), rows);
     let mut found = found.into_iter();
     for point in read {

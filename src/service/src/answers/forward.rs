@@ -1,14 +1,14 @@
 //! `/fk`: where platform, tool and part are for given joints.
 
-use verne_solver::{TableAngles, forward, forward_working};
+use verne_solver::{forward, forward_working};
 
 use super::near;
 use super::solutions::{Findings, Found, Presentation};
+use super::table::Stand;
 use crate::error::Error;
 use crate::faults::Faults;
 use crate::registry::Registry;
 use crate::wire::answer::Answer;
-use crate::wire::degrees::from_degrees;
 use crate::wire::request::{FkRequest, Wanted};
 
 /// Answers a forward question.
@@ -16,6 +16,11 @@ pub(crate) fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answ
     let table = checked_table(request)?;
     let published = machines.resolve(&request.machine)?;
     let rho = request.joints.rho.0;
+    let mut faults = Faults::default();
+    for (i, &rho) in rho.iter().enumerate() {
+        faults.proportion(&format!("/joints/rho/{i}"), rho, &published.machine);
+    }
+    faults.into_result()?;
     let complete = |posture| Found { posture, table, asked: None };
     let mut findings = Findings::default();
     match request.solutions {
@@ -36,7 +41,7 @@ pub(crate) fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answ
 }
 
 /// The table's angles, once every number of the request has been looked at.
-fn checked_table(request: &FkRequest) -> Result<Option<TableAngles>, Error> {
+fn checked_table(request: &FkRequest) -> Result<Option<Stand>, Error> {
     let mut faults = Faults::default();
     let joints = &request.joints;
     faults.lengths("/joints/rho", &joints.rho.0);
@@ -47,9 +52,7 @@ fn checked_table(request: &FkRequest) -> Result<Option<TableAngles>, Error> {
         near::check(near, &mut faults);
     }
     let table = match (joints.theta1, joints.theta2) {
-        (Some(theta1), Some(theta2)) => {
-            Some(TableAngles { theta1: from_degrees(theta1), theta2: from_degrees(theta2) })
-        }
+        (Some(theta1), Some(theta2)) => Some(Stand::given([theta1, theta2])),
         (None, None) => None,
         (Some(_), None) => {
             faults.add("/joints/theta2", "is required beside theta1");

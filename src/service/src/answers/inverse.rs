@@ -1,13 +1,13 @@
 //! `/ik`: which joints bring the machine to a pose.
 
 use verne_solver::{
-    Machine, PartPose, Point, Posture, part, part_working, platform, platform_working, table_angles, tool,
-    tool_working,
+    Machine, Point, Posture, part, part_every_working, platform, platform_working, tool, tool_every_working,
 };
 
 use super::near;
 use super::orientation::{Orientations, no_orientation, orientations};
 use super::solutions::{Findings, Found, Presentation};
+use super::table::Orientation;
 use crate::error::Error;
 use crate::faults::Faults;
 use crate::registry::Registry;
@@ -20,6 +20,7 @@ pub(crate) fn answer_ik(request: &IkRequest, machines: &Registry) -> Result<Answ
     let published = machines.resolve(&request.machine)?;
     let machine = &published.machine;
     let point = [request.pose.x, request.pose.y, request.pose.z];
+    in_proportion(request, machine)?;
     let findings = match request.frame {
         Frame::Part => in_part(machine, request, point, &orientations),
         Frame::Platform | Frame::Tool => in_base(machine, request, point),
@@ -55,20 +56,33 @@ fn checked_orientations(request: &IkRequest) -> Result<Orientations, Error> {
     faults.into_result().map(|()| orientations)
 }
 
-fn in_part(machine: &Machine, request: &IkRequest, [x, y, z]: Point, asked: &Orientations) -> Findings {
+/// Refuses lengths that are too long for the machine.
+fn in_proportion(request: &IkRequest, machine: &Machine) -> Result<(), Error> {
+    let pose = &request.pose;
+    let lengths = [
+        ("/pose/x", pose.x),
+        ("/pose/y", pose.y),
+        ("/pose/z", pose.z),
+        ("/tool_length", request.tool_length),
+    ];
+    let mut faults = Faults::default();
+    for (pointer, value) in lengths {
+        faults.proportion(pointer, value, machine);
+    }
+    faults.into_result()
+}
+
+fn in_part(machine: &Machine, request: &IkRequest, point: Point, asked: &Orientations) -> Findings {
     let mut findings = Findings::default();
     for &[phi1, phi2] in &asked.each {
-        let target = PartPose { x, y, z, phi1, phi2 };
+        let orientation = Orientation::of_radians([phi1, phi2]);
+        let target = orientation.at(point);
         let complete = |posture: Posture| {
-            let table = table_angles(machine, posture.pose.alpha, phi1, phi2);
+            let table = orientation.stand(machine, posture.pose.alpha, request.near.as_ref());
             Found { posture, table: Some(table), asked: Some([phi1, phi2]) }
         };
-        match request.solutions {
-            Wanted::All => findings.add(part(machine, &target, request.tool_length), complete),
-            Wanted::Working | Wanted::Feasible => {
-                findings.add_one(part_working(machine, &target, request.tool_length), complete);
-            }
-        }
+        let solve = if request.solutions == Wanted::All { part } else { part_every_working };
+        findings.add(solve(machine, &target, request.tool_length), complete);
     }
     findings
 }
@@ -79,7 +93,7 @@ fn in_base(machine: &Machine, request: &IkRequest, point: Point) -> Findings {
     let mut findings = Findings::default();
     match (request.frame == Frame::Tool, all) {
         (true, true) => findings.add(tool(machine, point, length), complete),
-        (true, false) => findings.add_one(tool_working(machine, point, length), complete),
+        (true, false) => findings.add(tool_every_working(machine, point, length), complete),
         (false, true) => findings.add(platform(machine, point), complete),
         (false, false) => findings.add_one(platform_working(machine, point), complete),
     }

@@ -2,14 +2,15 @@
 
 use rayon::prelude::*;
 use verne_solver::{
-    Machine, PartPose, Posture, TableAngles, part_working, platform_working, table_angles, tool_working,
+    Machine, PartPose, Point, Posture, Postures, Refusal, part_every_working, part_working, platform_working,
+    tool_every_working, tool_working,
 };
 
 use super::batch_rows::{CHUNK, ROW_BYTES, Shape, Verdict, check_batch, judge, refuse, report};
+use super::table::{Orientation, Stand};
 use crate::error::Error;
 use crate::registry::Registry;
 use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, Row, Rows};
-use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::json::write_json;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::parse::{parse_body, parse_usual};
@@ -58,28 +59,72 @@ fn answer_row(machine: &Machine, question: &Question<'_>, row: usize) -> (Option
         Err(detail) => return (None, Verdict::Invalid(detail)),
     };
     let point = [row[0], row[1], row[2]];
-    let outcome = match frame {
-        Frame::Platform => platform_working(machine, point).map(|posture| (posture, None)),
-        Frame::Tool => tool_working(machine, point, tool_length).map(|posture| (posture, None)),
+    let target = match frame {
+        Frame::Platform => Target::Platform(point),
+        Frame::Tool => Target::Tool(point, tool_length),
         Frame::Part => {
-            let [x, y, z] = point;
-            let (phi1, phi2) = (from_degrees(row[3]), from_degrees(row[4]));
-            part_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length).map(|posture| {
-                let table = table_angles(machine, posture.pose.alpha, phi1, phi2);
-                (posture, Some(table))
-            })
+            let orientation = Orientation::of_degrees([row[3], row[4]]);
+            Target::Part(orientation.at(point), orientation, tool_length)
         }
     };
-    match outcome {
-        Ok((posture, table)) => (Some(joints(&posture, table)), judge(machine, &posture, table)),
+    match target.working(machine) {
+        Ok(first) => target.chosen(machine, &first),
         Err(refusal) => (None, refuse(machine, refusal)),
     }
 }
 
-fn joints(posture: &Posture, table: Option<TableAngles>) -> Row {
-    let mut row: Row = posture.rho.into_iter().collect();
-    if let Some(table) = table {
-        row.extend([table.theta1, table.theta2].map(to_degrees));
+/// What a row asks for.
+enum Target {
+    Platform(Point),
+    Tool(Point, f64),
+    Part(PartPose, Orientation, f64),
+}
+
+impl Target {
+    fn working(&self, machine: &Machine) -> Result<Posture, Refusal> {
+        match self {
+            Self::Platform(point) => platform_working(machine, *point),
+            Self::Tool(point, length) => tool_working(machine, *point, *length),
+            Self::Part(pose, _, length) => part_working(machine, pose, *length),
+        }
     }
+
+    /// The first working posture if it keeps every limit, or if no other does; else the next that
+    /// does, in the order of alpha.
+    fn chosen(&self, machine: &Machine, first: &Posture) -> (Option<Row>, Verdict) {
+        let judged = |posture: &Posture| {
+            let table = self.table(machine, posture.pose.alpha);
+            let verdict = judge(machine, posture, table.map(|table| table.angles));
+            (Some(joints(posture, table)), verdict)
+        };
+        let answer = judged(first);
+        if !matches!(answer.1, Verdict::Infeasible(_)) {
+            return answer;
+        }
+        let mut others = self.every_working(machine);
+        others.sort_by(|a, b| a.pose.alpha.total_cmp(&b.pose.alpha));
+        others.iter().map(judged).find(|(_, verdict)| matches!(verdict, Verdict::Ok)).unwrap_or(answer)
+    }
+
+    fn every_working(&self, machine: &Machine) -> Postures {
+        let found = match self {
+            Self::Platform(_) => return Postures::new(),
+            Self::Tool(point, length) => tool_every_working(machine, *point, *length),
+            Self::Part(pose, _, length) => part_every_working(machine, pose, *length),
+        };
+        found.unwrap_or_default()
+    }
+
+    fn table(&self, machine: &Machine, alpha: f64) -> Option<Stand> {
+        match self {
+            Self::Part(_, orientation, _) => Some(orientation.stand(machine, alpha, None)),
+            _ => None,
+        }
+    }
+}
+
+fn joints(posture: &Posture, table: Option<Stand>) -> Row {
+    let mut row: Row = posture.rho.into_iter().collect();
+    row.extend(table.into_iter().flat_map(|table| table.degrees));
     row
 }

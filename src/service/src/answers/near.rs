@@ -35,8 +35,8 @@ pub(super) fn distance(near: &Near, radius: f64, found: &Found) -> f64 {
 fn joint_distance(joints: &Joints, radius: f64, found: &Found) -> f64 {
     let sliders: f64 =
         joints.rho.0.iter().zip(found.posture.rho).map(|(near, rho)| (rho - near).powi(2)).sum();
-    let Some(table) = found.table else { return sliders };
-    // The table's joints count their revolutions: no wrapping.
+    let Some(table) = found.table.map(|table| table.angles) else { return sliders };
+    // The table's joints count their revolutions, and stand on the winding nearest to this place.
     let arc = |near: Option<f64>, angle: f64| {
         near.map_or(0.0, |near| (radius * (angle - from_degrees(near))).powi(2))
     };

@@ -51,10 +51,9 @@ pub(super) fn orientations(pose: &TargetPose, near: Option<&Near>, faults: &mut 
 }
 
 fn along_axis(axis: [f64; 3], phi2: Option<f64>, near: Option<&Near>, faults: &mut Faults) -> Orientations {
-    faults.lengths("/pose/axis", &axis);
     match (preimages(axis), phi2) {
         (None, _) => {
-            faults.add("/pose/axis", "must be a direction: three numbers, not all zero");
+            faults.add("/pose/axis", "must be a direction: three finite numbers, not all zero");
             Orientations::default()
         }
         (Some(Preimages::Two(both)), None) => Orientations { each: both.into(), free: false },

@@ -8,10 +8,11 @@ use verne_solver::{
 };
 
 use super::near;
+use super::table::Stand;
 use crate::error::{Error, Fault};
+use crate::faults::too_far;
 use crate::registry::Published;
 use crate::wire::answer::{Answer, Free, ModeObject, PartObject, Reason, Solution};
-use crate::wire::degrees::to_degrees;
 use crate::wire::limit::Limit;
 use crate::wire::margins::MarginsObject;
 use crate::wire::numbers::Exactly;
@@ -22,7 +23,7 @@ use crate::wire::request::{Joints, Near, Wanted};
 pub(super) struct Found {
     pub(super) posture: Posture,
     /// Where the table takes part.
-    pub(super) table: Option<TableAngles>,
+    pub(super) table: Option<Stand>,
     /// `[phi1, phi2]` as the question put them.
     pub(super) asked: Option<[f64; 2]>,
 }
@@ -76,7 +77,7 @@ impl Presentation<'_> {
         let mut kept = Vec::with_capacity(findings.found.len());
         let mut violated = None;
         for (i, found) in findings.found.iter().enumerate() {
-            let margins = Margins::of(self.machine(), &found.posture, found.table);
+            let margins = Margins::of(self.machine(), &found.posture, found.table.map(|table| table.angles));
             if self.wanted == Wanted::Feasible && !margins.feasible() {
                 violated.get_or_insert_with(|| margins.worst(self.machine()));
             } else {
@@ -105,12 +106,12 @@ impl Presentation<'_> {
         Solution {
             joints: self.joints.then(|| Joints {
                 rho: Exactly(posture.rho),
-                theta1: found.table.map(|table| to_degrees(table.theta1)),
-                theta2: found.table.map(|table| to_degrees(table.theta2)),
+                theta1: found.table.map(|table| table.degrees[0]),
+                theta2: found.table.map(|table| table.degrees[1]),
             }),
             platform: posture.pose.into(),
             tool: tool_point(&posture.pose, self.tool_length).into(),
-            part: found.table.map(|table| self.part(found, table)),
+            part: found.table.map(|table| self.part(found, table.angles)),
             mode: ModeObject::new(posture, index),
             working: posture.working,
             merged: posture.merged,
@@ -141,6 +142,10 @@ impl Presentation<'_> {
             (None, Some(Refusal::SelfMotion)) => (Reason::SelfMotion, unheld(self.machine())),
             (None, Some(Refusal::OutOfDomain)) => {
                 return Err(Error::Fields(vec![Fault::new("", "the numbers together are too large")]));
+            }
+            (None, Some(Refusal::TooFar)) => {
+                let detail = format!("pose, tool and table together {}", too_far(self.machine()));
+                return Err(Error::Fields(vec![Fault::new("", detail)]));
             }
             (None, None) => return Err(Error::Internal),
         };

@@ -52,7 +52,7 @@ pub(crate) enum Free {
     Phi2,
 }
 
-/// Why a question has no solution: `unreachable`, the equations have none of the kind asked for; `infeasible`, the
+/// Why a question has no solution: `unreachable`, the equations have none of the kind asked for; `infeasible`, every
 /// working one breaks a limit and only feasible ones were asked for; `self_motion`, the sliders do not hold the
 /// platform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
@@ -60,7 +60,7 @@ pub(crate) enum Free {
 pub(crate) enum Reason {
     /// The equations have no solution of the kind asked for.
     Unreachable,
-    /// The working solution breaks a limit, and only feasible ones were asked for.
+    /// Every working solution breaks a limit, and only feasible ones were asked for.
     Infeasible,
     /// The sliders do not hold the platform: it moves with all of them locked.
     SelfMotion,

@@ -105,7 +105,9 @@ pub(crate) struct IkBatchAnswer {
     /// The machine.
     pub machine: MachineId,
     /// `[rho1, rho2, rho3]`, in frame `part` `[rho1, rho2, rho3, theta1, theta2]`; null where there are none. Joints
-    /// that break a limit are answered, as `infeasible`.
+    /// that break a limit are answered, as `infeasible`. Of several working solutions the one is answered that the
+    /// solver finds first, starting from a level platform, if it breaks no limit; else the one with the least alpha
+    /// that breaks none; else the first.
     #[schema(value_type = Vec<Option<Vec<f64>>>)]
     pub joints: Vec<Option<Row>>,
     /// How each row fares.

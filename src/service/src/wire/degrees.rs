@@ -5,6 +5,16 @@ pub(crate) fn from_degrees(degrees: f64) -> f64 {
     degrees.to_radians()
 }
 
+/// Whole turns in an angle in degrees; what is left is at most half a turn, and exact.
+pub(crate) fn whole_turns(degrees: f64) -> f64 {
+    (degrees / 360.0).round_ties_even()
+}
+
+/// The same direction within half a turn of zero, in radians.
+pub(crate) fn from_degrees_of_turn(degrees: f64) -> f64 {
+    from_degrees(degrees - 360.0 * whole_turns(degrees))
+}
+
 /// How many neighbouring doubles are tried on each side: π/180 stretches the spacing by less than this.
 const NEIGHBOURS: usize = 4;
 

@@ -48,10 +48,11 @@ pub struct GeometryObject {
     /// x of legs II and III's joints on the platform, in the platform frame.
     #[schema(minimum = -1e6, maximum = 1e6)]
     pub D2: f64,
-    /// x of legs II and III's guideways, in the base frame. D1 - d1 and D2 - d2 must differ.
+    /// x of legs II and III's guideways, in the base frame. D1 - d1 and D2 - d2 must differ by at
+    /// least a thousandth of the longest leg.
     #[schema(minimum = -1e6, maximum = 1e6)]
     pub d2: f64,
-    /// Half-distance of leg I's joints on the platform; greater than r1.
+    /// Half-distance of leg I's joints on the platform; at least 1.001 times r1.
     #[schema(minimum = 1e-3, maximum = 1e6)]
     pub R1: f64,
     /// Half-distance of leg I's joints on the slider.

@@ -102,7 +102,8 @@ pub(crate) struct IkQuery {
     #[serde(default)]
     #[arg(long, default_value = "working")]
     pub solutions: Wanted,
-    /// Sorts by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2.
+    /// Sorts by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2. theta1 and theta2 are
+    /// answered on the windings within their ranges that are nearest to these.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
     pub near_joints: Option<ListedJoints>,

@@ -92,7 +92,8 @@ pub(crate) struct TargetPose {
     /// along the table's own axis it is left open unless given, also beside `axis`: see `free` in the answer.
     #[schema(minimum = -36000, maximum = 36000)]
     pub phi2: Option<f64>,
-    /// Tool axis in the table frame, from tip to holder, of any length; only in `part`, instead of phi1 and phi2.
+    /// Tool axis in the table frame, from tip to holder, of any length; only in `part`, instead of phi1 and phi2. An
+    /// axis within 1e-6 rad of the table's own is the table's own: phi2 is then free.
     #[schema(inline)]
     pub axis: Option<Triple>,
 }
@@ -111,8 +112,9 @@ pub(crate) enum Frame {
     Part,
 }
 
-/// Which solutions to answer: `working` (default), the machine's own mode, feasible or not; `feasible`, only what
-/// breaks no limit; `all`, every solution of the equations.
+/// Which solutions to answer: `working` (default), those in the machine's own mode, feasible or not: nearly always one,
+/// several where the table is far from the platform; `feasible`, those of them that break no limit; `all`, every
+/// solution of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Wanted {
@@ -131,7 +133,8 @@ pub(crate) enum Wanted {
 #[schema(rename_all = "snake_case")]
 #[serde(untagged)]
 pub(crate) enum Near {
-    /// Distance of the joints; theta1 and theta2 count where both sides have them.
+    /// Distance of the joints; theta1 and theta2 count where both sides have them. /ik answers theta1 and theta2 on the
+    /// windings (by whole turns) within their ranges that are nearest to these.
     Joints(Joints),
     /// Distance of the platform; alpha counts where it is given.
     Pose(NearPose),

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use verne_solver::workspace::{Kind, Request};
 
-use super::degrees::from_degrees;
+use super::degrees::from_degrees_of_turn;
 use super::machine_ref::MachineRef;
 
 /// Where can the machine go?
@@ -120,8 +120,8 @@ impl From<&CanonicalRequest> for Request {
                 KindName::Part => Kind::Part,
             },
             tool_length: asked.tool_length.unwrap_or_default(),
-            phi1: from_degrees(asked.phi1.unwrap_or_default()),
-            phi2: from_degrees(asked.phi2.unwrap_or_default()),
+            phi1: from_degrees_of_turn(asked.phi1.unwrap_or_default()),
+            phi2: from_degrees_of_turn(asked.phi2.unwrap_or_default()),
             tolerance: asked.tolerance,
         }
     }

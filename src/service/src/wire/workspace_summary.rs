@@ -35,7 +35,11 @@ pub(crate) struct WorkspaceSummary {
     pub vertices: usize,
     /// Triangles of the mesh.
     pub triangles: usize,
-    /// Whether some positions are reached from two platform positions.
+    /// Whether some positions are reached from two platform positions. Found where the map's Jacobian determinant has
+    /// both signs, and where one of 2,000 points spread evenly over the workspace has two feasible inverse solutions:
+    /// a doubly covered part of less than about 0.15 % of the workspace may be missed. Where a second working
+    /// solution exists that is not feasible, 20,000 points are looked at, and `volume_error` includes what may have
+    /// been missed.
     pub folded: bool,
     /// Why there is no volume, or why there are no triangles though the area is not zero; else absent.
     #[serde(skip_serializing_if = "Option::is_none")]

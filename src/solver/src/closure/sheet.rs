@@ -2,7 +2,6 @@
 
 use super::{Closure, Root};
 use crate::angle::{angle_of, sin_cos};
-use crate::residual::RESIDUAL_TOLERANCE;
 
 /// Newton steps until the last digit; convergence is quadratic, so few are ever used.
 const STEPS: usize = 12;
@@ -41,7 +40,7 @@ fn polish_both<const M: usize, C: Closure<M>>(closure: &C, starts: [Root; 2]) ->
 
 #[inline]
 fn settled<const M: usize, C: Closure<M>>(closure: &C, root: &Root, step: [f64; 2]) -> bool {
-    let last = closure.last_step();
+    let last = closure.last_step(root);
     (step[0].abs() < last) & (step[1].abs() <= last * (root.w.abs() + closure.unit()))
 }
 
@@ -77,6 +76,23 @@ pub(super) fn either_side<const M: usize, C: Closure<M>>(
     let pair = if first.a < second.a { [first, second] } else { [second, first] };
     let placed = low <= pair[0].a && pair[0].a <= at && at <= pair[1].a && pair[1].a <= high;
     placed.then_some(pair)
+}
+
+/// The root of a pair beside the one that is known, on the other side of `at` and on the other
+/// sheet. `None` if the known one is not of the pair, or if the two are not so placed.
+#[inline]
+pub(super) fn beside<const M: usize, C: Closure<M>>(
+    closure: &C,
+    [low, high]: [f64; 2],
+    at: f64,
+    known: &Root,
+) -> Option<Root> {
+    let a = known.turned_into(low, high)?;
+    let (s, c) = sin_cos(at);
+    let [above, below] = closure.sheets(c, s)?;
+    let w = if (known.w - above).abs() < (known.w - below).abs() { below } else { above };
+    let [from, to] = if a < at { [at, high] } else { [low, at] };
+    polish(closure, Root::at(at, [c, s], w)).filter(|other| (from..=to).contains(&other.a))
 }
 
 /// The determinant of the closure's derivatives: zero at a parallel singularity, and a multiple of
@@ -125,13 +141,14 @@ pub(super) struct OnSheet {
     pub(super) noise: f64,
 }
 
-/// Sheet 0 (w₊) or 1 (w₋) at an angle; `None` where it does not exist.
-pub(super) fn on_sheet<const M: usize, C: Closure<M>>(closure: &C, sheet: usize, a: f64) -> Option<OnSheet> {
-    let (s, c) = sin_cos(a);
+/// Sheet 0 (w₊) or 1 (w₋) in a direction; `None` where it does not exist.
+pub(super) fn on_sheet<const M: usize, C: Closure<M>>(
+    closure: &C,
+    sheet: usize,
+    [c, s]: [f64; 2],
+) -> Option<OnSheet> {
     let w = closure.sheets(c, s)?[sheet];
     let e = closure.equations(c, s, w);
     let slope = e.da[0] - e.dw[0] * e.da[1] / e.dw[1];
-    // Both equations are squares of lengths: their sizes are alike.
-    let noise = 2.0 * RESIDUAL_TOLERANCE * closure.square();
-    slope.is_finite().then_some(OnSheet { value: e.f[0], slope, noise })
+    slope.is_finite().then_some(OnSheet { value: e.f[0], slope, noise: closure.noise(c, s, w) })
 }

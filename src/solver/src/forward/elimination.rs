@@ -1,8 +1,9 @@
 //! The forward question's loop closure in (a, λ), and its polynomial of degree four.
 
 use crate::circle::{TrigPolynomial, linear};
-use crate::closure::{Closure, Equations, LAST_STEP};
+use crate::closure::{Closure, Equations, LAST_STEP, Root};
 use crate::machine::{Derived, Geometry};
+use crate::residual::RESIDUAL_TOLERANCE;
 
 /// With (y, w1) = λ (-v, u), which satisfies the difference of Eqs (3) and (4), and x from their
 /// mean with Eqs (5) and (6), two equations remain:
@@ -76,6 +77,16 @@ impl Assembly {
         -per_w * x0 / (per_w * per_w + self.c - self.k * c)
     }
 
+    /// The quadratic equation at an angle: a2 λ² + 2 a1 λ + a0.
+    #[inline]
+    fn quadratic(&self, c: f64, s: f64) -> [f64; 3] {
+        let u = self.r1_platform * c - self.r1_slider;
+        let spread = self.c - self.k * c;
+        let per_w = u * self.s * self.inverse_d;
+        let x0 = (self.t[0] + self.t[1] * c + self.t[2] * s) * self.inverse_d;
+        [per_w * per_w + spread, per_w * x0, x0 * x0 + spread - self.l1_square]
+    }
+
     /// X1 = x + D1 - d1.
     #[inline]
     pub(super) fn x1(&self, c: f64, s: f64, lambda: f64) -> f64 {
@@ -121,11 +132,7 @@ impl Closure<5> for Assembly {
     }
 
     fn sheets(&self, c: f64, s: f64) -> Option<[f64; 2]> {
-        let u = self.r1_platform * c - self.r1_slider;
-        let spread = self.c - self.k * c;
-        let per_w = u * self.s * self.inverse_d;
-        let x0 = (self.t[0] + self.t[1] * c + self.t[2] * s) * self.inverse_d;
-        let (a2, a1, a0) = (per_w * per_w + spread, per_w * x0, x0 * x0 + spread - self.l1_square);
+        let [a2, a1, a0] = self.quadratic(c, s);
         let disc = a1 * a1 - a2 * a0;
         (disc >= 0.0).then(|| {
             let root = disc.sqrt();
@@ -147,11 +154,17 @@ impl Closure<5> for Assembly {
         1.0
     }
 
-    fn square(&self) -> f64 {
-        self.l1_square
+    fn discriminant(&self, c: f64, s: f64) -> f64 {
+        let [a2, a1, a0] = self.quadratic(c, s);
+        a1 * a1 - a2 * a0
     }
 
-    fn last_step(&self) -> f64 {
+    fn noise(&self, _: f64, _: f64, _: f64) -> f64 {
+        // Both equations are squares of lengths: their sizes are alike.
+        2.0 * RESIDUAL_TOLERANCE * self.l1_square
+    }
+
+    fn last_step(&self, _: &Root) -> f64 {
         LAST_STEP
     }
 }

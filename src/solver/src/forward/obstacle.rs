@@ -42,7 +42,7 @@ fn miss_at(machine: &Machine, assembly: &Assembly, a: f64) -> f64 {
 #[cold]
 pub(super) fn out_of_mode(machine: &Machine, rho: [f64; 3], assembly: &Assembly) -> Margin {
     let mut roots = Roots::new();
-    find_roots(assembly, PI, &mut roots);
+    find_roots(assembly, PI, None, &mut roots);
     let nearest_to_working = roots
         .iter()
         .filter_map(|root| posture(machine, assembly, rho, root))

@@ -7,9 +7,15 @@
 //! maximum; to the left one from c = -1, or from the inflection -E/3k if that is greater. Written
 //! in t = 1 ∓ c the roots keep their relative precision near the symmetry plane y = 0, where
 //! sin a = √(t (2 - t)) is small.
+//!
+//! Where leg I is nearly level and y nearly zero both roots are near c = 1. The second one then
+//! follows from the first in t = 1 - c: the product of the three roots is known without
+//! cancellation. There E + k, the square of the drop at a = 0 and y = 0, is computed with twice
+//! the digits ([`level`]), for a rounding of L1² would decide whether the leg reaches.
 
 use arrayvec::ArrayVec;
 
+use super::level;
 use crate::machine::Machine;
 use crate::residual::RESIDUAL_TOLERANCE;
 
@@ -17,8 +23,11 @@ use crate::residual::RESIDUAL_TOLERANCE;
 const STEPS: usize = 60;
 /// Relative size of the next step at which a root stands.
 const SETTLED: f64 = 1e-16;
-/// Two roots closer than this are one: the square root of the rounding.
+/// Two roots closer than this are one: the square root of the rounding. Relative to the roots
+/// where both are near c = 1.
 const RESOLUTION: f64 = 4e-8;
+/// Constant terms of the cubic below this have lost digits to underflow: y is zero.
+const UNDERFLOW: f64 = 1e-280;
 /// Where w1² exceeds this part of L1², its root is the better formula for w1, else y u / v.
 const LARGE: f64 = 0.01;
 
@@ -40,45 +49,60 @@ struct Cubic([f64; 4]);
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FirstLeg<'a> {
     machine: &'a Machine,
+    x: f64,
     y: f64,
-    e: f64,
+    /// E + k: w1² + y² at a = 0.
+    at_zero: f64,
 }
 
 impl<'a> FirstLeg<'a> {
     #[inline]
     pub(crate) fn new(machine: &'a Machine, x: f64, y: f64) -> Self {
-        let x1 = x + machine.derived.e1;
-        let l1 = machine.geometry().L1;
-        Self { machine, y, e: (l1 - x1) * (l1 + x1) - machine.derived.c }
+        Self { machine, x, y, at_zero: level::at_zero(machine, x) }
     }
 
     /// The angle nearest to zero, where the working mode usually is.
     #[inline]
     pub(crate) fn nearest(&self) -> Option<LegAngle> {
         let cubic = self.cubic(1.0);
-        let t = cubic.newton(cubic.guess()).or_else(|| cubic.newton(0.0))?;
-        Some(self.angle(1.0 - t, t, false))
+        Some(self.angle(1.0, cubic.nearest()?, false))
     }
 
     /// Both angles; one if they have merged; none if the leg does not reach.
     #[inline]
     pub(crate) fn both(&self) -> ArrayVec<LegAngle, 2> {
-        let (k, right_side) = (self.machine.derived.k, self.cubic(1.0));
-        let inflection = 1.0 - self.e / (3.0 * k);
-        let right = right_side.newton(right_side.guess()).or_else(|| right_side.newton(0.0));
-        let left_side = self.cubic(-1.0);
-        let left =
-            if inflection > 0.0 { left_side.newton(inflection) } else { left_side.newton(left_side.guess()) };
+        let right_side = self.cubic(1.0);
         let mut angles = ArrayVec::new();
-        match (right, left) {
-            (Some(t), Some(near)) if 2.0 - t - near > RESOLUTION => {
-                angles.push(self.angle(1.0 - t, t, false));
-                angles.push(self.angle(near - 1.0, near, false));
+        let Some(t) = right_side.nearest() else {
+            angles.extend(self.merged(&right_side));
+            return angles;
+        };
+        let other = right_side.other(t);
+        // In t = 1 - c the other root is good to the last digits only if it is small, too.
+        let (sign, other, apart) = if other < 1.0 {
+            (1.0, Some(other), (other - t) / other)
+        } else {
+            let left = self.left();
+            (-1.0, left, left.map_or(0.0, |left| 2.0 - t - left))
+        };
+        match other {
+            Some(other) if apart > RESOLUTION => {
+                angles.push(self.angle(1.0, t, false));
+                angles.push(self.angle(sign, other, false));
             }
-            (Some(t), Some(_)) => angles.push(self.angle(1.0 - t, t, true)),
-            _ => angles.extend(self.merged(&right_side)),
+            Some(_) => angles.push(self.angle(1.0, t, true)),
+            None => angles.extend(self.merged(&right_side)),
         }
         angles
+    }
+
+    /// The left root in t = 1 + c.
+    #[inline]
+    fn left(&self) -> Option<f64> {
+        let cubic = self.cubic(-1.0);
+        let k = self.machine.derived.k;
+        let inflection = 1.0 - (self.at_zero - k) / (3.0 * k);
+        cubic.newton(if inflection > 0.0 { inflection } else { cubic.guess() })
     }
 
     /// The double root that rounding may have lifted off zero.
@@ -86,16 +110,19 @@ impl<'a> FirstLeg<'a> {
     fn merged(&self, cubic: &Cubic) -> Option<LegAngle> {
         let t = cubic.maximum()?;
         let l1 = self.machine.geometry().L1;
-        let slack = 2.0 * RESIDUAL_TOLERANCE * l1 * l1;
-        let inside = t > 0.0 && t < 2.0 && cubic.value(t) >= -slack * t * (2.0 - t);
-        inside.then(|| self.angle(1.0 - t, t, true))
+        let slack = if t < 1.0 && level::is_little(self.machine, self.at_zero) {
+            RESIDUAL_TOLERANCE * cubic.size(t)
+        } else {
+            2.0 * RESIDUAL_TOLERANCE * l1 * l1 * t * (2.0 - t)
+        };
+        let inside = (0.0..2.0).contains(&t) && cubic.value(t) >= -slack;
+        inside.then(|| self.angle(1.0, t, true))
     }
 
     /// The angle at which the leg misses least, where it does not reach.
     #[cold]
     pub(crate) fn closest(&self) -> LegAngle {
-        let t = self.best();
-        self.angle(1.0 - t, t, true)
+        self.angle(1.0, self.best(), true)
     }
 
     /// How well the leg reaches: (15) at its greatest over R1² L1², negative out of reach.
@@ -110,23 +137,31 @@ impl<'a> FirstLeg<'a> {
         self.cubic(1.0).maximum().unwrap_or(2.0).clamp(0.0, 2.0)
     }
 
+    /// w1² + y² at c = `sign`.
+    #[inline]
+    fn end(&self, sign: f64) -> f64 {
+        if sign > 0.0 { self.at_zero } else { level::at_half_a_turn(self.machine, self.x, self.at_zero) }
+    }
+
     #[inline]
     fn cubic(&self, sign: f64) -> Cubic {
         let d = &self.machine.derived;
         let k = sign * d.k;
         let y_square = self.y * self.y;
         let per_square = self.machine.derived.inverse_r1_square * y_square;
-        let p = self.e + k;
+        let p = self.end(sign);
         Cubic([-(d.c - k) * per_square, 2.0 * p - k * per_square, -(p + 2.0 * k), k])
     }
 
+    /// The angle of c = `sign` (1 - t).
     #[inline]
-    fn angle(&self, c: f64, t: f64, merged: bool) -> LegAngle {
+    fn angle(&self, sign: f64, t: f64, merged: bool) -> LegAngle {
         let g = self.machine.geometry();
+        let c = sign * (1.0 - t);
         let size = (t * (2.0 - t)).max(0.0).sqrt();
         let u = g.R1 * c - g.r1;
         let s = -size.copysign(self.y * u);
-        let square = self.e + self.machine.derived.k * c - self.y * self.y;
+        let square = self.end(sign) - sign * self.machine.derived.k * t - self.y * self.y;
         let v = g.R1 * size;
         let w1 = if square > LARGE * g.L1 * g.L1 || v == 0.0 {
             square.max(0.0).sqrt()
@@ -144,12 +179,34 @@ impl Cubic {
         a0 + t * (a1 + t * (a2 + t * a3))
     }
 
+    /// The sum of the terms' magnitudes.
+    fn size(&self, t: f64) -> f64 {
+        let [a0, a1, a2, a3] = self.0.map(f64::abs);
+        a0 + t * (a1 + t * (a2 + t * a3))
+    }
+
     /// The zero without the cubic term, which is small: where Newton's method begins.
     #[inline]
     fn guess(&self) -> f64 {
         let [a0, a1, a2, _] = self.0;
         let disc = a1 * a1 - 4.0 * a0 * a2;
         if disc > 0.0 && a1 > 0.0 { -2.0 * a0 / (a1 + disc.sqrt()) } else { 0.0 }
+    }
+
+    /// The least zero, if there is one up to 2.
+    #[inline]
+    fn nearest(&self) -> Option<f64> {
+        self.newton(self.guess()).or_else(|| self.newton(0.0))
+    }
+
+    /// The second zero from the first, t, and the quadratic that is left. Its terms all have one
+    /// sign but for the constant, so that nothing cancels unless the zeros are about to merge.
+    #[inline]
+    fn other(&self, t: f64) -> f64 {
+        let [a0, a1, a2, a3] = self.0;
+        let constant = if a0 < -UNDERFLOW { -a0 / t } else { a1 + t * (a2 + t * a3) };
+        let linear = -(a2 + a3 * t);
+        2.0 * constant / (linear + (linear * linear - 4.0 * a3 * constant).max(0.0).sqrt())
     }
 
     #[inline]

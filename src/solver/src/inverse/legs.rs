@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::level;
 use crate::angle::sin_cos;
 use crate::closure::{Root, wrapped};
 use crate::limit::{Constraint, Element, Margin, Refusal};
@@ -21,8 +22,7 @@ pub(super) struct Closed {
     alpha: f64,
     c: f64,
     s: f64,
-    /// cos and sin of `alpha` itself, for the check: it starts from the angle that is given out,
-    /// not from the c and s that it was found with.
+    /// cos and sin of `alpha` as it is given out, not as it was found: the check starts from them.
     checked: [f64; 2],
     w1: f64,
     first: Leg,
@@ -39,8 +39,7 @@ struct Leg {
     error: f64,
 }
 
-/// What leg II or III has between its platform end and its slider, mm: zero if its two sides have
-/// merged.
+/// What leg II or III has between its ends along z, mm: zero if its two sides have merged.
 #[derive(Clone, Copy, Debug)]
 struct Drop {
     size: f64,
@@ -48,8 +47,7 @@ struct Drop {
 }
 
 impl Closed {
-    /// The platform at `p` with leg I at a root of its closure; `size` is that of the numbers that
-    /// both come from.
+    /// The platform at `p` with leg I at a root; `size` is that of the numbers both come from.
     #[inline]
     pub(super) fn new(machine: &Machine, p: Point, root: &Root, size: f64) -> Self {
         let alpha = wrapped(root.a);
@@ -129,11 +127,15 @@ impl<'a> Other<'a> {
         (self.length - self.x) * (self.length + self.x) - y * y
     }
 
+    /// What rounding alone leaves of it.
+    fn flat(&self) -> f64 {
+        FLAT * self.length * self.length
+    }
+
     /// The leg's drop; `None` if it does not reach.
     #[inline]
     fn drop(&self) -> Option<Drop> {
-        let left = self.left();
-        let flat = FLAT * self.length * self.length;
+        let (left, flat) = (self.left(), self.flat());
         let merged = left <= flat;
         (left >= -flat).then(|| Drop { size: if merged { 0.0 } else { left.sqrt() }, merged })
     }
@@ -169,15 +171,17 @@ pub(super) fn postures(machine: &Machine, closed: &Closed, found: &mut Postures)
     }
 }
 
-/// All postures of a closed leg I and of its mirror image, whose other legs have the same drops:
-/// they depend on c alone.
+/// All postures of a closed leg I and of its mirror image: the drops depend on c alone.
 #[inline]
 pub(super) fn mirrored_postures(machine: &Machine, above: &Closed, found: &mut Postures) {
     let legs = Other::both(machine, above);
     if let Some(drops) = drops(&legs) {
         add(machine, above, &legs, drops, found);
-        let below = above.mirrored(machine);
-        add(machine, &below, &Other::both(machine, &below), drops, found);
+        // A level leg I with a level platform is its own mirror image.
+        if above.s != 0.0 || above.w1 != 0.0 {
+            let below = above.mirrored(machine);
+            add(machine, &below, &Other::both(machine, &below), drops, found);
+        }
     }
 }
 
@@ -253,8 +257,9 @@ fn posture(machine: &Machine, closed: &Closed, [leg2, leg3]: [&Leg; 2], merged: 
 pub(super) fn working(machine: &Machine, closed: &Closed) -> Result<Posture, Refusal> {
     let [second, third] = Other::both(machine, closed);
     let (left2, left3) = (second.left(), third.left());
-    if left2 <= 0.0 || left3 <= 0.0 {
-        return Err(Refusal::Blocked(out_of_reach(left2, left3)));
+    // A leg whose two sides have merged is in no mode.
+    if left2 <= second.flat() || left3 <= third.flat() {
+        return Err(Refusal::Blocked(out_of_reach(left2 - second.flat(), left3 - third.flat())));
     }
     let (leg2, leg3) = (second.leg(Side::Above, left2.sqrt()), third.leg(Side::Above, left3.sqrt()));
     let posture = posture(machine, closed, [&leg2, &leg3], false);
@@ -269,12 +274,7 @@ pub(super) fn working(machine: &Machine, closed: &Closed) -> Result<Posture, Ref
 #[cold]
 fn out_of_reach(second: f64, third: f64) -> Margin {
     let (leg, left) = if second <= third { (2, second) } else { (3, third) };
-    Margin { constraint: Constraint::LegLength, element: Element::Leg(leg), value: signed_root(left) }
-}
-
-/// √x with the sign of x: a length that goes through zero with it.
-pub(super) fn signed_root(x: f64) -> f64 {
-    x.abs().sqrt().copysign(x)
+    Margin { constraint: Constraint::LegLength, element: Element::Leg(leg), value: level::signed_root(left) }
 }
 
 /// What keeps a closed leg I out of the working mode: its rods cross, or a slider end lies lower

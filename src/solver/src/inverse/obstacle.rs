@@ -18,7 +18,7 @@ const STEPS: usize = 20;
 #[cold]
 pub(super) fn of_all(machine: &Machine, track: &Track) -> Margin {
     let mut roots = Roots::new();
-    find_roots(&LegOne::new(machine, track), PI, &mut roots);
+    find_roots(&LegOne::new(machine, track), PI, None, &mut roots);
     roots
         .iter()
         .filter_map(|root| legs::reach_of_others(machine, &track.closed(machine, root)))
@@ -32,7 +32,7 @@ pub(super) fn of_all(machine: &Machine, track: &Track) -> Margin {
 pub(super) fn of_leg_one(machine: &Machine, track: &Track) -> Margin {
     let leg = LegOne::new(machine, track);
     let mut roots = Roots::new();
-    find_roots(&leg, PI, &mut roots);
+    find_roots(&leg, PI, None, &mut roots);
     roots
         .iter()
         .filter_map(|root| legs::out_of_mode(machine, &track.closed(machine, root)))

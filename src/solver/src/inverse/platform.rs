@@ -17,7 +17,7 @@ const NEAR: f64 = 1e-4;
 
 /// All postures (up to 16) with the platform at `p` in the base frame; at least one, or the refusal.
 pub fn platform(machine: &Machine, p: Point) -> Result<Postures, Refusal> {
-    in_domain(&p)?;
+    in_domain(machine, &p, &[])?;
     let angles = FirstLeg::new(machine, p[0], p[1]).both();
     gathered(
         |found| {
@@ -32,7 +32,7 @@ pub fn platform(machine: &Machine, p: Point) -> Result<Postures, Refusal> {
 /// The posture in the working mode with the platform at `p` in the base frame.
 #[inline]
 pub fn platform_working(machine: &Machine, p: Point) -> Result<Posture, Refusal> {
-    in_domain(&p)?;
+    in_domain(machine, &p, &[])?;
     let leg = FirstLeg::new(machine, p[0], p[1]);
     if let Some(angle) = leg.nearest() {
         let answer = legs::working(machine, &closed(machine, p, &angle));

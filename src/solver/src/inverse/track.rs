@@ -3,15 +3,19 @@
 use std::f64::consts::PI;
 
 use super::legs::{self, Closed};
+use super::level;
 use super::obstacle;
 use super::platform::{platform, platform_working};
 use crate::circle::{TrigPolynomial, linear};
-use crate::closure::{Closure, Equations, LAST_STEP, Root, Roots, find_roots, polish};
+use crate::closure::{Closure, Equations, LAST_STEP, Root, Roots, find_roots, from_level, wrapped};
 use crate::limit::Refusal;
 use crate::machine::Machine;
 use crate::pose::Point;
 use crate::posture::{Posture, Postures, gathered};
-use crate::residual::size;
+use crate::residual::{RESIDUAL_TOLERANCE, size};
+
+/// Relative rounding of a leg that is nearly level: what is left for its drop has all its digits.
+const LEVEL_NOISE: f64 = 1e-14;
 
 /// P = (x, y0 + yc cos a + ys sin a, z0 + zc cos a + zs sin a): where the platform has to be at
 /// each of its angles, for a tool given in the base or the table frame.
@@ -44,8 +48,10 @@ impl Track {
         if let Some(p) = self.fixed() {
             return platform(machine, p);
         }
+        let leg = LegOne::new(machine, self);
         let mut roots = Roots::new();
-        find_roots(&LegOne::new(machine, self), PI, &mut roots);
+        // The working mode's posture is the one that `working` answers, to the last bit.
+        find_roots(&leg, PI, from_level(&leg), &mut roots);
         gathered(
             |found| roots.iter().for_each(|root| legs::postures(machine, &self.closed(machine, root), found)),
             || obstacle::of_all(machine, self),
@@ -59,31 +65,47 @@ impl Track {
             return platform_working(machine, p);
         }
         let leg = LegOne::new(machine, self);
-        // From the level platform on the sheet w1 > 0: the working mode's only basin in practice.
-        if let Some([w, _]) = leg.sheets(1.0, 0.0)
-            && let Some(root) = polish(&leg, Root::at(0.0, [1.0, 0.0], w))
-        {
-            let answer = legs::working(machine, &self.closed(machine, &root));
+        let level = from_level(&leg);
+        if let Some(root) = &level {
+            let answer = legs::working(machine, &self.closed(machine, root));
             if answer.is_ok() {
                 return answer;
             }
         }
-        self.among_all(machine, &leg)
+        self.among_all(machine, &leg, level).map(|postures| postures[0])
+    }
+
+    /// All postures in the working mode along the track, that of [`Self::working`] first; at least
+    /// one, or the refusal.
+    pub(super) fn every_working(&self, machine: &Machine) -> Result<Postures, Refusal> {
+        if let Some(p) = self.fixed() {
+            return platform_working(machine, p).map(|posture| [posture].into_iter().collect());
+        }
+        let leg = LegOne::new(machine, self);
+        let level = from_level(&leg);
+        let mut found = self.among_all(machine, &leg, level)?;
+        let first =
+            level.and_then(|level| found.iter().position(|posture| posture.pose.alpha == wrapped(level.a)));
+        found.swap(0, first.unwrap_or(0));
+        Ok(found)
     }
 
     /// The working mode among all roots of the sheet at which leg I's rods do not cross.
     #[cold]
-    fn among_all(&self, machine: &Machine, leg: &LegOne) -> Result<Posture, Refusal> {
-        let mut refused = None;
+    fn among_all(&self, machine: &Machine, leg: &LegOne, level: Option<Root>) -> Result<Postures, Refusal> {
+        let (mut found, mut refused) = (Postures::new(), None);
         let mut roots = Roots::new();
-        find_roots(leg, machine.derived.uncrossed, &mut roots);
+        find_roots(leg, machine.derived.uncrossed, level, &mut roots);
         for root in roots.iter().filter(|root| root.w >= 0.0) {
             match legs::working(machine, &self.closed(machine, root)) {
-                Ok(posture) => return Ok(posture),
+                Ok(posture) => found.push(posture),
                 Err(refusal) => refused = refused.or(Some(refusal)),
             }
         }
-        Err(refused.unwrap_or_else(|| Refusal::Blocked(obstacle::of_leg_one(machine, self))))
+        if found.is_empty() {
+            return Err(refused.unwrap_or_else(|| Refusal::Blocked(obstacle::of_leg_one(machine, self))));
+        }
+        Ok(found)
     }
 
     /// The platform's pose at a root of leg I's closure.
@@ -105,6 +127,10 @@ pub(super) struct LegOne {
     k: f64,
     /// L1² - X1² - C.
     e: f64,
+    /// E + k and E - k.
+    ends: [f64; 2],
+    /// One of them is little: leg I can be level at nearly this x, y and angle.
+    level: bool,
     scale: f64,
     last_step: f64,
 }
@@ -114,18 +140,29 @@ impl LegOne {
     pub(super) fn new(machine: &Machine, track: &Track) -> Self {
         let g = machine.geometry();
         let derived = &machine.derived;
-        let x1 = track.x + derived.e1;
+        let at_zero = level::at_zero(machine, track.x);
+        let ends = [at_zero, level::at_half_a_turn(machine, track.x, at_zero)];
         Self {
             y: track.y,
             r1_platform: g.R1,
             r1_slider: g.r1,
             c: derived.c,
             k: derived.k,
-            e: (g.L1 - x1) * (g.L1 + x1) - derived.c,
+            e: ends[0] - derived.k,
+            ends,
+            level: ends.iter().any(|end| level::is_little(machine, *end)),
             scale: derived.scale,
             // A long arm bends the closure by as much as it is longer than the machine.
             last_step: LAST_STEP * derived.scale / (derived.scale + track.y[1].abs() + track.y[2].abs()),
         }
+    }
+
+    /// w1², from the nearer of the angles 0 and π, where it may be little.
+    #[inline]
+    fn square_of_drop(&self, y: f64, c: f64, s: f64) -> f64 {
+        let bend = self.k * s * s;
+        let end = if c > 0.0 { self.ends[0] - bend / (1.0 + c) } else { self.ends[1] + bend / (1.0 - c) };
+        end - y * y
     }
 
     /// How far leg I is from closing at an angle, mm: |v| w1 - |y u| over the length of (u, v),
@@ -133,10 +170,14 @@ impl LegOne {
     pub(super) fn slack(&self, c: f64, s: f64) -> f64 {
         let (u, v) = (self.r1_platform * c - self.r1_slider, self.r1_platform * s);
         let y = self.y[0] + self.y[1] * c + self.y[2] * s;
-        let square = self.e + self.k * c - y * y;
+        let square = self.square_of_drop(y, c, s);
         let arm = u.hypot(v);
         let offset = (y * u).abs() / arm;
-        if square < 0.0 { legs::signed_root(square) - offset } else { v.abs() * square.sqrt() / arm - offset }
+        if square < 0.0 {
+            level::signed_root(square) - offset
+        } else {
+            v.abs() * square.sqrt() / arm - offset
+        }
     }
 }
 
@@ -158,8 +199,13 @@ impl Closure<4> for LegOne {
         let (u, v) = (self.r1_platform * c - self.r1_slider, self.r1_platform * s);
         let y = self.y[0] + self.y[1] * c + self.y[2] * s;
         let dy = self.y[2] * c - self.y[1] * s;
+        let closed = if self.level {
+            w * w - self.square_of_drop(y, c, s)
+        } else {
+            y * y + w * w - self.k * c - self.e
+        };
         Equations {
-            f: [y * u + w * v, y * y + w * w - self.k * c - self.e],
+            f: [y * u + w * v, closed],
             da: [dy * u - y * v + w * self.r1_platform * c, 2.0 * y * dy + self.k * s],
             dw: [v, 2.0 * w],
         }
@@ -167,7 +213,7 @@ impl Closure<4> for LegOne {
 
     fn sheets(&self, c: f64, s: f64) -> Option<[f64; 2]> {
         let y = self.y[0] + self.y[1] * c + self.y[2] * s;
-        let square = self.e + self.k * c - y * y;
+        let square = self.square_of_drop(y, c, s);
         (square >= 0.0).then(|| [square.sqrt(), -square.sqrt()])
     }
 
@@ -175,7 +221,7 @@ impl Closure<4> for LegOne {
     fn w_at_root(&self, c: f64, s: f64) -> f64 {
         let (u, v) = (self.r1_platform * c - self.r1_slider, self.r1_platform * s);
         let y = self.y[0] + self.y[1] * c + self.y[2] * s;
-        let square = self.e + self.k * c - y * y;
+        let square = self.square_of_drop(y, c, s);
         let moment = -y * u * v;
         // The better of two formulas, as in the first leg's: near v = 0 the quotient is 0/0.
         if square > 0.01 * (self.e.abs() + self.k) { square.sqrt().copysign(moment) } else { -y * u / v }
@@ -185,11 +231,25 @@ impl Closure<4> for LegOne {
         self.scale
     }
 
-    fn square(&self) -> f64 {
-        self.scale * self.scale
+    fn discriminant(&self, c: f64, s: f64) -> f64 {
+        self.square_of_drop(self.y[0] + self.y[1] * c + self.y[2] * s, c, s)
     }
 
-    fn last_step(&self) -> f64 {
-        self.last_step
+    fn noise(&self, c: f64, s: f64, w: f64) -> f64 {
+        // Both equations are squares of lengths: their sizes are alike.
+        let size = self.scale * self.scale;
+        if self.level {
+            let (u, v) = (self.r1_platform * c - self.r1_slider, self.r1_platform * s);
+            let y = self.y[0].abs() + (self.y[1] * c).abs() + (self.y[2] * s).abs();
+            return LEVEL_NOISE * (y * u.abs() + (w * v).abs()).min(size);
+        }
+        2.0 * RESIDUAL_TOLERANCE * size
+    }
+
+    #[inline]
+    fn last_step(&self, root: &Root) -> f64 {
+        // Near a level leg the closure bends within a and w1 themselves.
+        let bend = if self.level { (root.s.abs() + root.w.abs() / self.scale).clamp(1e-9, 1.0) } else { 1.0 };
+        self.last_step * bend
     }
 }

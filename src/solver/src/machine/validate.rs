@@ -3,13 +3,20 @@
 use std::f64::consts::PI;
 
 use super::{Geometry, Limits, MachineData, MachineFault};
+use crate::axis::direction;
+use crate::limit::MOST_RATIO;
 
 /// Largest length accepted in a machine, mm.
 const LARGEST: f64 = 1e6;
 /// Smallest length accepted where a length must be positive, mm.
 const SMALLEST: f64 = 1e-3;
-/// Least difference, relative to the machine, at which two dimensions count as different.
-const DISTINCT: f64 = 1e-6;
+/// How much longer than needed a leg must be at home, relative to what is needed.
+const LONGER: f64 = 1e-6;
+/// Least R1/r1 - 1, and least |e1 - e2| relative to the longest leg, at which the forward problem
+/// keeps its solutions: with R1 = r1 the double root a = 0 of its polynomial stands for a whole
+/// branch, and with e1 = e2 two solutions in mirror image share each root. Beside these machines
+/// solutions of the polynomial are too close together for double precision.
+const DISTINCT: f64 = 1e-3;
 /// Least |`det_P`| at home.
 pub(super) const LEAST_HOME_DET: f64 = 1e-9;
 
@@ -23,10 +30,32 @@ pub(super) fn faults(data: &MachineData) -> Vec<MachineFault> {
     }
     limits(&data.limits, &mut faults);
     if faults.0.is_empty() {
+        proportions(data, &mut faults);
         elimination(&data.geometry, &mut faults);
         home(&data.geometry, &mut faults);
     }
     faults.0
+}
+
+/// The longest dimension that the equations hold.
+pub(super) fn longest(g: &Geometry) -> f64 {
+    let (e1, e2) = (g.D1 - g.d1, g.D2 - g.d2);
+    [g.L1, g.L2, g.L3, g.R1, g.r1, g.R2, g.r4, e1.abs(), e2.abs()].into_iter().fold(0.0, f64::max)
+}
+
+/// The table's offsets turn with the platform, as lengths in questions do.
+fn proportions(data: &MachineData, faults: &mut Faults) {
+    let most = MOST_RATIO * longest(&data.geometry);
+    for (field, value) in [("table/da", data.table.da), ("table/dt", data.table.dt)] {
+        faults.check(
+            value.abs() <= most,
+            field,
+            &format!(
+                "must be within ±{most} mm: {MOST_RATIO:e} times the longest dimension of legs and platform. \
+                 Beyond that double precision loses solutions"
+            ),
+        );
+    }
 }
 
 struct Faults(Vec<MachineFault>);
@@ -99,30 +128,43 @@ fn limits(l: &Limits, faults: &mut Faults) {
     }
     for (field, axes) in [("slider_axes", l.slider_axes), ("platform_axes", l.platform_axes)] {
         for (i, axis) in axes.iter().flatten().enumerate() {
-            let norm = axis.iter().map(|c| c * c).sum::<f64>().sqrt();
-            let holds = (1e-6..=LARGEST).contains(&norm);
             faults.check(
-                holds,
+                direction(*axis).is_some(),
                 &format!("limits/{field}/{i}"),
-                "must be a direction: three numbers, not all zero",
+                "must be a direction: three finite numbers, not all zero",
             );
         }
     }
 }
 
-/// The divisions of the closed forms must exist.
+/// The forward problem must keep all of its solutions: see [`DISTINCT`].
 fn elimination(g: &Geometry, faults: &mut Faults) {
-    let (e1, e2) = (g.D1 - g.d1, g.D2 - g.d2);
-    let apart = |a: f64, b: f64| (a - b).abs() > DISTINCT * a.abs().max(b.abs()).max(SMALLEST);
+    let offset = ((g.D1 - g.d1) - (g.D2 - g.d2)).abs();
+    let needed = DISTINCT * g.L1.max(g.L2).max(g.L3);
     faults.check(
-        apart(e1, e2),
+        offset >= needed,
         "geometry/D1",
-        "D1 - d1 must differ from D2 - d2: with equal offsets x cannot be determined",
+        &format!(
+            "D1 - d1 and D2 - d2 must differ by at least {DISTINCT:e} of the longest leg, here {needed:.6} mm; they \
+             differ by {offset:.6} mm. With equal offsets the sliders determine x up to its mirror image about \
+             x = d1 - D1 only. This version does not solve that case, and it loses forward solutions close to it"
+        ),
     );
+    if g.R1 <= g.r1 {
+        let detail = "must be greater than r1: otherwise the rods of leg I are parallel or crossed at home";
+        faults.check(false, "geometry/R1", detail);
+        return;
+    }
+    let needed = DISTINCT * g.r1;
     faults.check(
-        g.R1 > g.r1 && apart(g.R1, g.r1),
+        g.R1 - g.r1 >= needed,
         "geometry/R1",
-        "must be greater than r1: the rods of leg I would be parallel or crossed at home",
+        &format!(
+            "must exceed r1 by at least {DISTINCT:e} of r1, here {needed:.6} mm; it exceeds r1 by {:.6} mm. With R1 = r1 \
+             the rods of leg I stay parallel and the platform does not turn (a linear delta). This version does not \
+             solve that case, and it loses forward solutions close to it",
+            g.R1 - g.r1
+        ),
     );
 }
 
@@ -136,7 +178,7 @@ fn home(g: &Geometry, faults: &mut Faults) {
     for (field, length, x, y) in legs {
         let needed = x.hypot(y);
         faults.check(
-            length > needed * (1.0 + DISTINCT),
+            length > needed * (1.0 + LONGER),
             field,
             &format!("must be longer than {needed:.6} mm, or there is no home pose at x = y = alpha = 0"),
         );

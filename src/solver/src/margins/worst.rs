@@ -106,6 +106,11 @@ impl Margins {
     /// The worst margin: the least one as a fraction of its constraint's own range (stroke, rod
     /// length, cone half-angle, value at home, ...), so that lengths and angles compare.
     pub fn worst(&self, machine: &Machine) -> Margin {
+        self.weighed(machine).0
+    }
+
+    /// [`Self::worst`] and its fraction of its constraint's range, by which solutions compare.
+    pub(crate) fn weighed(&self, machine: &Machine) -> (Margin, f64) {
         let weights = &machine.derived.weights;
         let mut worst = Worst::new(self.rod_crossing, weights.rod_crossing);
         worst.meet_strokes(machine, &self.stroke);
@@ -123,6 +128,6 @@ impl Margins {
         let [a, b] = self.nearest_rods;
         worst.meet(Constraint::RodInterference, Element::Rods(a, b), gap, weights.rod_interference);
         worst.meet_table(machine, self.tilt, self.rotary);
-        worst.margin
+        (worst.margin, worst.part)
     }
 }

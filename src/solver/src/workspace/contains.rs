@@ -4,9 +4,10 @@ use rayon::prelude::*;
 
 use super::observer::{Observer, Pace, go_on};
 use super::request::{Kind, Request, WorkspaceError};
-use crate::inverse::{part_working, platform_working, tool_working};
+use crate::inverse::{part_every_working, part_working, platform_working, tool_every_working, tool_working};
 use crate::limit::{Margin, Refusal};
 use crate::machine::Machine;
+use crate::margins::Margins;
 use crate::margins::together::{TOGETHER, Together};
 use crate::pose::{PartPose, Point};
 use crate::posture::Posture;
@@ -18,7 +19,8 @@ const BATCH: usize = 1024;
 /// How a point stands to a workspace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Membership {
-    /// Whether the working mode reaches the point and keeps every limit.
+    /// Whether the working mode reaches the point and keeps every limit, with one of its solutions
+    /// if there are several.
     pub inside: bool,
     /// The worst margin, as [`Margins::worst`](crate::Margins::worst) has it: not negative inside; `None` where the point
     /// is out of domain or the platform would move with its sliders locked.
@@ -53,6 +55,11 @@ pub fn contains(
                 |alpha| part.then(|| table_angles(machine, alpha, request.phi1, request.phi2)),
                 |i, margin| places[i] = Membership { inside: margin.value >= 0.0, margin: Some(margin) },
             );
+            for (&point, place) in points.iter().zip(places) {
+                if !place.inside && request.kind != Kind::Platform {
+                    others(machine, request, point, place);
+                }
+            }
         }
         Ok(())
     })?;
@@ -71,6 +78,27 @@ fn solution(machine: &Machine, request: &Request, point: Point) -> Result<Postur
             let [x, y, z] = point;
             part_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length)
         }
+    }
+}
+
+/// Where the working mode has several solutions, a point belongs to the workspace if one of them
+/// keeps every limit. The margin is that of the solution whose worst margin is best.
+fn others(machine: &Machine, request: &Request, [x, y, z]: Point, place: &mut Membership) {
+    let Request { kind, tool_length, phi1, phi2, .. } = *request;
+    let found = match kind {
+        Kind::Part => part_every_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length),
+        _ => tool_every_working(machine, [x, y, z], tool_length),
+    };
+    let Ok(found) = found else { return };
+    if found.len() < 2 {
+        return;
+    }
+    let weighed = found.iter().map(|posture| {
+        let table = (kind == Kind::Part).then(|| table_angles(machine, posture.pose.alpha, phi1, phi2));
+        Margins::of(machine, posture, table).weighed(machine)
+    });
+    if let Some((margin, _)) = weighed.max_by(|(_, a), (_, b)| a.total_cmp(b)) {
+        *place = Membership { inside: margin.value >= 0.0, margin: Some(margin) };
     }
 }
 

@@ -11,6 +11,7 @@ mod line;
 mod panels;
 
 use super::domain::Domain;
+use super::fold::{self, Covering};
 use super::observer::{Observer, go_on};
 use super::quadrature::Integral;
 use super::request::{Request, WorkspaceError};
@@ -26,8 +27,14 @@ pub enum Volume {
         /// mm³; the true volume lies within `value ± error`.
         error: f64,
     },
-    /// The map folds: its Jacobian determinant has both signs on the workspace, some positions are
-    /// reached from two platform positions, and the integral is not the volume of the set.
+    /// Some positions are reached from two platform positions, and the integral is not the volume
+    /// of the set. It is known in two ways: the map's Jacobian determinant has both signs on the
+    /// columns that the integration looks at; or one of 2,000 points, spread evenly over the
+    /// columns, has two feasible inverse solutions. So two parts of the platform's domain that map
+    /// onto the same set are found if that set is more than about 0.15 % of the workspace, and may
+    /// be missed if it is less. Where a second working solution exists at one of the points, though
+    /// not a feasible one, 20,000 points are looked at, and a [`Volume::Value`]'s error includes
+    /// what may have been missed.
     Folded,
 }
 
@@ -40,8 +47,7 @@ pub struct Measure {
     pub area: f64,
     /// Bound of the area's error, mm².
     pub area_error: f64,
-    /// Least and greatest Jacobian determinant met; `None` for an empty workspace. Of both signs:
-    /// the map folds.
+    /// Least and greatest Jacobian determinant met; `None` for an empty workspace.
     pub jacobian: Option<[f64; 2]>,
     /// Greatest |alpha| met, rad; `None` for an empty workspace.
     pub inclination: Option<f64>,
@@ -66,14 +72,25 @@ pub fn measure(
         return Ok(Measure::of(&Integral::ZERO, &line::Extremes::default()));
     }
     let (integral, extremes) = panels::integrate(&domain, observer)?;
+    let covering = fold::covering(machine, request, &domain, observer)?;
     observer.progress(1.0);
-    Ok(Measure::of(&integral, &extremes))
+    Ok(Measure::of(&integral, &extremes).covered(covering))
 }
 
 impl Measure {
     /// Whether the map folds.
     pub fn folded(&self) -> bool {
         self.volume == Volume::Folded
+    }
+
+    fn covered(self, covering: Covering) -> Self {
+        let volume = match (covering, self.volume) {
+            (Covering::Once { unseen }, Volume::Value { value, error }) => {
+                Volume::Value { value, error: error + unseen * value }
+            }
+            _ => Volume::Folded,
+        };
+        Self { volume, ..self }
     }
 
     fn of(integral: &Integral<2>, extremes: &line::Extremes) -> Self {

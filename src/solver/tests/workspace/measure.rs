@@ -69,6 +69,37 @@ fn folds_are_told() {
     assert!(least < 0.0 && greatest > 0.0);
 }
 
+/// Two separate parts of the platform's domain map onto one set, and the determinant has one sign on both.
+#[test]
+fn sets_covered_twice_are_told() {
+    let covered = |size: f64, cone: f64| {
+        changed(|data| {
+            let g = &mut data.geometry;
+            (g.D1, g.d1, g.D2, g.d2) = (0.0, 500.0 * size, 0.0, -500.0 * size);
+            (g.R2, g.r4, g.L1, g.L2, g.L3) =
+                (50.0 * size, 50.0 * size, 1050.0 * size, 707.2 * size, 707.2 * size);
+            (g.R1, g.r1, g.parallelogram_half_width, g.rod_radius) =
+                (275.0 * size, 75.0 * size, 20.0 * size, 0.0);
+            (data.table.da, data.table.dt) = (-760.0 * size, 200.0 * size);
+            let limits = &mut data.limits;
+            limits.stroke =
+                [[-2000.0, 2000.0], [0.0, 400.0], [0.0, 400.0]].map(|ends| ends.map(|end| end * size));
+            (limits.slider_cone, limits.platform_cone) = (cone.to_radians(), std::f64::consts::PI);
+            (limits.serial_margin, limits.parallel_margin) = (0.42, 0.0);
+            let (side, aslant) = ([-1.0, 0.0, 0.0], [0.7, 0.0, 0.7]);
+            limits.slider_axes = Some([side, side, aslant, aslant]);
+        })
+    };
+    for size in [0.3, 1.0, 7.0] {
+        let part = request(Kind::Part, 0.0, 0.0, 1.0);
+        let answer = measured(&covered(size, 61.6), &part);
+        let [least, greatest] = answer.jacobian.unwrap();
+        assert!(answer.folded() && least * greatest > 0.0, "{answer:?}");
+        // The platform's own positions are never covered twice.
+        assert!(!measured(&covered(size, 61.6), &request(Kind::Platform, 0.0, 0.0, 1.0)).folded());
+    }
+}
+
 #[test]
 fn nothing_is_an_answer() {
     let closed = changed(|data| data.limits.slider_cone = 1e-6);

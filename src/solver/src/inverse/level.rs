@@ -1,0 +1,67 @@
+//! What leg I has left for its drop, exactly enough for a leg that is nearly level.
+//!
+//! E + k = L1² - X1² - (R1 - r1)² is w1² + y² at a = 0, and E - k = L1² - X1² - (R1 + r1)² the same
+//! at a = π. In double precision each has the rounding of L1². Where little is left, that rounding
+//! would decide whether the leg reaches at all.
+
+use crate::machine::Machine;
+
+/// Below this part of L1² what is left is computed anew with twice the digits.
+pub(crate) const LITTLE: f64 = 1e-6;
+
+/// E + k at a given x, mm².
+#[inline]
+pub(super) fn at_zero(machine: &Machine, x: f64) -> f64 {
+    let x1 = x + machine.derived.e1;
+    let length = machine.geometry().L1;
+    let found = (length - x1) * (length + x1) - machine.derived.gap_square;
+    if is_little(machine, found) { left(machine, x, -1.0) } else { found }
+}
+
+/// E - k at a given x, mm², from E + k.
+#[inline]
+pub(super) fn at_half_a_turn(machine: &Machine, x: f64, at_zero: f64) -> f64 {
+    let found = at_zero - 2.0 * machine.derived.k;
+    if is_little(machine, found) { left(machine, x, 1.0) } else { found }
+}
+
+/// Whether what is left is so little that leg I may be level.
+#[inline]
+pub(super) fn is_little(machine: &Machine, left: f64) -> bool {
+    left.abs() <= machine.derived.little
+}
+
+/// L1² - X1² - (R1 + `sign` r1)² from the machine's own numbers, with about twice the digits of a
+/// double: a + b and a b are taken with their rounding errors.
+#[cold]
+fn left(machine: &Machine, x: f64, sign: f64) -> f64 {
+    let g = machine.geometry();
+    let (e1, e1_rest) = sum(g.D1, -g.d1);
+    let (x1, x1_rest) = sum(x, e1);
+    let x1_rest = x1_rest + e1_rest;
+    let (shorter, shorter_rest) = sum(g.L1, -x1);
+    let (longer, longer_rest) = sum(g.L1, x1);
+    let (reach, reach_rest) = product([shorter, shorter_rest - x1_rest], [longer, longer_rest + x1_rest]);
+    let (arm, arm_rest) = sum(g.R1, sign * g.r1);
+    let (square, square_rest) = product([arm, arm_rest], [arm, arm_rest]);
+    let (left, left_rest) = sum(reach, -square);
+    left + (left_rest + (reach_rest - square_rest))
+}
+
+/// √x with the sign of x: a length that goes through zero with it.
+pub(super) fn signed_root(x: f64) -> f64 {
+    x.abs().sqrt().copysign(x)
+}
+
+/// a + b and its rounding error.
+fn sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// The product of two numbers that are each given with a rest, and its own rest.
+fn product([a, a_rest]: [f64; 2], [b, b_rest]: [f64; 2]) -> (f64, f64) {
+    let product = a * b;
+    (product, a.mul_add(b, -product) + (a * b_rest + a_rest * b))
+}

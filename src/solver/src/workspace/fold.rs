@@ -1,0 +1,123 @@
+//! Whether a workspace is covered twice by two parts of the platform's domain.
+//!
+//! The map from the platform's position to the tool's or the part's keeps x, and turns or shifts
+//! the plane x = const by what depends on alpha. Its Jacobian determinant can have one sign on all
+//! of the workspace, and two separate parts can map onto the same set all the same. So points of
+//! the workspace are put into the inverse problem: a second feasible solution is a second platform
+//! position.
+
+use super::domain::Domain;
+use super::observer::{Observer, go_on};
+use super::request::{Kind, Request, WorkspaceError};
+use crate::inverse::{part_every_working, tool_every_working};
+use crate::machine::Machine;
+use crate::margins::Margins;
+use crate::pose::{PartPose, Point};
+use crate::table::table_angles;
+
+/// Places of the rectangle that are looked at, at most.
+const PLACES: u32 = 50_000;
+/// Points of the workspace that are looked at.
+const POINTS: u32 = 2_000;
+/// How many times as many where some point has a second solution that breaks a limit.
+const SUSPECTED: u32 = 10;
+/// A part of the workspace of which none of n points is has less than this over n of its volume,
+/// in 95 of 100 cases.
+const UNSEEN: f64 = 3.0;
+/// Two platform positions are one within this part of the machine's size.
+const SAME: f64 = 1e-7;
+/// Additive recurrence in three dimensions with the least discrepancy (the powers of the inverse
+/// of the real root of x⁴ = x + 1).
+const STEPS: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3];
+
+/// How often the points of a workspace are covered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Covering {
+    /// Once, but for a part of this share of the volume that may have been missed.
+    Once { unseen: f64 },
+    /// A point has two feasible solutions.
+    Twice,
+}
+
+/// What a point's other working solutions say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Others {
+    None,
+    /// Some are within the table's range and break another limit.
+    Infeasible,
+    Feasible,
+}
+
+/// Looks at points that are spread evenly over the domain's columns.
+pub(super) fn covering(
+    machine: &Machine,
+    request: &Request,
+    domain: &Domain<'_>,
+    observer: &dyn Observer,
+) -> Result<Covering, WorkspaceError> {
+    if request.kind == Kind::Platform {
+        return Ok(Covering::Once { unseen: 0.0 });
+    }
+    let rectangle = domain.rectangle();
+    let (mut suspected, mut seen) = (false, 0);
+    for place in 0..SUSPECTED * PLACES {
+        let wanted = if suspected { SUSPECTED } else { 1 };
+        if seen >= wanted * POINTS || place >= wanted * PLACES {
+            break;
+        }
+        if place % 64 == 0 {
+            go_on(observer)?;
+        }
+        if let Some(p) = feasible_place(domain, rectangle, place) {
+            seen += 1;
+            match others(machine, request, p.platform, p.image) {
+                Others::None => {}
+                Others::Infeasible => suspected = true,
+                Others::Feasible => return Ok(Covering::Twice),
+            }
+        }
+    }
+    let unseen = if suspected { (UNSEEN / f64::from(seen.max(1))).min(1.0) } else { 0.0 };
+    Ok(Covering::Once { unseen })
+}
+
+/// A point of the workspace and a platform position that reaches it.
+struct Place {
+    platform: Point,
+    image: Point,
+}
+
+fn feasible_place(domain: &Domain<'_>, [low, high]: [[f64; 2]; 2], number: u32) -> Option<Place> {
+    let part = STEPS.map(|step| (0.5 + step * f64::from(number)).fract());
+    let [x, y] = [0, 1].map(|axis| low[axis] + part[axis] * (high[axis] - low[axis]));
+    let column = domain.column([x, y]);
+    let inside = domain.values(&column).iter().all(|value| *value >= 0.0);
+    let [bottom, top] = domain.ends(&column);
+    let z = bottom + part[2] * (top - bottom);
+    (inside && bottom <= top).then(|| Place { platform: [x, y, z], image: domain.image.point(&column, z) })
+}
+
+/// The solutions at a point of the workspace beside the one that is known.
+fn others(machine: &Machine, request: &Request, known: Point, [x, y, z]: Point) -> Others {
+    let Request { kind, tool_length, phi1, phi2, .. } = *request;
+    let found = match kind {
+        Kind::Part => part_every_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length),
+        _ => tool_every_working(machine, [x, y, z], tool_length),
+    };
+    let same = SAME * machine.derived.scale;
+    let others = found.iter().flatten().filter(|posture| {
+        let pose = &posture.pose;
+        (pose.y - known[1]).hypot(pose.z - known[2]) > same
+    });
+    let says = others.map(|posture| {
+        let table = (kind == Kind::Part).then(|| table_angles(machine, posture.pose.alpha, phi1, phi2));
+        let margins = Margins::of(machine, posture, table);
+        let in_range = margins.tilt.iter().chain(&margins.rotary).flatten().all(|margin| *margin >= 0.0);
+        match (margins.feasible(), in_range) {
+            (true, _) => Others::Feasible,
+            (false, true) => Others::Infeasible,
+            (false, false) => Others::None,
+        }
+    });
+    says.max().unwrap_or(Others::None)
+}
