@@ -3,7 +3,8 @@
 //! V = ∬ (`z_hi` - `z_lo`)(j0 + j1 (`z_hi` + `z_lo`)/2), where j0 + j1 z is the Jacobian determinant of the
 //! kind's map. The inner integral runs over the intervals of a line x = const, which are found from
 //! the domain's cover, cut where another slider begins to bind; the outer one over panels between
-//! the x at which the line's structure changes: the cover proves where it may. There the inner integral goes like a square root, which the
+//! the x at which the line's structure changes: the cover proves where it may. There the inner integral
+//! goes like a square root, which the
 //! substitution x = x0 + (x1 - x0)(3 t² - 2 t³) makes smooth.
 
 mod crossing;

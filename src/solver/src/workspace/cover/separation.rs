@@ -186,8 +186,8 @@ fn signed_distance(ranges: &Ranges<'_>, pair: [usize; 2]) -> f64 {
     (0..3).map(|i| (ends[pair[0]][i] - ends[pair[1]][i]) * normal[i]).sum::<f64>() / length
 }
 
-/// Parameters that may be those of the nearest points, and whether these are the lines': between the ends of both segments, or at an
-/// end of one where the other end's side does not come nearer.
+/// Parameters that may be those of the nearest points, and whether these are the lines': between the
+/// ends of both segments, or at an end of one where the other end's side does not come nearer.
 ///
 /// With d = a - b the lines' are at s = (d·e b² - b·e b·d) / |d × b|² and t = s + (s b·d - b·e) / b²,
 /// which stays exact where the rods are nearly parallel.

@@ -12,7 +12,7 @@ use super::crossing;
 use crate::limit::Element;
 
 /// Halvings of an interval whose integrand is not smooth.
-const DEPTH: u32 = 12;
+const DEPTH: u32 = 6;
 /// Part of the domain's area, or volume, per width, to which a line is integrated.
 const ACCURACY: f64 = 1e-9;
 

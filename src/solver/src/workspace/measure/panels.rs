@@ -17,6 +17,9 @@ const RESOLUTION: f64 = 2e-9;
 const ACCURACY: f64 = 1e-7;
 /// Halvings of a panel.
 const DEPTH: u32 = 14;
+/// Most lines that are looked at to place changes, and then to refine panels: beyond rounding, where
+/// there is always a difference, no more of them help.
+const MOST: u32 = 8_000;
 /// Errors are given larger than they are estimated.
 const SAFETY: f64 = 4.0;
 
@@ -29,9 +32,10 @@ pub(super) fn integrate(
     let Some([[x0, _], [x1, _]]) = cover.bounds() else {
         return Ok((Integral::ZERO, Extremes::default()));
     };
-    let mut outer = Outer { domain, cover: &cover, observer, extremes: Extremes::default() };
+    let mut outer = Outer { domain, cover: &cover, observer, left: MOST, extremes: Extremes::default() };
     let (ends, rough) = outer.changes([x0, x1])?;
     let mut total = Integral::ZERO;
+    outer.left = MOST;
     let scale = Scale { rough, allowed: rough.map(|r| r * ACCURACY) };
     for panel in ends.windows(2) {
         observer.progress(0.5 + 0.5 * (panel[0] - x0) / (x1 - x0));
@@ -67,6 +71,8 @@ struct Outer<'a> {
     domain: &'a Domain<'a>,
     cover: &'a Cover,
     observer: &'a dyn Observer,
+    /// Lines that may still be looked at.
+    left: u32,
     extremes: Extremes,
 }
 
@@ -102,7 +108,7 @@ impl Outer<'_> {
     }
 
     /// The x between which the structure stays the same, and rough values of the integrals.
-    fn changes(&self, [x0, x1]: [f64; 2]) -> Result<(Vec<f64>, [f64; 2]), WorkspaceError> {
+    fn changes(&mut self, [x0, x1]: [f64; 2]) -> Result<(Vec<f64>, [f64; 2]), WorkspaceError> {
         let (mut found, mut rough) = (vec![x0], [0.0; 2]);
         let mut last: Option<(f64, Structure, [f64; 2])> = None;
         for x in self.places([x0, x1]) {
@@ -125,7 +131,7 @@ impl Outer<'_> {
     }
 
     fn change(
-        &self,
+        &mut self,
         [a, b]: [f64; 2],
         [old, new]: [&Structure; 2],
         least: f64,
@@ -139,6 +145,12 @@ impl Outer<'_> {
             found.push(middle);
             return Ok(());
         }
+        if self.left == 0 {
+            // What is between must do as a panel.
+            found.extend([a, b]);
+            return Ok(());
+        }
+        self.left -= 1;
         let between = self.line(middle)?.structure();
         self.change([a, middle], [old, &between], least, found)?;
         self.change([middle, b], [&between, new], least, found)
@@ -166,7 +178,7 @@ impl Outer<'_> {
         for axis in 0..2 {
             total.error[axis] = total.error[axis].max((total.value[axis] - whole.value[axis]).abs());
         }
-        if depth == 0 || total.within(&scale.allowed.map(|allowed| allowed * (to - from))) {
+        if depth == 0 || self.left == 0 || total.within(&scale.allowed.map(|allowed| allowed * (to - from))) {
             return Ok(total);
         }
         let mut total = self.panel(panel, scale, Some(parts[0]), halves[0], depth - 1)?;
@@ -183,7 +195,9 @@ impl Outer<'_> {
     ) -> Result<Integral<2>, WorkspaceError> {
         let width = panel[1] - panel[0];
         let mut extremes = self.extremes;
+        let mut count = 0;
         let whole = rule(part, |t| {
+            count += 1;
             let x = panel[0] + width * t * t * (3.0 - 2.0 * t);
             let weight = width * 6.0 * t * (1.0 - t);
             let mut part = self.line(x)?.integrals(&scale.rough.map(|r| r / width), &mut extremes);
@@ -192,6 +206,7 @@ impl Outer<'_> {
             Ok(part)
         })?;
         self.extremes = extremes;
+        self.left = self.left.saturating_sub(count);
         Ok(whole)
     }
 }
