@@ -67,7 +67,7 @@ fn errors_name_the_flag() {
 /// `--help` shows in its line of usage what a command demands.
 #[test]
 fn what_the_line_of_usage_shows_is_enough() {
-    for command in ["fk", "key new", "workspace", "openapi"] {
+    for command in ["fk", "ik", "key new", "workspace", "openapi"] {
         let help = verne(&format!("{command} --help")).unwrap_err();
         let usage = help.lines().find_map(|line| line.strip_prefix("Usage: verne ")).unwrap();
         let line = usage
