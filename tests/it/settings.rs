@@ -28,6 +28,8 @@ fn a_file_gives_what_flags_do_not() {
             "wait = 4 # flag --wait",
             "memory_only = true # file ",
             "drain = 10 # default",
+            "listen = \"localhost:8080\" # default",
+            "base_path = \"\" # default",
         ] {
             assert!(printed.lines().any(|found| found.starts_with(line)), "{line}: {printed}");
         }
@@ -66,6 +68,9 @@ fn what_makes_no_sense_is_refused_at_once() {
         ("tls_key = 'key.pem'", "tls_key needs tls_certificate"),
         ("cors_origin = ['*', 'example.org']", "cors_origin: invalid value 'example.org'"),
         ("listen = 'nowhere'", "listen: invalid value 'nowhere'"),
+        ("allowed_host = ['verne:8080']", "allowed_host: invalid value 'verne:8080'"),
+        ("base_path = 'verne'", "base_path: invalid value 'verne'"),
+        ("trusted_proxy = '10.0.0.0/99'", "trusted_proxy: invalid value '10.0.0.0/99'"),
         ("listening = '127.0.0.1:80'", "listening: no setting has this name; did you mean listen?"),
         ("memory_only = true\ndata = '/somewhere'", "data and memory_only exclude each other"),
         ("rate_burst = 5", "rate_burst needs rate"),

@@ -5,6 +5,8 @@ mod gate;
 mod key;
 mod keys;
 mod keys_file;
+mod pages;
+mod proxies;
 mod rate;
 mod role;
 
@@ -13,4 +15,5 @@ pub(crate) use gate::{Access, Gate};
 pub(crate) use key::Key;
 pub(crate) use keys_file::BadKeys;
 pub(crate) use keys_file::is_name;
+pub(crate) use proxies::client_behind;
 pub(crate) use role::Role;

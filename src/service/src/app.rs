@@ -1,7 +1,6 @@
 //! Puts the service together, and runs it until it is told to stop.
 
 use std::fmt;
-use std::net::SocketAddr;
 use std::pin::pin;
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,7 +14,8 @@ use utoipa_swagger_ui::{Config, SwaggerUi};
 use crate::access::{BadKeys, Gate};
 use crate::admission::Admission;
 use crate::browsers::Browsers;
-use crate::config::ServeConfig;
+use crate::config::{Listen, ServeConfig};
+use crate::handlers::service;
 use crate::metrics::Metrics;
 use crate::readiness::Readiness;
 use crate::registry::{BadFile, Registry};
@@ -24,7 +24,7 @@ use crate::signals::{outlive_hangups, told_to_stop};
 use crate::state::{Shared, State};
 use crate::storage::{Storage, StorageError};
 use crate::workers::spare_a_core;
-use crate::{browsers, layers, openapi, router, viewer};
+use crate::{browsers, layers, openapi, published, router, viewer};
 
 /// Why the service cannot run.
 #[derive(Debug)]
@@ -38,7 +38,7 @@ pub enum StartError {
     /// The certificate.
     Tls(TlsError),
     /// The address.
-    Listen(SocketAddr, std::io::Error),
+    Listen(Listen, std::io::Error),
 }
 
 impl fmt::Display for StartError {
@@ -93,17 +93,31 @@ impl Service {
         if let Some(runs) = runs {
             metrics.tell_of_seats(move || runs.seats());
         }
-        let requests = Arc::clone(&metrics.requests);
+        let (requests, base) = (Arc::clone(&metrics.requests), &config.base_path);
         let limits = config.limits();
-        let state =
-            Arc::new(State { machines, limits, admission, results, jobs, readiness, metrics, stopping });
-        let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
+        let state = Arc::new(State {
+            machines,
+            limits,
+            admission,
+            results,
+            jobs,
+            readiness,
+            metrics,
+            base: base.clone(),
+            document: service::document(base),
+            stopping,
+        });
+        let document = format!("{base}/openapi.json");
+        let docs = SwaggerUi::new("/docs").config(Config::new([document]).validator_url("none"));
         let docs = browsers::pages(docs.into(), browsers::DOCS);
-        let pages = gate.before_pages(docs.merge(viewer::routes()));
+        let pages = gate.before_pages(published::with_page(docs.merge(viewer::routes()), base));
         let routes = routes.with_state(Arc::clone(&state)).merge(pages);
         let browsers = Browsers::of(config);
         let wrapped = |routes| {
-            layers::wrap(routes, Arc::clone(&requests), Duration::from_secs(config.timeout), &browsers)
+            let (requests, proxies) = (Arc::clone(&requests), config.trusted_proxy.clone());
+            let wrapped =
+                layers::wrap(routes, requests, Duration::from_secs(config.timeout), &browsers, proxies);
+            published::under(wrapped, base)
         };
         let probes = wrapped(router::probes(&gate).with_state(Arc::clone(&state)));
         Ok(Self { router: wrapped(routes), probes, state, gate })
@@ -123,22 +137,22 @@ impl Service {
 
 /// Serves until SIGTERM or ctrl-c.
 pub async fn serve(config: &ServeConfig) -> Result<(), StartError> {
-    let listener = TcpListener::bind(config.listen).await;
-    let listener = listener.map_err(|error| StartError::Listen(config.listen, error))?;
-    serve_on(listener, config, told_to_stop()).await
+    let listeners = config.listen.bind().await;
+    let listeners = listeners.map_err(|error| StartError::Listen(config.listen, error))?;
+    serve_on(listeners, config, told_to_stop()).await
 }
 
-/// Serves until `told` is over, which may be before the service is open. Then requests under way are finished and jobs go back to the queue, all within a bounded
-/// time.
+/// Serves on one or two listeners until `told` is over, which may be before the service is open. Then requests under
+/// way are finished and jobs go back to the queue, all within a bounded time.
 pub async fn serve_on(
-    listener: TcpListener,
+    listeners: Vec<TcpListener>,
     config: &ServeConfig,
     told: impl Future<Output = ()>,
 ) -> Result<(), StartError> {
     let mut told = pin!(told);
     let hangups = pin!(outlive_hangups(config.keys.is_some()));
     spare_a_core();
-    let server = Server::new(listener, &Terms::from(config)).map_err(StartError::Tls)?;
+    let server = Server::new(listeners, &Terms::from(config)).map_err(StartError::Tls)?;
     let service = tokio::select! {
         service = Service::open(config) => service?,
         // The broker may be waited for.

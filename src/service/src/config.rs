@@ -7,11 +7,12 @@ mod checks;
 mod effective;
 mod file;
 mod layered;
+mod listen;
 mod origin;
+mod proxy;
 pub mod sharing;
 pub mod worker;
 
-use std::net::SocketAddr;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -20,7 +21,9 @@ use clap::builder::{BoolishValueParser, RangedU64ValueParser};
 use clap::{Args, value_parser};
 
 pub(crate) use layered::read;
+pub use listen::Listen;
 pub use origin::Origin;
+pub use proxy::{BasePath, HostName, ProxyNetwork};
 use sharing::{BrokerConfig, StoreConfig};
 
 use crate::state::RequestLimits;
@@ -47,9 +50,22 @@ pub struct ServeConfig {
     /// The file of settings.
     #[command(flatten)]
     pub file: SettingsFile,
-    /// Address to listen on.
-    #[arg(long, env = "VERNE_LISTEN", default_value = "127.0.0.1:8080")]
-    pub listen: SocketAddr,
+    /// Address and port to listen on; `localhost:PORT` means 127.0.0.1 and ::1.
+    #[arg(long, env = "VERNE_LISTEN", default_value = "localhost:8080", value_name = "ADDRESS:PORT")]
+    pub listen: Listen,
+    /// Host names, with commas between them, by which clients may address the service, beside localhost and addresses;
+    /// `*` for any. By default any name where others can reach --listen, and none beside localhost where only this
+    /// machine can.
+    #[arg(long, env = "VERNE_ALLOWED_HOST", value_delimiter = ',', value_name = "NAME")]
+    pub allowed_host: Vec<HostName>,
+    /// Path under which a proxy publishes the service, such as /verne: links begin with it. The proxy may remove it
+    /// from the requests or not.
+    #[arg(long, env = "VERNE_BASE_PATH", default_value_t, value_name = "PATH")]
+    pub base_path: BasePath,
+    /// Networks of proxies, with commas between them, such as 10.0.0.0/8: for what comes from there the client is the
+    /// last address in X-Forwarded-For that is in none of them.
+    #[arg(long, env = "VERNE_TRUSTED_PROXY", value_delimiter = ',', value_name = "NETWORK")]
+    pub trusted_proxy: Vec<ProxyNetwork>,
     /// Most open connections, an address at most half of them; on more, only probes are answered. Each is an open file.
     #[arg(long, env = "VERNE_MAX_CONNECTIONS", default_value_t = 10_000, value_name = "CONNECTIONS",
         value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
@@ -120,8 +136,8 @@ pub struct ServeConfig {
     /// Read again at SIGHUP.
     #[arg(long, env = "VERNE_KEYS", value_name = "FILE")]
     pub keys: Option<PathBuf>,
-    /// Requests a second that a key, or where none is asked for an address, may send; 0 for any number. Behind a proxy all come from
-    /// the proxy's address: limit them there, or by keys.
+    /// Requests a second that a key, or where no known key is sent an address, may send; 0 for any number. Behind a
+    /// proxy that --trusted-proxy does not name all come from the proxy's address.
     #[arg(long, env = "VERNE_RATE", default_value_t = 0, value_name = "REQUESTS")]
     pub rate: u32,
     /// Requests that may come at once where --rate limits them; by default a second's.

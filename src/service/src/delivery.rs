@@ -7,7 +7,7 @@ use axum::body::Body;
 use axum::extract::FromRequestParts;
 use axum::http::header::{
     ACCEPT_RANGES, CACHE_CONTROL, CONTENT_DISPOSITION, CONTENT_LENGTH, CONTENT_LOCATION, CONTENT_RANGE,
-    CONTENT_TYPE, ETAG, VARY,
+    CONTENT_TYPE, ETAG, IF_RANGE, RANGE, VARY,
 };
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode};
@@ -37,10 +37,14 @@ impl<S: Sync> FromRequestParts<S> for Conditions {
         if ![Method::GET, Method::HEAD].contains(&parts.method) {
             return Ok(Self::default());
         }
-        let range = parts.headers.get(axum::http::header::RANGE).filter(|_| parts.method == Method::GET);
+        let if_range = parts.headers.typed_get();
+        // A condition that cannot be read is not fulfilled: all is sent.
+        let is_unreadable = if_range.is_none() && parts.headers.contains_key(IF_RANGE);
+        let may_be_part = parts.method == Method::GET && !is_unreadable;
+        let range = parts.headers.get(RANGE).filter(|_| may_be_part);
         Ok(Self {
             if_none_match: parts.headers.typed_get(),
-            if_range: parts.headers.typed_get(),
+            if_range,
             range: range.and_then(|range| range.to_str().ok()).map(str::to_owned),
         })
     }

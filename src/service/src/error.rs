@@ -47,6 +47,16 @@ pub(crate) enum Error {
     Unauthorized,
     /// The key does not suffice; this role would.
     Forbidden(Role),
+    /// A page of an origin that is not allowed to starts work.
+    OtherOrigin,
+    /// The service does not have this name.
+    HostNotAllowed(String),
+    /// The head of the request is not as HTTP has it.
+    BadHead(&'static str),
+    /// The request's address has more bytes than this.
+    UriTooLong(usize),
+    /// There are too many headers, or they have too many bytes.
+    HeadersTooLarge,
     /// The client asks too fast; after so many seconds it may again.
     TooManyRequests(u64),
     /// As much is worked on as may be.
@@ -123,6 +133,21 @@ impl fmt::Display for Error {
                 write!(f, "Send a key that is known here: the header Authorization: Bearer KEY.")
             }
             Self::Forbidden(role) => write!(f, "This takes a key whose role is {role}."),
+            Self::OtherOrigin => write!(
+                f,
+                "A page of another origin may not start work here. The operator of the service can allow its origin: \
+                 --cors-origin."
+            ),
+            Self::HostNotAllowed(host) => write!(
+                f,
+                "The service does not answer to the name {host:?} in Host. The operator of the service can allow it: \
+                 --allowed-host {host}."
+            ),
+            Self::BadHead(reason) => write!(f, "{reason}"),
+            Self::UriTooLong(limit) => write!(f, "The address has more than the {limit} bytes allowed here."),
+            Self::HeadersTooLarge => {
+                write!(f, "The request's head has more than the 32 KiB or the 100 headers allowed here.")
+            }
             Self::TooManyRequests(seconds) => {
                 write!(f, "More requests came than this client may send; the next in {seconds} s.")
             }

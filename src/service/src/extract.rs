@@ -1,6 +1,6 @@
 //! Reads queries and bodies; every failure is an [`Error`].
 
-use axum::body::{Body, Bytes, to_bytes};
+use axum::body::{Body, Bytes, HttpBody, to_bytes};
 use axum::extract::{FromRequest, FromRequestParts, Request};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, header};
@@ -92,6 +92,7 @@ impl FromRequest<Shared> for Batch {
 async fn json_bytes(request: Request, limit: usize) -> Result<Bytes, Error> {
     require_json(request.headers())?;
     let coding = Coding::of(request.headers())?;
+    require_within(request.body(), limit)?;
     let body =
         to_bytes(request.into_body(), limit).await.map_err(|error| lost(&*error.into_inner(), limit))?;
     match coding {
@@ -102,6 +103,7 @@ async fn json_bytes(request: Request, limit: usize) -> Result<Bytes, Error> {
 
 /// A body whose memory is counted as it comes.
 async fn counted_bytes(body: Body, limit: usize, memory: &mut Memory) -> Result<Vec<u8>, Error> {
+    require_within(&body, limit)?;
     let mut body = Limited::new(body, limit);
     let mut bytes = Vec::new();
     while let Some(frame) = body.frame().await {
@@ -111,6 +113,16 @@ async fn counted_bytes(body: Body, limit: usize, memory: &mut Memory) -> Result<
         }
     }
     Ok(bytes)
+}
+
+/// Refuses a length that is declared and too large. The client is not asked for such a body by `100 Continue`.
+fn require_within(body: &Body, limit: usize) -> Result<(), Error> {
+    let declared = HttpBody::size_hint(body).lower();
+    if usize::try_from(declared).is_ok_and(|bytes| bytes <= limit) {
+        Ok(())
+    } else {
+        Err(Error::BodyTooLarge(limit))
+    }
 }
 
 fn lost(cause: &(dyn std::error::Error + 'static), limit: usize) -> Error {

@@ -16,9 +16,11 @@ use tower_http::compression::predicate::{DefaultPredicate, Predicate};
 use tower_http::request_id::{MakeRequestUuid, PropagateRequestIdLayer, SetRequestIdLayer};
 use tower_http::timeout::TimeoutLayer;
 
+use crate::access::client_behind;
 use crate::browsers::Browsers;
+use crate::config::ProxyNetwork;
 use crate::metrics::Requests;
-use crate::observe::{observe, without_long_id};
+use crate::observe::{Observer, observe, without_long_id};
 use crate::problem::give_every_failure_a_document;
 
 /// Wraps the routes; the first layer here is the outermost. One stack: each call of `Router::layer` would box every
@@ -28,12 +30,14 @@ pub(crate) fn wrap(
     requests: Arc<Requests>,
     time_limit: Duration,
     browsers: &Browsers,
+    proxies: Vec<ProxyNetwork>,
 ) -> Router {
     routes.layer(
         ServiceBuilder::new()
+            .map_request(client_behind(proxies))
             .map_request(without_long_id)
             .layer(SetRequestIdLayer::x_request_id(MakeRequestUuid))
-            .layer(from_fn_with_state(requests, observe))
+            .layer(from_fn_with_state(Observer::new(requests), observe))
             .layer(PropagateRequestIdLayer::x_request_id())
             .option_layer(browsers.cors())
             .map_response(browsers.protect())

@@ -14,6 +14,7 @@ use tracing::{Instrument, Span, debug, error, field, info, info_span};
 use tracing_opentelemetry::OpenTelemetrySpanExt;
 
 use crate::metrics::Requests;
+use crate::refusals::Refusals;
 
 /// Paths that are no route of the API: the viewer's files, and what does not exist.
 const ELSEWHERE: &str = "other";
@@ -24,8 +25,33 @@ const ID: &str = "x-request-id";
 /// Most bytes of what a client sends that are repeated in the log.
 const LONGEST: usize = 128;
 
+/// Where what is observed goes.
+#[derive(Clone)]
+pub(crate) struct Observer {
+    requests: Arc<Requests>,
+    /// Whose key is not known.
+    unknown: Arc<Refusals>,
+    /// Who may not what was asked for, or not from where.
+    forbidden: Arc<Refusals>,
+}
+
+impl Observer {
+    /// Counts requests.
+    pub(crate) fn new(requests: Arc<Requests>) -> Self {
+        Self { requests, unknown: Arc::default(), forbidden: Arc::default() }
+    }
+
+    /// Whether an answer with this status has a line in the log that its sender was refused.
+    fn tells(&self, status: StatusCode) -> bool {
+        match status {
+            StatusCode::UNAUTHORIZED => self.unknown.has_line(status.as_u16()),
+            _ => self.forbidden.has_line(status.as_u16()),
+        }
+    }
+}
+
 /// Observes a request until the head of its answer is there.
-pub(crate) async fn observe(State(requests): State<Arc<Requests>>, request: Request, next: Next) -> Response {
+pub(crate) async fn observe(State(observer): State<Observer>, request: Request, next: Next) -> Response {
     let route = request.extensions().get::<MatchedPath>().map(|path| path.as_str().to_owned());
     let route = route.unwrap_or_else(|| ELSEWHERE.to_owned());
     let method = request.method().clone();
@@ -42,7 +68,7 @@ pub(crate) async fn observe(State(requests): State<Arc<Requests>>, request: Requ
         http.response.status_code = field::Empty,
     );
     continued(&span, request.headers());
-    let answering = requests.begin(&method, route);
+    let answering = observer.requests.begin(&method, route);
     let began = Instant::now();
     let response = next.run(request).instrument(span.clone()).await;
     let (status, latency) = (response.status(), began.elapsed());
@@ -50,7 +76,9 @@ pub(crate) async fn observe(State(requests): State<Arc<Requests>>, request: Requ
     span.record("http.response.status_code", status.as_u16());
     span.in_scope(|| {
         match status {
-            StatusCode::UNAUTHORIZED | StatusCode::FORBIDDEN => {
+            StatusCode::UNAUTHORIZED | StatusCode::FORBIDDEN | StatusCode::MISDIRECTED_REQUEST
+                if observer.tells(status) =>
+            {
                 info!(status = status.as_u16(), ?latency, "refused");
             }
             // Refusing for want of room is no failure, and must not be slowed down by telling of it: the metrics do.
@@ -108,17 +136,36 @@ mod tests {
     use crate::config::ServeConfig;
     use crate::telemetry::logged::Logged;
 
-    #[tokio::test]
-    async fn a_refusal_tells_who_was_refused_and_no_secret() {
-        let (known, unknown) = (Key::fresh().unwrap(), Key::fresh().unwrap());
+    /// A service with one key, which may read, and the key.
+    async fn service() -> (Service, Key) {
+        let key = Key::fresh().unwrap();
         let place = TempDir::new().unwrap();
         let keys = place.path().join("keys.toml");
-        let entry = format!("[[key]]\nname = 'ada'\nrole = 'read'\nhash = '{}'\n", known.hash());
+        let entry = format!("[[key]]\nname = 'ada'\nrole = 'read'\nhash = '{}'\n", key.hash());
         std::fs::write(&keys, entry).unwrap();
         let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
         let config = ServeConfig::from_arg_matches(&command.get_matches_from(["--memory-only"])).unwrap();
-        let service = Service::open(&ServeConfig { keys: Some(keys), ..config }).await.unwrap();
+        (Service::open(&ServeConfig { keys: Some(keys), ..config }).await.unwrap(), key)
+    }
 
+    #[tokio::test]
+    async fn a_flood_of_refusals_is_a_few_lines() {
+        let (service, known) = service().await;
+        let logged = Logged::begin();
+        for _ in 0..200 {
+            let request = Request::get("/machines").body(Body::empty()).unwrap();
+            assert_eq!(service.router.clone().oneshot(request).await.unwrap().status(), 401);
+        }
+        assert_eq!(logged.text().lines().count(), 10);
+        // They hide no other refusal.
+        let request = Request::get("/workspace").header(AUTHORIZATION, format!("Bearer {known}"));
+        service.router.oneshot(request.body(Body::empty()).unwrap()).await.unwrap();
+        assert_eq!(logged.text().lines().count(), 11);
+    }
+
+    #[tokio::test]
+    async fn a_refusal_tells_who_was_refused_and_no_secret() {
+        let ((service, known), unknown) = (service().await, Key::fresh().unwrap());
         let peer: SocketAddr = "10.0.0.7:4000".parse().unwrap();
         for (key, path, refused) in [
             (&unknown, "/machines", Some(("10.0.0.7", 401))),

@@ -1,7 +1,7 @@
 //! The one list of routes: the router and the OpenAPI document are both made from it.
 
 use axum::Router;
-use axum::routing::get;
+use axum::routing::{any, get};
 use utoipa::OpenApi;
 use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouter};
 use utoipa_axum::routes;
@@ -57,7 +57,9 @@ pub(crate) fn probes(gate: &Gate) -> Router<Shared> {
 /// Every route behind the gate, with its documentation.
 pub(crate) fn routes(gate: &Gate) -> OpenApiRouter<Shared> {
     let document = problems::with_codes(access::with_scheme(Document::openapi()));
-    let router = OpenApiRouter::with_openapi(document).fallback(service::nothing_here);
+    // Unknown paths count as requests, too.
+    let nothing = gate.before(any(service::nothing_here), Open);
+    let router = OpenApiRouter::with_openapi(document).fallback(nothing);
     list().into_iter().fold(router, |router, (access, (schemas, paths, route))| {
         let route = gate.before(only_known(route, &paths), access);
         router.routes((schemas, access::documented(paths, access), route))

@@ -1,15 +1,20 @@
 //! The listener: connections are accepted within bounds, served, and brought to an end.
 
 mod connection;
+mod exchange;
 mod exposure;
 mod files;
+mod half_closed;
+mod head;
 mod outgoing;
 mod patience;
 mod places;
+mod refusal;
 mod terms;
 mod tls;
 
 pub(crate) use exposure::warn_of_probes;
+pub(crate) use head::Unreadable;
 pub(crate) use terms::Terms;
 pub(crate) use tls::TlsError;
 
@@ -37,7 +42,7 @@ const SELDOM: Duration = Duration::from_secs(10);
 
 /// A listener that is ready to serve.
 pub(crate) struct Server {
-    listener: TcpListener,
+    listeners: Listeners,
     places: Arc<Places>,
     /// For what must be answered when all places are taken.
     spare: Arc<Places>,
@@ -47,22 +52,25 @@ pub(crate) struct Server {
 
 impl Server {
     /// Reads the certificate, where there is one.
-    pub(crate) fn new(listener: TcpListener, terms: &Terms) -> Result<Self, TlsError> {
+    pub(crate) fn new(listeners: Vec<TcpListener>, terms: &Terms) -> Result<Self, TlsError> {
         let tls = match &terms.tls {
             Some([certificate, key]) => Some(Arc::new(Tls::read(certificate, key)?)),
             None => None,
         };
-        let places = Places::new(files::room_for(terms.connections));
+        let places = Places::new(files::room_for(terms.connections), terms.proxies.clone());
+        let spare = Places::new(SPARE, terms.proxies.clone());
         let bounds = Bounds { header: terms.header, stall: terms.stall };
-        Ok(Self { listener, places, spare: Places::new(SPARE), bounds, tls })
+        Ok(Self { listeners: Listeners(listeners), places, spare, bounds, tls })
     }
 
     /// Says where it listens, and what is open to others.
     pub(crate) fn announce(&self, has_keys: bool) -> io::Result<()> {
-        let address = self.listener.local_addr()?;
         let scheme = if self.tls.is_some() { "https" } else { "http" };
-        tracing::info!("listening on {scheme}://{address}");
-        exposure::warn_if_open(address.ip(), has_keys, self.tls.is_some());
+        for listener in &self.listeners.0 {
+            let address = listener.local_addr()?;
+            tracing::info!("listening on {scheme}://{address}");
+            exposure::warn_if_open(address.ip(), has_keys, self.tls.is_some());
+        }
         Ok(())
     }
 
@@ -84,7 +92,7 @@ impl Server {
         let mut refusals = Refusals::default();
         connections.limit(self.places.count());
         let reloading = tokio::spawn(cut.clone().run_until_cancelled_owned(tls::keep_fresh(self.tls)));
-        while let Some((stream, peer)) = next(&self.listener, stopping).await {
+        while let Some((stream, peer)) = self.listeners.next(stopping).await {
             let (attendant, place, counted) = match self.places.take(peer.ip()) {
                 Ok(place) => (&usual, place, Some(connections.open())),
                 Err(full) => {
@@ -98,7 +106,7 @@ impl Server {
             let attended = cut.clone().run_until_cancelled_owned(attended);
             tokio::spawn(attended.map(|_| drop((open, counted))));
         }
-        drop(self.listener);
+        drop(self.listeners);
         if tokio::time::timeout(limit, open.closed()).await.is_err() {
             tracing::info!("connections that are still open are cut");
         }
@@ -107,17 +115,34 @@ impl Server {
     }
 }
 
-/// The next connection; nothing when the service is to stop. No error of one connection, or of the moment, ends the
-/// listener.
-async fn next(listener: &TcpListener, stopping: &CancellationToken) -> Option<(TcpStream, SocketAddr)> {
-    loop {
-        match stopping.run_until_cancelled(listener.accept()).await? {
-            Ok(accepted) => return Some(accepted),
-            Err(error) if is_of_one_connection(&error) => {}
-            Err(error) => {
-                tracing::error!(%error, "no connection can be accepted now");
-                stopping.run_until_cancelled(tokio::time::sleep(BREATH)).await?;
+/// One or two addresses on which the service listens.
+struct Listeners(Vec<TcpListener>);
+
+impl Listeners {
+    /// The next connection; nothing when the service is to stop. No error of one connection, or of the moment, ends the
+    /// listeners.
+    async fn next(&self, stopping: &CancellationToken) -> Option<(TcpStream, SocketAddr)> {
+        loop {
+            match stopping.run_until_cancelled(self.accept()).await? {
+                Ok(accepted) => return Some(accepted),
+                Err(error) if is_of_one_connection(&error) => {}
+                Err(error) => {
+                    tracing::error!(%error, "no connection can be accepted now");
+                    stopping.run_until_cancelled(tokio::time::sleep(BREATH)).await?;
+                }
             }
+        }
+    }
+
+    /// A connection to one of them, whichever it is.
+    async fn accept(&self) -> io::Result<(TcpStream, SocketAddr)> {
+        let on = async |listener: Option<&TcpListener>| match listener {
+            Some(listener) => listener.accept().await,
+            None => std::future::pending().await,
+        };
+        tokio::select! {
+            accepted = on(self.0.first()) => accepted,
+            accepted = on(self.0.get(1)) => accepted,
         }
     }
 }

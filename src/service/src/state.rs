@@ -7,6 +7,8 @@ use tokio_util::sync::CancellationToken;
 use verne_jobs::Backend;
 
 use crate::admission::Admission;
+use crate::config::BasePath;
+use crate::fixed::Fixed;
 use crate::metrics::Metrics;
 use crate::readiness::Readiness;
 use crate::registry::Registry;
@@ -45,6 +47,10 @@ pub(crate) struct State {
     pub readiness: Readiness,
     /// What is measured.
     pub metrics: Metrics,
+    /// The path under which the service is published.
+    pub base: BasePath,
+    /// The OpenAPI document.
+    pub document: Fixed,
     /// Cancelled when the service is told to stop.
     pub stopping: CancellationToken,
 }

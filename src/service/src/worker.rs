@@ -16,6 +16,7 @@ use verne_jobs::jetstream::{Worker, WorkerConfig as Threads};
 
 use crate::app::StartError;
 use crate::browsers::Browsers;
+use crate::config::Listen;
 use crate::config::worker::WorkerConfig;
 use crate::handlers::service;
 use crate::layers;
@@ -61,7 +62,7 @@ pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
     let serving = match config.listen {
         Some(address) => {
             let listener = TcpListener::bind(address).await;
-            let listener = listener.map_err(|error| StartError::Listen(address, error))?;
+            let listener = listener.map_err(|error| StartError::Listen(Listen::Address(address), error))?;
             tracing::info!("probes and metrics on http://{address}");
             warn_of_probes(address.ip());
             Some(serve(listener, &Terms::of_probes(), probed, stopping.clone(), limit)?)
@@ -100,8 +101,8 @@ fn serve(
         .route("/metrics", get(|State(probed): State<Arc<Probed>>| async move { probed.metrics.answer() }))
         .fallback(service::nothing_here)
         .with_state(probed);
-    let router = layers::wrap(routes, requests, terms.stall, &Browsers::default());
-    let server = Server::new(listener, terms).map_err(StartError::Tls)?;
+    let router = layers::wrap(routes, requests, terms.stall, &Browsers::default(), Vec::new());
+    let server = Server::new(vec![listener], terms).map_err(StartError::Tls)?;
     // Where there are only probes, those that come when all connections are taken are answered the same.
     Ok(tokio::spawn(async move {
         server.serve(router.clone(), router, connections, &stopping, limit).await;

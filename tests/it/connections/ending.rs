@@ -17,7 +17,7 @@ async fn idle_connections_are_closed_and_requests_under_way_are_finished() {
     let (first, second) = body.split_at(10);
     let length = body.len();
     let head = format!(
-        "POST /fk HTTP/1.1\r\nHost: verne\r\nContent-Type: application/json\r\nContent-Length: {length}"
+        "POST /fk HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: {length}"
     );
     busy.write_all(format!("{head}\r\nExpect: 100-continue\r\n\r\n").as_bytes()).await.unwrap();
     // That it asks for the body shows that the request is under way.

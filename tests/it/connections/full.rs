@@ -8,7 +8,7 @@ use super::{Served, asked, in_time, rest, serve};
 /// The answer to a request for this path on a connection of its own, until its end.
 async fn answer(served: &Served, path: &str) -> String {
     let mut stream = served.connect().await;
-    stream.write_all(format!("GET {path} HTTP/1.1\r\nHost: verne\r\n\r\n").as_bytes()).await.unwrap();
+    stream.write_all(format!("GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n").as_bytes()).await.unwrap();
     rest(&mut stream).await
 }
 

@@ -12,7 +12,7 @@ use super::{asked, in_time, rest, serve};
 const BEGINNINGS: [&[u8]; 5] = [
     b"",
     b"GET /liv",
-    b"GET /livez HTTP/1.1\r\nHost: verne\r\nx-slow: ",
+    b"GET /livez HTTP/1.1\r\nHost: localhost\r\nx-slow: ",
     b"PRI * HTTP/2.0\r\n",
     b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n\0\0\0\x04\0\0\0\0\0",
 ];
@@ -77,8 +77,7 @@ async fn a_connection_over_http2_that_is_not_used_again_is_closed() {
 async fn a_body_that_does_not_come_is_given_up() {
     let served = serve("--timeout 1").await;
     let mut stream = served.connect().await;
-    let head =
-        "POST /fk HTTP/1.1\r\nHost: verne\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n{";
+    let head = "POST /fk HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n{";
     stream.write_all(head.as_bytes()).await.unwrap();
     let answer = rest(&mut stream).await;
     assert!(answer.starts_with("HTTP/1.1 503 ") && answer.contains("timed_out"), "{answer}");
@@ -90,7 +89,7 @@ async fn who_takes_no_answer_is_cut() {
     let served = serve("--timeout 1").await;
     let mut stream = served.connect().await;
     // Questions without end, none of whose answers is read: that writing fails shows the end of it.
-    let question = "GET /docs/swagger-ui-bundle.js HTTP/1.1\r\nHost: verne\r\n\r\n";
+    let question = "GET /docs/swagger-ui-bundle.js HTTP/1.1\r\nHost: localhost\r\n\r\n";
     in_time(async { while stream.write_all(question.as_bytes()).await.is_ok() {} }).await;
     assert!(asked(&mut served.connect().await).await);
     served.end().await;

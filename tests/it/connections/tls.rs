@@ -67,6 +67,17 @@ async fn both_versions_are_spoken() {
 }
 
 #[tokio::test]
+async fn who_closes_its_direction_is_answered() {
+    let (served, connect) = secured("").await;
+    let mut stream = connect(&["http/1.1"]).await;
+    stream.write_all(b"GET /workspace?tolerance=20 HTTP/1.1\r\nHost: localhost\r\n\r\n").await.unwrap();
+    stream.shutdown().await.unwrap();
+    let answer = rest(&mut stream).await.replace("HTTP/1.1 100 Continue\r\n\r\n", "");
+    assert!(answer.starts_with("HTTP/1.1 200 OK"), "{answer}");
+    served.end().await;
+}
+
+#[tokio::test]
 async fn who_does_not_shake_hands_or_say_anything_after_is_cut() {
     let (served, connect) = secured("--header-timeout 1").await;
     let mut silent = served.connect().await;

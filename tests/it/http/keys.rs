@@ -1,12 +1,16 @@
 //! API keys: what takes one, and what each role is good for.
 
+use std::time::Duration;
+
 use axum::Router;
 use axum::body::Body;
 use axum::http::header::{AUTHORIZATION, CACHE_CONTROL, WWW_AUTHENTICATE};
 use axum::http::{HeaderValue, Method, Request, StatusCode};
 use clap::Parser;
+use http_body_util::BodyExt;
 use serde_json::{Value, json};
 use tempfile::TempDir;
+use tower::ServiceExt;
 use verne_service::app::Service;
 use verne_service::cli::Cli;
 use verne_service::config::ServeConfig;
@@ -240,4 +244,46 @@ async fn keys_are_read_again() {
     keys.write(&fresh("other", "read").1);
     service.reload_keys().await.unwrap();
     assert_eq!(status().await, StatusCode::UNAUTHORIZED);
+}
+
+#[tokio::test]
+async fn the_events_of_a_key_that_is_removed_end() {
+    let keys = Keys::new([("cam", "compute"), ("cad", "admin")]);
+    let service = Service::open(&keys.asked_for_by(one_core())).await.unwrap();
+    let id = keys.start(&service.router, 0, &long(0)).await;
+    let mut streams = Vec::new();
+    for number in [0, 1] {
+        let events = Request::get(format!("/jobs/{id}/events")).body(Body::empty()).unwrap();
+        let answer = service.router.clone().oneshot(keys.sent(number, events)).await.unwrap();
+        assert_eq!(answer.status(), StatusCode::OK);
+        streams.push(answer.into_body());
+    }
+    let text = std::fs::read_to_string(keys.file()).unwrap();
+    let (removed, kept) = text.split_once("\n\n").unwrap();
+    keys.write(kept);
+    service.reload_keys().await.unwrap();
+    let [gone, stays] = streams.try_into().unwrap();
+    // It would go on for minutes.
+    let told =
+        tokio::time::timeout(Duration::from_secs(30), gone.collect()).await.unwrap().unwrap().to_bytes();
+    assert!(!String::from_utf8_lossy(&told).contains("succeeded"));
+    keys.write(&format!("{removed}\n\n{kept}"));
+    service.reload_keys().await.unwrap();
+    keys.delete(&service.router, 1, &format!("/jobs/{id}")).await;
+    let last = stays.collect().await.unwrap().to_bytes();
+    assert!(String::from_utf8_lossy(&last).contains("\"state\":\"cancelled\""));
+}
+
+#[tokio::test]
+async fn the_events_of_a_key_with_another_role_end() {
+    let keys = Keys::new([("cam", "compute")]);
+    let service = Service::open(&keys.asked_for_by(one_core())).await.unwrap();
+    let id = keys.start(&service.router, 0, &long(0)).await;
+    let events = Request::get(format!("/jobs/{id}/events")).body(Body::empty()).unwrap();
+    let answer = service.router.clone().oneshot(keys.sent(0, events)).await.unwrap();
+    let text = std::fs::read_to_string(keys.file()).unwrap();
+    keys.write(&text.replace("compute", "read"));
+    service.reload_keys().await.unwrap();
+    let ended = tokio::time::timeout(Duration::from_secs(30), answer.into_body().collect()).await;
+    assert!(ended.is_ok());
 }

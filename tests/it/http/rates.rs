@@ -76,3 +76,29 @@ async fn a_key_has_its_own_rate_wherever_it_is_used() {
     let request = Request::get("/machines").header("authorization", format!("Bearer {unknown}"));
     send_to(service, request.body(Body::empty()).unwrap()).await.assert_problem(401, "unauthorized");
 }
+
+#[tokio::test]
+async fn unknown_paths_and_unknown_keys_count_as_requests() {
+    let keys = Keys::new([("cam", "read")]);
+    let burst = NonZeroU32::new(3);
+    let service = opened(&ServeConfig { rate: 1, rate_burst: burst, ..config(None) }).await;
+    let unknown = async || match from(&service, "10.0.0.1:1", "/nowhere").await {
+        reply if reply.status == StatusCode::NOT_FOUND => Reply { status: StatusCode::OK, ..reply },
+        reply => reply,
+    };
+    assert!(until_refused(unknown).await < 1000);
+
+    let service =
+        opened(&keys.asked_for_by(ServeConfig { rate: 1, rate_burst: burst, ..config(None) })).await;
+    for uri in ["/machines", "/metrics"] {
+        let unknown = async || match from(&service, "10.0.0.1:1", uri).await {
+            reply if reply.status == StatusCode::UNAUTHORIZED => Reply { status: StatusCode::OK, ..reply },
+            reply => reply,
+        };
+        assert!(until_refused(unknown).await < 1000, "{uri}");
+    }
+    // Who has a key is not in the way of those who try some from the same address.
+    let mut known = keys.sent(0, Request::get("/machines").body(Body::empty()).unwrap());
+    known.extensions_mut().insert(ConnectInfo("10.0.0.1:1".parse::<SocketAddr>().unwrap()));
+    assert_eq!(send_to(service, known).await.status, StatusCode::OK);
+}

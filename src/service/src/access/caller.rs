@@ -7,6 +7,7 @@ use axum::http::Extensions;
 use axum::http::request::Parts;
 use verne_jobs::Job;
 
+use super::keys::Pass;
 use super::role::Role;
 use crate::error::Error;
 use crate::state::Shared;
@@ -20,11 +21,18 @@ pub(crate) struct Caller {
     pub role: Role,
     /// Whether it may have but a part of what is there for all at once.
     pub bounded: bool,
+    /// Whether a page of another origin has the browser ask: it may read what anybody may, and start nothing.
+    pub foreign: bool,
+    /// The key, where one was sent and is asked for.
+    pub pass: Option<Pass>,
 }
 
 impl Caller {
     /// Fails for a role that does not suffice.
     pub(crate) fn must_be(&self, needed: Role) -> Result<(), Error> {
+        if self.foreign && needed > Role::Read {
+            return Err(Error::OtherOrigin);
+        }
         if self.role >= needed { Ok(()) } else { Err(Error::Forbidden(needed)) }
     }
 
@@ -41,6 +49,19 @@ impl Caller {
     /// Whether the job is there for it.
     pub(crate) fn sees(&self, job: &Job) -> bool {
         self.sees_only().is_none_or(|client| job.clients.contains(client))
+    }
+}
+
+impl Caller {
+    /// Returns when the caller may no longer have what it has: its key was removed, or is another's by now.
+    pub(crate) fn revoked(&self) -> impl Future<Output = ()> + Send + 'static {
+        let pass = self.pass.clone();
+        async move {
+            match pass {
+                Some(pass) => pass.revoked().await,
+                None => std::future::pending().await,
+            }
+        }
     }
 }
 

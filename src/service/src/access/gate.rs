@@ -6,7 +6,7 @@ use axum::Router;
 use axum::body::Body;
 use axum::extract::{Request, State};
 use axum::http::header::CACHE_CONTROL;
-use axum::http::{Extensions, HeaderMap, HeaderValue, Response};
+use axum::http::{HeaderMap, HeaderValue, Response};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::routing::MethodRouter;
 use headers::HeaderMapExt;
@@ -15,6 +15,7 @@ use headers::authorization::{Authorization, Bearer};
 use super::caller::{Caller, address};
 use super::keys::Keys;
 use super::keys_file::BadKeys;
+use super::pages::Pages;
 use super::rate::{Addresses, Bucket, Rate};
 use super::role::Role;
 use crate::admission::{Admission, Load};
@@ -42,12 +43,13 @@ pub(crate) struct Gate {
     /// Limits those whose keys are not asked for.
     addresses: Option<Addresses>,
     admission: Arc<Admission>,
+    pages: Arc<Pages>,
 }
 
 impl Gate {
     /// For all, without a limit but that of places.
     pub(crate) fn for_all(admission: Arc<Admission>) -> Self {
-        Self { keys: None, addresses: None, admission }
+        Self { keys: None, addresses: None, admission, pages: Arc::default() }
     }
 
     /// As the settings have it.
@@ -57,7 +59,7 @@ impl Gate {
             Some(path) => Some(Keys::open(path.clone(), rate).await?),
             None => None,
         };
-        Ok(Self { keys, addresses: rate.map(Addresses::new), admission })
+        Ok(Self { keys, addresses: rate.map(Addresses::new), admission, pages: Arc::new(Pages::of(config)) })
     }
 
     /// Reads the keys again; if that fails, they stay as they are.
@@ -89,29 +91,32 @@ impl Gate {
     }
 
     /// Who asks; fails for who is not known and should be, or asks too fast for what has a limit.
-    fn caller(
-        &self,
-        needed: Option<Role>,
-        headers: &HeaderMap,
-        extensions: &Extensions,
-        load: Load,
-    ) -> Result<Caller, Error> {
+    fn caller(&self, needed: Option<Role>, request: &Request, load: Load) -> Result<Caller, Error> {
         let limited = load != Load::Watch;
-        let Some(keys) = self.keys.as_ref().filter(|_| needed.is_some()) else {
+        let (headers, extensions) = (request.headers(), request.extensions());
+        let foreign = self.pages.are_foreign(request.uri(), headers);
+        let by_address = |limited| {
             let (client, bounded) = address(extensions);
             sent_by(&client);
             self.addresses.iter().filter(|_| limited).try_for_each(|addresses| addresses.take(&client))?;
+            Ok::<_, Error>((client, bounded))
+        };
+        let Some(keys) = self.keys.as_ref().filter(|_| needed.is_some()) else {
+            let (client, bounded) = by_address(limited)?;
             let role = if self.keys.is_some() { Role::Read } else { Role::Admin };
-            return Ok(Caller { client, role, bounded });
+            return Ok(Caller { client, role, bounded, foreign, pass: None });
         };
         let sent = headers.typed_get::<Authorization<Bearer>>();
-        let Some(holder) = sent.and_then(|sent| keys.holder(sent.token())) else {
-            sent_by(&address(extensions).0);
+        let Some(pass) = sent.and_then(|sent| keys.holder(sent.token())) else {
+            // Who tries keys is limited everywhere.
+            by_address(true)?;
             return Err(Error::Unauthorized);
         };
+        let holder = &pass.holder;
         sent_by(&holder.name);
         holder.bucket.iter().filter(|_| limited).try_for_each(Bucket::take)?;
-        Ok(Caller { client: holder.name.clone(), role: holder.role, bounded: true })
+        let (client, role) = (holder.name.clone(), holder.role);
+        Ok(Caller { client, role, bounded: true, foreign, pass: Some(pass) })
     }
 }
 
@@ -123,7 +128,11 @@ async fn pass(
     mut request: Request,
     next: Next,
 ) -> Result<Response<Body>, Error> {
-    let caller = gate.caller(needed, request.headers(), request.extensions(), load)?;
+    gate.pages.check_host(request.uri(), request.headers())?;
+    let caller = gate.caller(needed, &request, load)?;
+    if caller.foreign && !request.method().is_safe() {
+        return Err(Error::OtherOrigin);
+    }
     needed.map_or(Ok(()), |needed| caller.must_be(needed))?;
     let place = gate.admission.enter(load, caller.sharer())?;
     request.extensions_mut().insert(caller.clone());

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::{Arc, Weak};
 
+use blake3::Hash;
 use tokio::sync::watch;
 
 use super::key::Key;
@@ -28,14 +29,36 @@ impl Keys {
     }
 
     /// Whose key was sent.
-    pub(super) fn holder(&self, sent: &str) -> Option<Arc<Holder>> {
-        self.table.borrow().get(&Key::hash_of(sent)).cloned()
+    pub(super) fn holder(&self, sent: &str) -> Option<Pass> {
+        let hash = Key::hash_of(sent);
+        let holder = self.table.borrow().get(&hash).cloned()?;
+        Some(Pass { hash, holder, table: self.table.subscribe() })
     }
 
     /// Reads the file again; if it cannot be used, all stays as it is.
     pub(super) async fn reload(&self) -> Result<(), BadKeys> {
         self.table.send_replace(read(self.path.clone(), self.rate).await?);
         Ok(())
+    }
+}
+
+/// A key that was sent and is known, for as long as it is.
+#[derive(Clone, Debug)]
+pub(crate) struct Pass {
+    hash: Hash,
+    /// Whose it was when it was sent.
+    pub(super) holder: Arc<Holder>,
+    table: watch::Receiver<Table>,
+}
+
+impl Pass {
+    /// Returns when the key is no longer in the file, or has another name or role there.
+    pub(super) async fn revoked(mut self) {
+        let Self { hash, holder, table } = &mut self;
+        let is_same = |now: &Holder| (&now.name, now.role) == (&holder.name, holder.role);
+        let revoked = table.wait_for(|table| !table.get(hash).is_some_and(|now| is_same(now))).await;
+        // Where all keys have gone the service has.
+        drop(revoked);
     }
 }
 

@@ -42,7 +42,7 @@ pub(crate) async fn post_dexterity(
     accept.choose([("application/json", ())])?;
     let question = Question::Dexterity(DexterityQuestion::new(&body, &state.machines)?);
     let obtained = figures(&state, &question, &prefer.patience).await?;
-    respond(obtained, |delivery| delivery, prefer, &conditions)
+    respond(&state, obtained, |delivery| delivery, prefer, &conditions)
 }
 
 /// The points of a dexterity map
@@ -83,5 +83,5 @@ pub(crate) async fn get_cells(
             file_name: None,
         }),
     };
-    respond(obtained, |delivery| delivery, prefer, &conditions)
+    respond(&state, obtained, |delivery| delivery, prefer, &conditions)
 }

@@ -15,6 +15,7 @@ use humantime::format_rfc3339_millis;
 use verne_jobs::{Filter, Job, JobId};
 
 use crate::access::Caller;
+use crate::config::BasePath;
 use crate::error::{Error, Fault};
 use crate::extract::Params;
 use crate::openapi::binary::JobEvent;
@@ -58,7 +59,7 @@ pub(crate) async fn get_jobs(
     let client = caller.sees_only().map(str::to_owned);
     let filter = Filter { state: wanted.map(Into::into), client, after: after.transpose()?, limit };
     let page = state.jobs.list(filter).await?;
-    let jobs = page.jobs.iter().map(JobObject::new).collect::<Result<_, _>>()?;
+    let jobs = page.jobs.iter().map(|job| JobObject::new(job, &state.base)).collect::<Result<_, _>>()?;
     Ok(([LIVE], Json(JobList { jobs, next: page.next.map(|next| next.to_string()) })))
 }
 
@@ -76,7 +77,7 @@ pub(crate) async fn get_job(
     id: Id,
 ) -> Result<impl IntoResponse, Error> {
     let job = visible(&state, &caller, id).await?;
-    Ok(([LIVE], Json(JobObject::new(&job)?)))
+    Ok(([LIVE], Json(JobObject::new(&job, &state.base)?)))
 }
 
 /// A job's changes
@@ -109,17 +110,19 @@ pub(crate) async fn get_events(
     let watcher = state.jobs.watch(job.id).await?.ok_or_else(|| Error::NoSuchJob(job.id.to_string()))?;
     let stopping = state.stopping.clone().cancelled_owned();
     let stream = state.admission.stream(caller.sharer())?;
-    let events = watcher.take_until(stopping).flat_map(move |job| {
+    let revoked = Box::pin(caller.revoked());
+    let base = state.base.clone();
+    let events = watcher.take_until(stopping).take_until(revoked).flat_map(move |job| {
         // Counted until it is dropped.
         let _stream = &stream;
-        futures_util::stream::iter(events(&job).into_iter().flatten().map(Ok::<_, Infallible>))
+        futures_util::stream::iter(events(&job, &base).into_iter().flatten().map(Ok::<_, Infallible>))
     });
     Ok(([LIVE, UNBUFFERED], Sse::new(events).keep_alive(KeepAlive::new().interval(SILENCE))).into_response())
 }
 
 /// The events that tell of a job: it, and where nothing follows, the end.
-fn events(job: &Job) -> Option<impl Iterator<Item = Event> + use<>> {
-    let event = || Event::default().id(event_id(job)).json_data(JobObject::new(job).ok()?).ok();
+fn events(job: &Job, base: &BasePath) -> Option<impl Iterator<Item = Event> + use<>> {
+    let event = || Event::default().id(event_id(job)).json_data(JobObject::new(job, base).ok()?).ok();
     let end = if job.state.is_final() { Some(event()?.event("end")) } else { None };
     Some(std::iter::once(event()?).chain(end))
 }
@@ -153,7 +156,7 @@ pub(crate) async fn delete_job(
         None => state.jobs.cancel(id).await?,
     };
     let job = ended.ok_or_else(|| Error::NoSuchJob(id.to_string()))?;
-    Ok(([LIVE], Json(JobObject::new(&job)?)))
+    Ok(([LIVE], Json(JobObject::new(&job, &state.base)?)))
 }
 
 /// The job, if it is there for this caller: another's is as one that is not.
@@ -165,9 +168,9 @@ async fn visible(state: &crate::state::State, caller: &Caller, id: Id) -> Result
 }
 
 /// 202: a job will have the answer.
-pub(super) fn accepted(job: &Job) -> Result<Response, Error> {
-    let object = JobObject::new(job)?;
+pub(super) fn accepted(job: &Job, base: &BasePath) -> Result<Response, Error> {
+    let object = JobObject::new(job, base)?;
     let headers =
-        [(LOCATION, object.links.itself.clone()), (RETRY_AFTER, "1".to_owned()), (LIVE.0, LIVE.1.to_owned())];
+        [(LOCATION, JobObject::path(job.id)), (RETRY_AFTER, "1".to_owned()), (LIVE.0, LIVE.1.to_owned())];
     Ok((StatusCode::ACCEPTED, headers, Json(object)).into_response())
 }

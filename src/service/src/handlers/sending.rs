@@ -11,7 +11,8 @@ use crate::delivery::{Conditions, Delivery};
 use crate::error::{Error, Fault};
 use crate::obtain::{Obtained, Patience};
 use crate::prefer::Prefer;
-use crate::results::{MESH, Record, unpacked_mesh};
+use crate::published::linked;
+use crate::results::{MESH, Record, content, unpacked_mesh};
 use crate::state::State;
 use crate::wire::dexterity::SetName;
 use crate::wire::format::MeshFormat;
@@ -24,7 +25,7 @@ pub(super) async fn figures(
     patience: &Patience,
 ) -> Result<Obtained<Delivery>, Error> {
     Ok(match state.obtain(question, patience).await? {
-        Obtained::Ready(record) => Obtained::Ready(summary(record)),
+        Obtained::Ready(record) => Obtained::Ready(summary(state, record)),
         Obtained::Pending(job) => Obtained::Pending(job),
     })
 }
@@ -119,6 +120,7 @@ async fn made(
 
 /// The answer, or the address of the job that will have it.
 pub(super) fn respond(
+    state: &State,
     obtained: Obtained<Delivery>,
     describe: impl FnOnce(Delivery) -> Delivery,
     prefer: Prefer,
@@ -126,17 +128,19 @@ pub(super) fn respond(
 ) -> Result<Response, Error> {
     let mut response = match obtained {
         Obtained::Ready(delivery) => describe(delivery).answer(conditions)?,
-        Obtained::Pending(job) => accepted(&job)?,
+        Obtained::Pending(job) => accepted(&job, &state.base)?,
     };
     prefer.tell(&mut response);
     Ok(response)
 }
 
 /// A record's figures.
-pub(super) fn summary(record: Record) -> Delivery {
+pub(super) fn summary(state: &State, record: Record) -> Delivery {
+    let id = record.question.id();
+    let linked = linked(&record.summary.bytes, id, &state.base);
     Delivery {
-        location: record.question.id().path(),
-        content: record.summary.into(),
+        location: id.path(),
+        content: linked.map_or(record.summary, content).into(),
         own: false,
         media: "application/json",
         cache_control: None,

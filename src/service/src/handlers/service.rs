@@ -1,25 +1,34 @@
 //! The OpenAPI document and the probes.
 
-use std::sync::LazyLock;
+use std::borrow::Cow;
 
-use axum::Json;
-use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Response};
+use axum::{Extension, Json};
 
 use crate::app::DOCUMENT;
+use crate::config::BasePath;
 use crate::error::Error;
 use crate::fixed::Fixed;
 use crate::openapi::binary::Text;
 use crate::openapi::problems::{ReadyProblems, ServiceProblems};
+use crate::server::Unreadable;
 use crate::state::Shared;
 use crate::wire::catalogue::{Health, Status};
 
-static SENT: LazyLock<Fixed> = LazyLock::new(|| {
-    let bytes = Bytes::from_static(DOCUMENT.as_bytes());
-    Fixed::new(bytes, "application/json".to_owned(), blake3::hash(DOCUMENT.as_bytes()).into())
-});
+/// The document of a service that is published under a path.
+pub(crate) fn document(base: &BasePath) -> Fixed {
+    let text = match base.as_str() {
+        "" => Cow::Borrowed(DOCUMENT),
+        base => Cow::Owned(DOCUMENT.replacen(SERVER, &SERVER.replace('/', base), 1)),
+    };
+    let hash = blake3::hash(text.as_bytes()).into();
+    Fixed::new(text.into_owned().into(), "application/json".to_owned(), hash)
+}
+
+/// Where the document names the service's address.
+const SERVER: &str = "\"url\": \"/\"";
 
 /// This document
 ///
@@ -28,8 +37,8 @@ static SENT: LazyLock<Fixed> = LazyLock::new(|| {
     get, path = "/openapi.json", operation_id = "openapi", tag = "service",
     responses((status = 200, description = "The document.", body = Object), ServiceProblems)
 )]
-pub(crate) async fn get_openapi(headers: HeaderMap) -> Result<Response, Error> {
-    SENT.answer(&headers, "no-cache").await
+pub(crate) async fn get_openapi(State(state): State<Shared>, headers: HeaderMap) -> Result<Response, Error> {
+    state.document.answer(&headers, "no-cache").await
 }
 
 /// Liveness
@@ -73,7 +82,7 @@ pub(crate) async fn no_place_here() -> Error {
     Error::Overloaded
 }
 
-/// What is asked for where nothing lives.
-pub(crate) async fn nothing_here() -> Error {
-    Error::NoSuchPath
+/// What is asked for where nothing lives, or in a way that cannot be read.
+pub(crate) async fn nothing_here(unreadable: Option<Extension<Unreadable>>) -> Error {
+    unreadable.map_or(Error::NoSuchPath, |Extension(Unreadable(error))| error)
 }

@@ -53,7 +53,7 @@ pub(crate) async fn get_workspace(
         WorkspaceQuestion::new(&query.into_request(), &state.machines).map_err(point_into_query)?;
     let obtained = answer(&state, question, wanted, &prefer.patience).await.map_err(point_into_query)?;
     let fresh = |delivery| Delivery { cache_control: Some(FOR_A_WHILE), ..delivery };
-    respond(obtained, fresh, prefer, &conditions)
+    respond(&state, obtained, fresh, prefer, &conditions)
 }
 
 /// A workspace, or a family of them, of a machine of one's own
@@ -93,7 +93,7 @@ pub(crate) async fn post_workspace(
         }
         figures(&state, &Question::Family(question), &prefer.patience).await?
     };
-    respond(obtained, |delivery| delivery, prefer, &conditions)
+    respond(&state, obtained, |delivery| delivery, prefer, &conditions)
 }
 
 /// The mesh's format, or nothing for the summary.

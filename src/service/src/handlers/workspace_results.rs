@@ -47,7 +47,7 @@ pub(crate) async fn get_summary(
 ) -> Result<Response, Error> {
     let id = id.map_err(|_| Error::NoSuchPath)?;
     accept.choose([("application/json", ())])?;
-    let delivery = summary(kept(&state, id).await?);
+    let delivery = summary(&state, kept(&state, id).await?);
     Delivery { cache_control: Some(FOR_EVER), ..delivery }.answer(&conditions)
 }
 
@@ -84,7 +84,7 @@ pub(crate) async fn get_mesh(
     let question = kept(&state, id).await?.question;
     let obtained = mesh(&state, question, query.set, format, &prefer.patience).await?;
     let kept = |delivery| Delivery { cache_control: Some(FOR_EVER), ..delivery };
-    respond(obtained, kept, prefer, &conditions)
+    respond(&state, obtained, kept, prefer, &conditions)
 }
 
 /// A computed workspace cut at one height

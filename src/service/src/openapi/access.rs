@@ -28,10 +28,14 @@ pub(crate) fn documented(mut paths: Paths, access: Access) -> Paths {
     for item in paths.paths.values_mut() {
         for operation in [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten() {
             match access {
-                Access::Probe => {}
+                Access::Probe => continue,
                 Access::Open => document(&mut operation.responses.responses, LIMITS),
                 Access::For(role, load) => ask_for_key(operation, role, load),
             }
+            document(&mut operation.responses.responses, &[Code::HostNotAllowed]);
+        }
+        for operation in [&mut item.post, &mut item.delete].into_iter().flatten() {
+            document(&mut operation.responses.responses, &[Code::OtherOrigin]);
         }
     }
     paths
@@ -47,6 +51,6 @@ fn ask_for_key(operation: &mut Operation, role: Role, load: Load) {
         document(responses, LIMITS);
     }
     if role > Role::Read {
-        document(responses, &[Code::Forbidden]);
+        document(responses, &[Code::Forbidden, Code::OtherOrigin]);
     }
 }

@@ -39,6 +39,11 @@ codes! {
     BadRequest, "bad_request", BAD_REQUEST, "The body broke off or cannot be decoded.";
     Unauthorized, "unauthorized", UNAUTHORIZED, "The service has keys, and the request has none that it knows.";
     Forbidden, "forbidden", FORBIDDEN, "The role of the key does not suffice.";
+    OtherOrigin, "other_origin", FORBIDDEN, "A page of another origin may not start or end work.";
+    HostNotAllowed, "host_not_allowed", MISDIRECTED_REQUEST, "The service does not have the name in Host.";
+    UriTooLong, "uri_too_long", URI_TOO_LONG, "The address of the request is longer than the limit.";
+    HeadersTooLarge, "headers_too_large", REQUEST_HEADER_FIELDS_TOO_LARGE,
+        "The headers of the request are larger, or more, than the limit.";
     NotFound, "not_found", NOT_FOUND, "No operation has this path.";
     MachineNotFound, "machine_not_found", NOT_FOUND, "No machine has this name.";
     WorkspaceNotFound, "workspace_not_found", NOT_FOUND, "No result is kept under this id.";
@@ -75,10 +80,14 @@ impl From<&Error> for Code {
     fn from(error: &Error) -> Self {
         match error {
             Error::Syntax(_) => Self::BadJson,
-            Error::BodyLost(_) => Self::BadRequest,
+            Error::BodyLost(_) | Error::BadHead(_) => Self::BadRequest,
             Error::Fields(_) => Self::InvalidRequest,
             Error::Unauthorized => Self::Unauthorized,
             Error::Forbidden(_) => Self::Forbidden,
+            Error::OtherOrigin => Self::OtherOrigin,
+            Error::HostNotAllowed(_) => Self::HostNotAllowed,
+            Error::UriTooLong(_) => Self::UriTooLong,
+            Error::HeadersTooLarge => Self::HeadersTooLarge,
             Error::TooManyRequests(_) => Self::TooManyRequests,
             Error::Overloaded => Self::Overloaded,
             Error::NotJson(_) => Self::UnsupportedMediaType,

@@ -4,13 +4,14 @@ use std::convert::Infallible;
 use std::net::SocketAddr;
 use std::pin::pin;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use axum::Router;
-use axum::body::Body;
+use axum::body::{Body, to_bytes};
 use axum::extract::ConnectInfo;
-use axum::http::{Request, Response};
-use hyper::body::Incoming;
+use axum::http::header::{CONNECTION, CONTENT_LENGTH, ORIGIN};
+use axum::http::{HeaderValue, Request, Response, StatusCode};
+use headers::{Date, HeaderMapExt};
 use hyper::service::service_fn;
 use hyper_util::rt::{TokioExecutor, TokioIo, TokioTimer};
 use hyper_util::server::conn::auto::Builder;
@@ -19,13 +20,13 @@ use tokio::net::TcpStream;
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
-use super::outgoing::{Outgoing, Watched};
+use super::exchange::Arriving;
+use super::head::{self, READ_BYTES};
+use super::outgoing::{Outgoing, UnderWay, Watched};
 use super::patience::Patient;
 use super::places::Place;
+use super::refusal::Making;
 use super::tls::Tls;
-
-/// Most bytes of a request's line and headers. Of headers there are at most 100, hyper's own bound.
-const HEADER_BYTES: u16 = 32 * 1024;
 
 /// Most requests at once on one connection.
 const STREAMS: u32 = 100;
@@ -33,6 +34,9 @@ const STREAMS: u32 = 100;
 /// Most requests on one connection that were taken back before they were looked at, or that were answered by a reset;
 /// then the connection is closed.
 const RESETS: usize = 32;
+
+/// Most bytes of the document of a refusal.
+const REFUSAL_BYTES: usize = 64 * 1024;
 
 /// How long a peer may take for what.
 #[derive(Clone, Copy, Debug)]
@@ -67,11 +71,11 @@ impl Attendant {
             .http1()
             .timer(TokioTimer::new())
             .header_read_timeout(bounds.header)
-            .max_buf_size(HEADER_BYTES.into());
+            .max_buf_size(READ_BYTES.into());
         builder
             .http2()
             .timer(TokioTimer::new())
-            .max_header_list_size(HEADER_BYTES.into())
+            .max_header_list_size(READ_BYTES.into())
             .max_concurrent_streams(STREAMS)
             .max_pending_accept_reset_streams(RESETS)
             .max_local_error_reset_streams(RESETS)
@@ -126,10 +130,16 @@ impl Attendant {
             Some(false) => builder.http1_only(),
         };
         let http2 = CancellationToken::new();
-        let io = TokioIo::new(Patient::new(stream, bounds.header, http2.clone(), bounds.stall));
         let outgoing = Arc::new(Outgoing::default());
+        let (exchange, refusing) = (outgoing.exchange().clone(), router.clone());
+        let answering = Arc::new(move |status, origin| refuse(refusing.clone(), status, origin, peer));
+        let io = TokioIo::new(Patient::new(stream, bounds, http2.clone(), exchange, answering));
         let watching = Arc::clone(&outgoing);
-        let service = service_fn(move |request| answer(router.clone(), request, peer, Arc::clone(&watching)));
+        let service = service_fn(move |request| {
+            // Before anything else is read: the peer may have closed its direction.
+            let (under_way, request) = (watching.begin(), watching.exchange().begin(request));
+            answer(router.clone(), request, peer, Arc::clone(&watching), under_way)
+        });
         // Over HTTP/1 hyper watches the time until the next request.
         let idle = async {
             http2.cancelled().await;
@@ -165,12 +175,38 @@ impl Attendant {
 
 async fn answer(
     router: Router,
-    mut request: Request<Incoming>,
+    mut request: Request<Arriving>,
     peer: SocketAddr,
     outgoing: Arc<Outgoing>,
+    under_way: UnderWay,
 ) -> Result<Response<Watched>, Infallible> {
-    let under_way = outgoing.begin();
+    head::check(&mut request);
     request.extensions_mut().insert(ConnectInfo(peer));
     let response = router.oneshot(request.map(Body::new)).await?;
     Ok(response.map(|body| outgoing.watch(body, under_way)))
+}
+
+/// The bytes of the answer to what hyper has refused over HTTP/1. The connection ends with it.
+fn refuse(router: Router, status: StatusCode, origin: Option<HeaderValue>, peer: SocketAddr) -> Making {
+    let mut request: Request<Body> = head::refused(status);
+    request.headers_mut().extend(origin.map(|origin| (ORIGIN, origin)));
+    request.extensions_mut().insert(ConnectInfo(peer));
+    Box::pin(async move {
+        let Ok(response) = router.oneshot(request).await;
+        let (mut parts, body) = response.into_parts();
+        let body = to_bytes(body, REFUSAL_BYTES).await.unwrap_or_default();
+        parts.headers.insert(CONNECTION, HeaderValue::from_static("close"));
+        parts.headers.insert(CONTENT_LENGTH, body.len().into());
+        parts.headers.typed_insert(Date::from(SystemTime::now()));
+        let reason = parts.status.canonical_reason().unwrap_or_default();
+        let mut bytes = format!("HTTP/1.1 {} {reason}\r\n", parts.status.as_str()).into_bytes();
+        for (name, value) in &parts.headers {
+            for part in [name.as_str().as_bytes(), b": ", value.as_bytes(), b"\r\n"] {
+                bytes.extend_from_slice(part);
+            }
+        }
+        bytes.extend_from_slice(b"\r\n");
+        bytes.extend_from_slice(&body);
+        bytes
+    })
 }

@@ -13,6 +13,8 @@ use axum::body::{Body, Bytes};
 use hyper::body::{Body as HttpBody, Buf, Frame, SizeHint};
 use tokio::sync::watch;
 
+use super::exchange::Exchange;
+
 /// More answers than this under way, and those that have arrived are forgotten first.
 const MANY: usize = 256;
 
@@ -21,11 +23,15 @@ const MANY: usize = 256;
 pub(super) struct Outgoing {
     answers: Mutex<Vec<Weak<Progress>>>,
     under_way: watch::Sender<usize>,
+    exchange: Exchange,
 }
 
 /// A request, from when it is there until the last byte of its answer is taken.
 #[derive(Debug)]
-pub(super) struct UnderWay(watch::Sender<usize>);
+pub(super) struct UnderWay {
+    count: watch::Sender<usize>,
+    exchange: Exchange,
+}
 
 /// How far one answer is.
 #[derive(Debug)]
@@ -39,14 +45,20 @@ struct Progress {
 }
 
 impl Outgoing {
+    /// How far the exchange over HTTP/1 is.
+    pub(super) fn exchange(&self) -> &Exchange {
+        &self.exchange
+    }
+
     /// A request has come.
     pub(super) fn begin(&self) -> UnderWay {
         self.under_way.send_modify(|under_way| *under_way += 1);
-        UnderWay(self.under_way.clone())
+        UnderWay { count: self.under_way.clone(), exchange: self.exchange.clone() }
     }
 
     /// Watches the body of a request's answer from now on.
     pub(super) fn watch(&self, body: Body, request: UnderWay) -> Watched {
+        self.exchange.answer();
         let (moved, waiting) = (AtomicU64::new(0), AtomicUsize::new(0));
         let progress = Arc::new(Progress { begun: Instant::now(), moved, waiting, _under_way: request });
         let mut all = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
@@ -83,7 +95,8 @@ impl Outgoing {
 
 impl Drop for UnderWay {
     fn drop(&mut self) {
-        self.0.send_modify(|under_way| *under_way -= 1);
+        self.exchange.end();
+        self.count.send_modify(|under_way| *under_way -= 1);
     }
 }
 

@@ -1,4 +1,5 @@
-//! A stream whose peer must begin in time, and must take what is sent to it.
+//! A stream whose peer must begin in time, and must take what is sent to it. It may close its direction when its
+//! request is sent, and what hyper refuses by itself leaves as a document.
 
 use std::io;
 use std::pin::Pin;
@@ -8,6 +9,11 @@ use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::time::{Sleep, sleep};
 use tokio_util::sync::CancellationToken;
+
+use super::connection::Bounds;
+use super::exchange::Exchange;
+use super::half_closed::HalfClosed;
+use super::refusal::{Answering, Head, Refusal};
 
 /// How HTTP/2 begins. Until a byte differs from it or all of it has come, hyper does not know the version and watches no
 /// clock; then its own limits hold.
@@ -24,16 +30,35 @@ pub(super) struct Patient<I> {
     stall: Duration,
     /// Until when it may, while it takes nothing.
     stalled: Option<Pin<Box<Sleep>>>,
+    exchange: Exchange,
+    /// The peer has closed its direction.
+    half_closed: Option<HalfClosed>,
+    /// Answers what hyper refuses.
+    answering: Answering,
+    /// What it has refused.
+    refusal: Option<Refusal>,
+    /// The head that is read.
+    head: Head,
 }
 
 impl<I> Patient<I> {
-    /// Within `opening` it must be clear how the peer begins, and `http2` is told if it is HTTP/2; for `stall` it may take
-    /// nothing.
-    pub(super) fn new(io: I, opening: Duration, http2: CancellationToken, stall: Duration) -> Self {
-        Self { io, opening: Some((Box::pin(sleep(opening)), 0)), http2, stall, stalled: None }
+    /// Within `bounds.header` it must be clear how the peer begins, and `http2` is told if it is HTTP/2; for
+    /// `bounds.stall` it may take nothing.
+    pub(super) fn new(
+        io: I,
+        bounds: Bounds,
+        http2: CancellationToken,
+        exchange: Exchange,
+        answering: Answering,
+    ) -> Self {
+        let opening = Some((Box::pin(sleep(bounds.header)) as Pin<Box<_>>, 0));
+        let (stall, stalled, half_closed, refusal) = (bounds.stall, None, None, None);
+        let head = Head::default();
+        Self { io, opening, http2, stall, stalled, exchange, half_closed, answering, refusal, head }
     }
 
     fn has_read(&mut self, bytes: &[u8]) {
+        self.head.read(bytes, &self.exchange);
         let Some((_, matched)) = &mut self.opening else { return };
         let expected = PREFACE.get(*matched..).unwrap_or_default();
         *matched += bytes.len();
@@ -58,22 +83,56 @@ impl<I> Patient<I> {
         ready!(stalled.as_mut().poll(context));
         Poll::Ready(Err(late("the peer takes nothing")))
     }
+
+    /// Takes what hyper writes where it refuses a request by itself.
+    fn is_refusal(&mut self, bytes: &[u8]) -> bool {
+        let refusal = Refusal::of(bytes, &self.exchange);
+        let is_one = refusal.is_some();
+        self.refusal = refusal.or(self.refusal.take());
+        is_one
+    }
+}
+
+impl<I: AsyncRead + AsyncWrite + Unpin> Patient<I> {
+    /// Ready when nothing of a refusal is left to send.
+    fn poll_refusal(&mut self, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        let Self { io, refusal: Some(refusal), head, answering, .. } = self else {
+            return Poll::Ready(Ok(()));
+        };
+        let poll = refusal.poll_send(context, io, head, answering);
+        self.written(context, poll)
+    }
 }
 
 fn late(what: &str) -> io::Error {
     io::Error::new(io::ErrorKind::TimedOut, what)
 }
 
-impl<I: AsyncRead + Unpin> AsyncRead for Patient<I> {
+impl<I: AsyncRead + AsyncWrite + Unpin> AsyncRead for Patient<I> {
     fn poll_read(
         mut self: Pin<&mut Self>,
         context: &mut Context<'_>,
         buffer: &mut ReadBuf<'_>,
     ) -> Poll<io::Result<()>> {
         let before = buffer.filled().len();
-        if let Poll::Ready(read) = Pin::new(&mut self.io).poll_read(context, buffer) {
-            self.has_read(buffer.filled().get(before..).unwrap_or_default());
-            return Poll::Ready(read);
+        if self.half_closed.is_none()
+            && let Poll::Ready(read) = Pin::new(&mut self.io).poll_read(context, buffer)
+        {
+            let bytes = buffer.filled().get(before..).unwrap_or_default();
+            self.has_read(bytes);
+            if read.is_err() || !bytes.is_empty() {
+                return Poll::Ready(read);
+            }
+            self.half_closed = Some(HalfClosed::default());
+        }
+        let Self { io, exchange, half_closed, stalled, .. } = &mut *self;
+        if let Some(half_closed) = half_closed {
+            // Nothing is put between the bytes of an answer, and the end waits for them.
+            return if stalled.is_some() {
+                Poll::Pending
+            } else {
+                half_closed.poll_end(context, io, exchange)
+            };
         }
         let Some((opening, _)) = &mut self.opening else { return Poll::Pending };
         ready!(opening.as_mut().poll(context));
@@ -81,24 +140,35 @@ impl<I: AsyncRead + Unpin> AsyncRead for Patient<I> {
     }
 }
 
-impl<I: AsyncWrite + Unpin> AsyncWrite for Patient<I> {
+impl<I: AsyncRead + AsyncWrite + Unpin> AsyncWrite for Patient<I> {
     fn poll_write(
         mut self: Pin<&mut Self>,
         context: &mut Context<'_>,
         bytes: &[u8],
     ) -> Poll<io::Result<usize>> {
+        if self.is_refusal(bytes) {
+            return Poll::Ready(Ok(bytes.len()));
+        }
+        ready!(self.poll_refusal(context))?;
         let poll = Pin::new(&mut self.io).poll_write(context, bytes);
         self.written(context, poll)
     }
 
     fn poll_flush(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        ready!(self.poll_refusal(context))?;
         let poll = Pin::new(&mut self.io).poll_flush(context);
         self.written(context, poll)
     }
 
     fn poll_shutdown(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        ready!(self.poll_refusal(context))?;
         let poll = Pin::new(&mut self.io).poll_shutdown(context);
-        self.written(context, poll)
+        ready!(self.written(context, poll))?;
+        let Self { io, refusal, .. } = &mut *self;
+        if let Some(refusal) = refusal {
+            ready!(refusal.poll_linger(context, io));
+        }
+        Poll::Ready(Ok(()))
     }
 
     fn is_write_vectored(&self) -> bool {
@@ -110,6 +180,10 @@ impl<I: AsyncWrite + Unpin> AsyncWrite for Patient<I> {
         context: &mut Context<'_>,
         slices: &[io::IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
+        if let Some(bytes) = slices.first().filter(|bytes| self.is_refusal(bytes)) {
+            return Poll::Ready(Ok(bytes.len()));
+        }
+        ready!(self.poll_refusal(context))?;
         let poll = Pin::new(&mut self.io).poll_write_vectored(context, slices);
         self.written(context, poll)
     }

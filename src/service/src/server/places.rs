@@ -5,6 +5,8 @@ use std::fmt;
 use std::net::{IpAddr, Ipv6Addr};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use crate::config::ProxyNetwork;
+
 /// The part of all places that one address may have.
 const SHARE: usize = 2;
 
@@ -34,6 +36,7 @@ impl fmt::Display for Full {
 #[derive(Debug)]
 pub(super) struct Places {
     all: usize,
+    proxies: Vec<ProxyNetwork>,
     taken: Mutex<Taken>,
 }
 
@@ -51,9 +54,9 @@ pub(super) struct Place {
 }
 
 impl Places {
-    /// So many places.
-    pub(super) fn new(all: usize) -> Arc<Self> {
-        Arc::new(Self { all, taken: Mutex::default() })
+    /// So many places, any number of which each of these proxies may have.
+    pub(super) fn new(all: usize, proxies: Vec<ProxyNetwork>) -> Arc<Self> {
+        Arc::new(Self { all, proxies, taken: Mutex::default() })
     }
 
     /// How many there are.
@@ -61,11 +64,12 @@ impl Places {
         self.all
     }
 
-    /// Takes a place for a connection from this address. This machine itself has no share: what it sends may come from
-    /// a proxy, for everybody.
+    /// Takes a place for a connection from this address. Proxies have no share, nor has this machine itself: what they
+    /// send comes from everybody.
     pub(super) fn take(self: &Arc<Self>, address: IpAddr) -> Result<Place, Full> {
+        let is_proxy = self.proxies.iter().any(|proxies| proxies.contains(address.to_canonical()));
         let address = household(address);
-        let share = if address.is_loopback() { self.all } else { self.all.div_ceil(SHARE) };
+        let share = if is_proxy || address.is_loopback() { self.all } else { self.all.div_ceil(SHARE) };
         let mut taken = self.taken();
         if taken.all >= self.all {
             return Err(Full::All);
@@ -115,7 +119,7 @@ mod tests {
 
     #[test]
     fn no_address_takes_all() {
-        let places = Places::new(4);
+        let places = Places::new(4, vec!["203.0.113.0/24".parse().unwrap()]);
         let ip = |text: &str| text.parse().unwrap();
         let first = [ip("2001:db8::1"), ip("2001:db8::2")].map(|address| places.take(address).unwrap());
         assert_eq!(places.take(ip("2001:db8::3")).unwrap_err(), Full::Share);
@@ -128,6 +132,8 @@ mod tests {
         let here: Vec<_> = (0..4).map(|_| places.take(ip("127.0.0.1")).unwrap()).collect();
         assert_eq!(places.take(ip("::1")).unwrap_err(), Full::All);
         drop(here);
+        let proxied: Vec<_> = (0..4).map(|_| places.take(ip("203.0.113.9")).unwrap()).collect();
+        drop(proxied);
         assert!(places.taken().by_address.is_empty());
     }
 }

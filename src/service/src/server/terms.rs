@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use crate::config::ServeConfig;
+use crate::config::{ProxyNetwork, ServeConfig};
 
 /// What connections are given.
 #[derive(Clone, Debug)]
@@ -16,13 +16,15 @@ pub(crate) struct Terms {
     pub stall: Duration,
     /// The files of a certificate and its key, where it is served over TLS.
     pub tls: Option<[PathBuf; 2]>,
+    /// Proxies, each of which may have all connections.
+    pub proxies: Vec<ProxyNetwork>,
 }
 
 impl Terms {
     /// Where probes and metrics are all there is, and few ask for them.
     pub(crate) const fn of_probes() -> Self {
         let (header, stall) = (Duration::from_secs(10), Duration::from_secs(30));
-        Self { connections: 256, header, stall, tls: None }
+        Self { connections: 256, header, stall, tls: None, proxies: Vec::new() }
     }
 }
 
@@ -34,6 +36,7 @@ impl From<&ServeConfig> for Terms {
             header: Duration::from_secs(config.header_timeout),
             stall: Duration::from_secs(config.timeout),
             tls: files.map(<[PathBuf; 2]>::from),
+            proxies: config.trusted_proxy.clone(),
         }
     }
 }

@@ -6,10 +6,11 @@ use humantime::format_rfc3339_millis;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
-use verne_jobs::{Job, State};
+use verne_jobs::{Job, JobId, State};
 
 use super::answer::MachineId;
 use crate::answers::Gist;
+use crate::config::BasePath;
 use crate::error::Error;
 use crate::obtain::failure;
 use crate::problem::Problem;
@@ -100,11 +101,11 @@ impl From<StateName> for State {
 }
 
 impl JobObject {
-    /// The job in the contract's words.
-    pub(crate) fn new(job: &Job) -> Result<Self, Error> {
+    /// The job in the contract's words, with links that begin with the path under which the service is published.
+    pub(crate) fn new(job: &Job, base: &BasePath) -> Result<Self, Error> {
         let gist = Gist::of(&job.payload)?;
         let time = |time: SystemTime| format_rfc3339_millis(time).to_string();
-        let itself = format!("/jobs/{}", job.id);
+        let itself = format!("{base}{}", Self::path(job.id));
         Ok(Self {
             id: job.id.to_string(),
             state: job.state.into(),
@@ -114,10 +115,16 @@ impl JobObject {
             created: time(job.created),
             started: job.started.map(time),
             finished: job.finished.map(time),
-            result: (job.state == State::Succeeded).then(|| ResultId::from(job.id).path()),
+            result: (job.state == State::Succeeded)
+                .then(|| format!("{base}{}", ResultId::from(job.id).path())),
             error: (job.state == State::Failed).then(|| Problem::from(failure(job))),
             links: JobLinks { events: format!("{itself}/events"), itself },
         })
+    }
+
+    /// The path of a job within the service.
+    pub(crate) fn path(id: JobId) -> String {
+        format!("/jobs/{id}")
     }
 }
 

@@ -3,6 +3,7 @@
 import createClient from "openapi-fetch";
 import type { components, paths } from "../../generated/openapi";
 import { send } from "./key";
+import { linked } from "./links";
 
 export type Schemas = components["schemas"];
 export type Machine = Schemas["Machine"];
@@ -19,7 +20,12 @@ export type WorkspaceKind = Schemas["WorkspaceKind"];
 export type Slice = Schemas["Slice"];
 
 /** Relative to the page, so that it also works behind a prefix. */
-export const BASE = new URL(".", document.baseURI).href.replace(/\/$/, "");
+const BASE = new URL(".", document.baseURI).href.replace(/\/$/, "");
+
+/** The address of a link. It begins with the prefix if the service knows it (--base-path). */
+export function address(link: string): string {
+  return linked(BASE, link);
+}
 
 export const client = createClient<paths>({ baseUrl: BASE, fetch: send });
 

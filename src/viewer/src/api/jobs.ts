@@ -1,7 +1,7 @@
 /** Long computations: followed over server-sent events, cancelled by DELETE. */
 
 import { EventSourceParserStream } from "eventsource-parser/stream";
-import { BASE, client, Refused, unwrap, type Schemas } from "./client";
+import { address, client, Refused, unwrap, type Schemas } from "./client";
 import { send } from "./key";
 
 export type Job = Schemas["Job"];
@@ -9,7 +9,7 @@ export type Job = Schemas["Job"];
 /** Follows a job to its end; answers the path of its result. */
 export async function follow(started: Job, report: (job: Job) => void, signal: AbortSignal): Promise<string> {
   const headers = { accept: "text/event-stream" };
-  const response = await send(new Request(`${BASE}${started.links.events}`, { headers, signal }));
+  const response = await send(new Request(address(started.links.events), { headers, signal }));
   if (!response.ok || !response.body) {
     throw new Refused({ detail: `The job cannot be followed: ${response.status}.` });
   }

@@ -1,6 +1,6 @@
 /** The workspace and its slice as files. */
 
-import { BASE, inWords, Refused, type WorkspaceSummary } from "../api/client";
+import { address, inWords, Refused, type WorkspaceSummary } from "../api/client";
 import { hasKey, send } from "../api/key";
 import { failure, section } from "../state/store";
 
@@ -17,7 +17,7 @@ export function Downloads({ found }: { found: WorkspaceSummary }) {
         {MESHES.map((format) => (
           <a
             key={format}
-            href={`${BASE}${found.links.mesh}?format=${format}`}
+            href={`${address(found.links.mesh)}?format=${format}`}
             download={`${name}.${format}`}
             onClick={saveWithKey}
           >
@@ -31,7 +31,7 @@ export function Downloads({ found }: { found: WorkspaceSummary }) {
           {DRAWINGS.map((format) => (
             <a
               key={format}
-              href={`${BASE}${found.links.self}/slice?z=${z}&format=${format}`}
+              href={`${address(found.links.self)}/slice?z=${z}&format=${format}`}
               download={`${name}-z${z}.${format}`}
               onClick={saveWithKey}
             >

@@ -13,7 +13,7 @@ import {
   type MeshStandardMaterial,
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import { BASE, Refused, type WorkspaceSummary } from "../api/client";
+import { address, Refused, type WorkspaceSummary } from "../api/client";
 import { send } from "../api/key";
 import type { Surface } from "../state/store";
 import { shares } from "../geometry/shares";
@@ -55,7 +55,7 @@ export class WorkspaceMesh {
       clear(this.grades[grade]);
       return [];
     }
-    const answer = await send(new Request(`${BASE}${summary.links.mesh}?format=glb`));
+    const answer = await send(new Request(`${address(summary.links.mesh)}?format=glb`));
     if (!answer.ok) throw new Refused({ detail: `The mesh cannot be loaded: ${answer.status}.` });
     const loaded = await this.loader.parseAsync(await answer.arrayBuffer(), "");
     if (this.shown[grade] !== summary.id) return null;
