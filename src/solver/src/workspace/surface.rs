@@ -38,10 +38,20 @@ pub fn surface(
     request: &Request,
     observer: &dyn Observer,
 ) -> Result<Surface, WorkspaceError> {
+    surface_within(machine, request, usize::MAX, observer)
+}
+
+/// The same, or an error as soon as there are more triangles than `most`.
+pub fn surface_within(
+    machine: &Machine,
+    request: &Request,
+    most: usize,
+    observer: &dyn Observer,
+) -> Result<Surface, WorkspaceError> {
     request.check()?;
     go_on(observer)?;
     let domain = Domain::new(machine, request, None);
-    let mut surface = closed(&domain, request.tolerance, observer)?;
+    let mut surface = closed(&domain, request.tolerance, most, observer)?;
     let mut pace = Pace::new(observer);
     let mut volume = 0.0;
     for triangle in &surface.triangles {
@@ -60,11 +70,16 @@ pub fn surface(
 }
 
 /// The surface over the first lattice on which it closes.
-fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Surface, WorkspaceError> {
+fn closed(
+    domain: &Domain<'_>,
+    tolerance: f64,
+    most: usize,
+    observer: &dyn Observer,
+) -> Result<Surface, WorkspaceError> {
     let mut answer = Err(WorkspaceError::Open);
     let cover = Cover::of(domain, Purpose::Pieces(tolerance), observer)?;
     for squares in ATTEMPTS {
-        let plane = Plane::trace(domain, &cover, squares, tolerance, observer)?;
+        let plane = Plane::trace(domain, &cover, squares, tolerance, most, observer)?;
         go_on(observer)?;
         if plane.triangles.is_empty() && cover.holds(tolerance) {
             return Err(WorkspaceError::Disagreement);
