@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
+use moka::future::Cache;
 use serde_json::Value;
 use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
@@ -21,7 +22,7 @@ use crate::readiness::Readiness;
 use crate::registry::{BadFile, Registry};
 use crate::server::{Server, Terms, TlsError};
 use crate::signals::{outlive_hangups, told_to_stop};
-use crate::state::{Shared, State};
+use crate::state::{Shared, State, TERMS};
 use crate::storage::{Storage, StorageError};
 use crate::workers::spare_a_core;
 use crate::{browsers, layers, openapi, router, viewer};
@@ -95,8 +96,18 @@ impl Service {
         }
         let requests = Arc::clone(&metrics.requests);
         let limits = config.limits();
-        let state =
-            Arc::new(State { machines, limits, admission, results, jobs, readiness, metrics, stopping });
+        let terms = Cache::new(TERMS);
+        let state = Arc::new(State {
+            machines,
+            limits,
+            admission,
+            results,
+            jobs,
+            terms,
+            readiness,
+            metrics,
+            stopping,
+        });
         let docs = SwaggerUi::new("/docs").config(Config::new(["/openapi.json"]).validator_url("none"));
         let docs = browsers::pages(docs.into(), browsers::DOCS);
         let pages = gate.before_pages(docs.merge(viewer::routes()));

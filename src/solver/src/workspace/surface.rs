@@ -12,6 +12,12 @@ use super::request::{Request, WorkspaceError};
 use crate::machine::Machine;
 use crate::pose::Point;
 
+/// Parts of the work that are done when the plane's patches are joined, when the surface is a manifold and when its short
+/// edges are contracted.
+const JOINED: f64 = 0.93;
+const PARTED: f64 = 0.95;
+const TIDIED: f64 = 0.98;
+
 /// A closed surface of triangles, oriented outwards; empty for an empty workspace.
 ///
 /// Every edge belongs to two triangles, which run along it in opposite directions, and the
@@ -87,6 +93,7 @@ fn closed(
         if plane.is_thin(&cover, tolerance) {
             return Ok(Surface::default());
         }
+        observer.progress(JOINED);
         let mut pace = Pace::new(observer);
         answer = made_one(Surface::over(domain, &plane, &mut pace)?, tolerance, &mut pace);
         if answer != Err(WorkspaceError::Open) {
@@ -98,7 +105,9 @@ fn closed(
 
 fn made_one(mut surface: Surface, tolerance: f64, pace: &mut Pace<'_>) -> Result<Surface, WorkspaceError> {
     part::part(&mut surface, pace)?;
+    pace.observer.progress(PARTED);
     tidy::contract(&mut surface, tolerance, pace)?;
+    pace.observer.progress(TIDIED);
     // Contraction keeps a manifold one; this looks at the result, and costs little.
     part::part(&mut surface, pace)?;
     Ok(surface)
