@@ -1,5 +1,7 @@
 //! How many triangles a surface will have, before it is made.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::domain::Domain;
 use super::observer::{Observer, go_on};
 use super::plane::{ATTEMPTS, Plane};
@@ -10,11 +12,13 @@ use crate::machine::Machine;
 const ENOUGH: usize = 4_000;
 /// By how much the tolerance is lowered until there are enough.
 const STEP: f64 = 4.0;
+/// Looks at the observer after which a trace is given up: one that ends by itself has a few for each triangle.
+const MOST_LOOKS: usize = 100_000;
 /// First tolerance, as a part of the workspace's greatest possible size.
 const COARSE: f64 = 0.02;
 
 /// About how many triangles [`surface`](super::surface) makes; where they are few, the number before short edges are
-/// contracted. It takes the time of some thousand triangles.
+/// contracted. It takes the time of some thousand triangles. Where that is not enough, the number is a guess.
 ///
 /// The domain is traced at tolerances that are too coarse, ever finer, until there are enough triangles. From there their
 /// number grows as 1/tolerance: curved sheets and walls along which columns turn need so many. The chords of a curve
@@ -29,12 +33,30 @@ pub fn expected_triangles(
     let mut tolerance = request.tolerance.max(COARSE * size(machine, &domain));
     loop {
         go_on(observer)?;
-        let plane = Plane::trace(&domain, ATTEMPTS[0], tolerance, usize::MAX, observer)?;
-        let found = plane.surface_triangles();
+        let bounded = Bounded { observer, looks: AtomicUsize::new(0) };
+        let found = match Plane::trace(&domain, ATTEMPTS[0], tolerance, usize::MAX, &bounded) {
+            Ok(plane) => plane.surface_triangles(),
+            Err(WorkspaceError::Cancelled) if !observer.cancelled() => ENOUGH,
+            Err(error) => return Err(error),
+        };
         if tolerance <= request.tolerance || found >= ENOUGH {
             return Ok(count(found) * (tolerance / request.tolerance));
         }
         tolerance = (tolerance / STEP).max(request.tolerance);
+    }
+}
+
+/// Stops what takes far longer than an estimate should: on some domains a trace refines much that it drops again.
+struct Bounded<'a> {
+    observer: &'a dyn Observer,
+    looks: AtomicUsize,
+}
+
+impl Observer for Bounded<'_> {
+    fn progress(&self, _part: f64) {}
+
+    fn cancelled(&self) -> bool {
+        self.looks.fetch_add(1, Ordering::Relaxed) >= MOST_LOOKS || self.observer.cancelled()
     }
 }
 

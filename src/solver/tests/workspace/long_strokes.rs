@@ -36,7 +36,11 @@ fn any(numbers: &mut Random) -> Option<(Machine, Request)> {
     let mut data = random(numbers)?.data().clone();
     let longest = 200.0 * 450_f64.powf(numbers.next());
     data.limits.stroke = [(); 3].map(|()| [0.0, longest * numbers.between(0.5, 1.0)]);
-    let kind = [Kind::Platform, Kind::Tool, Kind::Part][(numbers.next() * 3.0) as usize];
+    let kind = match numbers.next() {
+        n if n < 1.0 / 3.0 => Kind::Platform,
+        n if n < 2.0 / 3.0 => Kind::Tool,
+        _ => Kind::Part,
+    };
     let size = if kind == Kind::Part { longest.max(1_000.0) } else { 1_000.0 };
     let tolerance = size * 10_f64.powf(numbers.between(-4.0, -2.0));
     let question = request(kind, numbers.between(0.0, 300.0), numbers.between(-40.0, 40.0), tolerance);
@@ -77,6 +81,11 @@ fn an_estimate_is_cheap() {
         let looks = looks.0.into_inner();
         assert!(expected > 300_000.0 && looks < 20_000, "{stroke} mm: {expected}, {looks} looks");
     }
+    // An empty workspace, whose limits jump.
+    let looks = Looks(AtomicUsize::new(0));
+    expected_triangles(&Machine::verne(), &request(Kind::Part, 50.0, 170.0, 20.0), &looks).unwrap();
+    let looks = looks.0.into_inner();
+    assert!(looks < 120_000, "{looks} looks");
 }
 
 #[test]

@@ -38,9 +38,9 @@ pub(super) fn triangulate(
             ears.remove(i);
             let count = left.len();
             let beside = [(i + count - 1) % count, i % count];
-            for other in 0..count {
-                if beside.contains(&other) || ears[other].covers == Some(gone) {
-                    ears[other] = outline.ear(&left, other, pace)?;
+            for (other, ear) in ears.iter_mut().enumerate() {
+                if beside.contains(&other) || ear.covers == Some(gone) {
+                    *ear = outline.ear(&left, other, pace)?;
                 }
             }
         }
