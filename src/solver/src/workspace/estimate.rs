@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::cover::{Cover, Purpose};
 use super::domain::Domain;
 use super::observer::{Observer, go_on};
 use super::plane::{ATTEMPTS, Plane};
@@ -34,7 +35,7 @@ pub fn expected_triangles(
     loop {
         go_on(observer)?;
         let bounded = Bounded { observer, looks: AtomicUsize::new(0) };
-        let found = match Plane::trace(&domain, ATTEMPTS[0], tolerance, usize::MAX, &bounded) {
+        let found = match traced(&domain, tolerance, &bounded) {
             Ok(plane) => plane.surface_triangles(),
             Err(WorkspaceError::Cancelled) if !observer.cancelled() => ENOUGH,
             Err(error) => return Err(error),
@@ -44,6 +45,12 @@ pub fn expected_triangles(
         }
         tolerance = (tolerance / STEP).max(request.tolerance);
     }
+}
+
+fn traced(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Plane, WorkspaceError> {
+    let cover = Cover::of(domain, Purpose::Pieces(tolerance), observer)?;
+    let [squares, ..] = ATTEMPTS;
+    Plane::trace(domain, &cover, squares, tolerance, usize::MAX, observer)
 }
 
 /// Stops what takes far longer than an estimate should: on some domains a trace refines much that it drops again.
