@@ -32,6 +32,7 @@ pub fn expected_triangles(
     request.check()?;
     let domain = Domain::new(machine, request, None);
     let mut tolerance = request.tolerance.max(COARSE * size(machine, &domain));
+    let mut last = None;
     loop {
         go_on(observer)?;
         let bounded = Bounded { observer, looks: AtomicUsize::new(0) };
@@ -40,9 +41,15 @@ pub fn expected_triangles(
             Err(WorkspaceError::Cancelled) if !observer.cancelled() => ENOUGH,
             Err(error) => return Err(error),
         };
-        if tolerance <= request.tolerance || found >= ENOUGH {
-            return Ok(count(found) * (tolerance / request.tolerance));
+        if tolerance <= request.tolerance {
+            return Ok(count(found));
         }
+        if let Some(before) = last.filter(|_| found >= ENOUGH) {
+            // What was added by the last step grows so; what was there at any tolerance stays.
+            let added = count(found.saturating_sub(before)) * STEP / (STEP - 1.0);
+            return Ok(count(found) + added * (tolerance / request.tolerance - 1.0));
+        }
+        last = Some(found);
         tolerance = (tolerance / STEP).max(request.tolerance);
     }
 }
