@@ -13,6 +13,7 @@ mod jobs_events;
 mod jobs_families;
 mod jobs_kept;
 mod jobs_listed;
+mod jobs_of_one_client;
 mod jobs_refused;
 mod jobs_stopped;
 mod keys;

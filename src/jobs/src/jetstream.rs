@@ -27,9 +27,12 @@
 //!
 //! # What does not hold, other than [`Embedded`](crate::Embedded)
 //!
-//! - Order: within a line first come, first served, whoever asks; there are no clients' shares. A worker's
-//!   main lane takes from all lines as they have work; its express lane takes small jobs, so these overtake. Parts do not wait
-//!   behind the large jobs that came before their whole had begun. A whole's merge is the next in its worker.
+//! - Order: within a line first come, first served, but that a job is put at the end of its line when in that line a job
+//!   waits of a client that has fewer jobs running. A worker puts up to 64 jobs behind others before it begins one. Costs do
+//!   not count. A worker's main lane takes from all lines as they have work; its express lane takes small jobs, so these
+//!   overtake. A worker whose main lane has jobs of one client alone looks ten times a second for a job of another client, and
+//!   runs it on its guest lane. Parts do not wait behind the large jobs that came before their whole had begun. A whole's
+//!   merge is the next in its worker.
 //! - What others do is known a moment later, some milliseconds, so bounds may be passed by as many as are submitted at
 //!   once, and a part may still begin when its whole has just failed.
 //! - A whole that waits while its worker is lost counts an attempt.

@@ -36,11 +36,18 @@
 //! # Which threads it has
 //!
 //! The main lane runs any job, with all the threads. While it is taken, the express lane runs the next small job
-//! ([`small`](embedded::Config::small)) beside it, with one thread; meanwhile one thread of the main lane
-//! rests, so the number of busy cores stays as set. Parts of what is not small itself are for the main
-//! lane: a large job cut into small ones would have the lane that small jobs pass it on. On Linux all of them give way to the
-//! process's other threads. A thread rests at a look at [`Watch::cancelled`], and at most as
-//! long as it has worked since it last rested: small jobs without end leave it half of its time.
+//! ([`small`](embedded::Config::small)) beside it, with one thread. While one client's jobs have the whole main lane, the
+//! guest lane runs the next job of another client beside it; if a seat of the main lane becomes free then, it is for a
+//! client that does not have the guest lane. So the jobs of one client never have all seats while others wait. Meanwhile
+//! as many threads of the main lane rest, so the number of busy cores stays as set.
+//!
+//! A job that holds the express lane for five times as long as it was estimated at, and for a second, is stopped and queued
+//! again with the cost that it has shown.
+//!
+//! Parts of what is not small itself are for the main lane: a large job cut into small ones would have the lane that small
+//! jobs pass it on. On Linux all of them give way to the process's other threads. A thread rests at a look at
+//! [`Watch::cancelled`], and at most as long as it has worked since it last rested: jobs beside it without end leave it half
+//! of its time.
 
 mod backend;
 mod claim;

@@ -40,6 +40,6 @@ pub trait Watch: Sync {
     fn progress(&self, part: f64);
 
     /// Whether to stop. To be asked at least every 10 ms on each thread of the work; may hold the thread for a while
-    /// to let a small job pass.
+    /// in which a small job or another client's job runs.
     fn cancelled(&self) -> bool;
 }

@@ -12,6 +12,8 @@ mod lists;
 mod order;
 #[path = "contract/parts.rs"]
 mod parts;
+#[path = "contract/seats.rs"]
+mod seats;
 #[path = "contract/watching.rs"]
 mod watching;
 

@@ -36,7 +36,7 @@ pub(crate) use inverse::answer_ik;
 pub(crate) use inverse_batch::answer_ik_batch;
 pub(crate) use mesh_files::{Described, write_mesh};
 pub(crate) use piece::Piece;
-pub(crate) use question::{Gist, Question, TaskFault};
+pub(crate) use question::{Gist, Question, TaskFault, Terms};
 pub(crate) use slice::answer_slice;
 pub(crate) use stage::part_of;
 pub(crate) use workspace::compute_workspace;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
+use moka::future::Cache;
 use serde_json::Value;
 use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
@@ -21,7 +22,7 @@ use crate::readiness::Readiness;
 use crate::registry::{BadFile, Registry};
 use crate::server::{Server, Terms, TlsError};
 use crate::signals::{outlive_hangups, told_to_stop};
-use crate::state::{Shared, State};
+use crate::state::{Shared, State, TERMS};
 use crate::storage::{Storage, StorageError};
 use crate::workers::spare_a_core;
 use crate::{browsers, layers, openapi, published, router, viewer};
@@ -95,12 +96,14 @@ impl Service {
         }
         let (requests, base) = (Arc::clone(&metrics.requests), &config.base_path);
         let limits = config.limits();
+        let terms = Cache::new(TERMS);
         let state = Arc::new(State {
             machines,
             limits,
             admission,
             results,
             jobs,
+            terms,
             readiness,
             metrics,
             base: base.clone(),

@@ -95,7 +95,8 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_MAX_ROWS", default_value_t = 100_000,
         value_parser = RangedU64ValueParser::<usize>::new().range(1..=MOST_ROWS as u64))]
     pub max_rows: usize,
-    /// Most triangles of a mesh, by an estimate; what would have more is refused before it is computed.
+    /// Most triangles of a mesh. What would have more by an estimate is refused before it is computed; what turns out to have
+    /// more, when it has.
     #[arg(long, env = "VERNE_MAX_TRIANGLES", default_value_t = 5_000_000, value_name = "TRIANGLES",
         value_parser = value_parser!(u64).range(1..))]
     pub max_triangles: u64,

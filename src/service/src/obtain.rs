@@ -8,11 +8,12 @@ use verne_jobs::{Claim, Failure, Job};
 
 use crate::access::{Caller, Role};
 use crate::admission::Place;
-use crate::answers::{Question, TaskFault};
+use crate::answers::{Question, TaskFault, Terms};
 use crate::error::Error;
 use crate::result_id::ResultId;
 use crate::results::Record;
 use crate::state::State;
+use crate::workers::on_workers_while_waited_for;
 
 /// What has become of a question.
 pub(crate) enum Obtained<T> {
@@ -54,8 +55,8 @@ impl State {
         patience: &Patience,
     ) -> Result<Obtained<Record>, Error> {
         patience.caller.must_be(Role::Compute)?;
-        question.check_triangles(self.limits.triangles)?;
-        let submission = question.submission(patience.caller.client.clone(), Some(self.limits.job))?;
+        let terms = self.terms(question).await?;
+        let submission = question.submission(terms, patience.caller.client.clone(), Some(self.limits.job))?;
         let claim = self.jobs.submit(submission).await?;
         if patience.wait.is_zero() {
             return Ok(Obtained::Pending(kept(&claim)));
@@ -75,6 +76,14 @@ impl State {
             Some(job) => self.finished(question.id(), job).await.map(Obtained::Ready),
             None => Ok(Obtained::Pending(kept(&claim))),
         }
+    }
+
+    /// On which terms a job may answer. Of equal questions at the same moment one is estimated.
+    async fn terms(&self, question: &Question) -> Result<Terms, Error> {
+        let (asked, most) = (question.clone(), self.limits.triangles);
+        let estimate = on_workers_while_waited_for(move |observer| asked.terms(most, observer));
+        let terms = self.terms.try_get_with(question.id().job(), estimate).await;
+        terms.map_err(|error| error.as_ref().clone())
     }
 
     /// What a look at a part of a question's answer finds. It may have left the store before the figures did: then a

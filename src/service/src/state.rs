@@ -3,10 +3,12 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use moka::future::Cache;
 use tokio_util::sync::CancellationToken;
-use verne_jobs::Backend;
+use verne_jobs::{Backend, JobId};
 
 use crate::admission::Admission;
+use crate::answers::Terms;
 use crate::config::BasePath;
 use crate::fixed::Fixed;
 use crate::metrics::Metrics;
@@ -31,6 +33,9 @@ pub(crate) struct RequestLimits {
     pub job: Duration,
 }
 
+/// Questions whose terms are kept.
+pub(crate) const TERMS: u64 = 10_000;
+
 /// Shared state.
 pub(crate) struct State {
     /// The published machines.
@@ -43,6 +48,8 @@ pub(crate) struct State {
     pub results: Results,
     /// What is being computed.
     pub jobs: Arc<dyn Backend>,
+    /// On which terms jobs answer the questions that were asked last.
+    pub terms: Cache<JobId, Terms>,
     /// Whether all of it works.
     pub readiness: Readiness,
     /// What is measured.

@@ -9,7 +9,7 @@ use verne_jobs::{JobId, Stop, Submission, Watch, Work};
 use verne_solver::workspace::Observer;
 
 use crate::answers::{
-    DexterityQuestion, FamilyQuestion, FamilyTable, Piece, Question, TaskFault, WorkspaceQuestion,
+    DexterityQuestion, FamilyQuestion, FamilyTable, Piece, Question, TaskFault, Terms, WorkspaceQuestion,
     compute_slab, compute_volumes, compute_workspace, merge_dexterity, part_of,
 };
 use crate::error::Error;
@@ -42,22 +42,28 @@ impl Tasks {
         Self { results, computations, runtime }
     }
 
-    fn answer(&self, question: &Question, observer: &dyn Observer) -> Result<(), Error> {
+    /// A mesh may have `most` triangles.
+    fn answer(&self, question: &Question, most: usize, observer: &dyn Observer) -> Result<(), Error> {
         match question {
-            Question::Workspace(workspace) => self.workspace(workspace, observer).map(drop),
-            Question::Family(family) => self.family(family, observer),
-            Question::Dexterity(map) => self.dexterity(map, observer),
-            Question::Piece(piece) => self.piece(piece, observer).map(drop),
+            Question::Workspace(workspace) => self.workspace(workspace, most, observer).map(drop),
+            Question::Family(family) => self.family(family, most, observer),
+            Question::Dexterity(map) => self.dexterity(map, most, observer),
+            Question::Piece(piece) => self.piece(piece, most, observer).map(drop),
         }
     }
 
     /// Computes a workspace unless it is there, mesh and all; its summary.
-    fn workspace(&self, asked: &WorkspaceQuestion, observer: &dyn Observer) -> Result<Vec<u8>, Error> {
+    fn workspace(
+        &self,
+        asked: &WorkspaceQuestion,
+        most: usize,
+        observer: &dyn Observer,
+    ) -> Result<Vec<u8>, Error> {
         if let Some(record) = self.known(asked.id, &[MESH]) {
             return Ok(record.summary.bytes.to_vec());
         }
         self.computations.count();
-        let computed = compute_workspace(asked, observer)?;
+        let computed = compute_workspace(asked, most, observer)?;
         let parts = vec![(MESH, packed_mesh(&computed.mesh)?)];
         let question = Question::Workspace(asked.clone());
         self.runtime.block_on(self.results.keep(
@@ -73,6 +79,7 @@ impl Tasks {
     fn member(
         &self,
         member: &WorkspaceQuestion,
+        most: usize,
         observer: &dyn Observer,
     ) -> Result<Result<Vec<u8>, Error>, Error> {
         let piece = Piece::Member(member.clone()).id();
@@ -80,7 +87,7 @@ impl Tasks {
             let fault: TaskFault = serde_json::from_slice(&fault).map_err(|_| Error::Internal)?;
             return Ok(Err(fault.into()));
         }
-        match self.workspace(member, observer) {
+        match self.workspace(member, most, observer) {
             Err(Error::Fields(faults)) => {
                 let fault = write_json(&TaskFault::Fields(faults.clone()), FAULT_BYTES)?;
                 self.keep(piece, fault)?;
@@ -90,11 +97,11 @@ impl Tasks {
         }
     }
 
-    fn family(&self, family: &FamilyQuestion, observer: &dyn Observer) -> Result<(), Error> {
+    fn family(&self, family: &FamilyQuestion, most: usize, observer: &dyn Observer) -> Result<(), Error> {
         let members = family.members.len();
         let mut table = FamilyTable::with_room(members);
         for (i, member) in family.members.iter().enumerate() {
-            let summary = self.member(member, &part_of(observer, i, members))?;
+            let summary = self.member(member, most, &part_of(observer, i, members))?;
             table.add(member, summary.as_deref().map_err(Clone::clone))?;
         }
         let summary = table.written(family)?;
@@ -103,12 +110,12 @@ impl Tasks {
     }
 
     /// A piece's bytes, kept or made. Of a member there are none unless it failed.
-    fn piece(&self, piece: &Piece, observer: &dyn Observer) -> Result<Bytes, Error> {
+    fn piece(&self, piece: &Piece, most: usize, observer: &dyn Observer) -> Result<Bytes, Error> {
         if let Some(kept) = self.kept(piece.id()) {
             return Ok(kept);
         }
         let made = match piece {
-            Piece::Member(member) => return self.member(member, observer).map(|_| Bytes::new()),
+            Piece::Member(member) => return self.member(member, most, observer).map(|_| Bytes::new()),
             Piece::Slab { of, number, count } => compute_slab(of, [*number, *count], observer)?,
             Piece::Volumes(map) => compute_volumes(map, observer)?,
         };
@@ -117,7 +124,7 @@ impl Tasks {
     }
 
     /// Merges a map from its pieces; one that has made room for others is made again.
-    fn dexterity(&self, map: &DexterityQuestion, observer: &dyn Observer) -> Result<(), Error> {
+    fn dexterity(&self, map: &DexterityQuestion, most: usize, observer: &dyn Observer) -> Result<(), Error> {
         if self.known(map.id, &MAP).is_some() {
             return Ok(());
         }
@@ -125,7 +132,7 @@ impl Tasks {
         let made = pieces
             .iter()
             .enumerate()
-            .map(|(i, piece)| self.piece(piece, &part_of(observer, i, pieces.len())));
+            .map(|(i, piece)| self.piece(piece, most, &part_of(observer, i, pieces.len())));
         let made = made.collect::<Result<Vec<Bytes>, Error>>()?;
         let Some((volumes, slabs)) = made.split_last() else { return Err(Error::Internal) };
         let computed = merge_dexterity(map, slabs, volumes, observer)?;
@@ -169,10 +176,15 @@ impl Tasks {
 impl Work for Tasks {
     fn parts(&self, job: &JobId, payload: &[u8]) -> Result<Vec<Submission>, Stop> {
         let question = Question::read(payload, ResultId::from(*job)).map_err(stop)?;
-        let pieces = self.pieces(&question).into_iter();
+        let pieces = self.pieces(&question);
+        let (whole, count) = (Terms::read(payload).map_err(stop)?, u32::try_from(pieces.len()));
         // The job's own deadline holds for all of them.
-        let submission = |piece| Question::Piece(piece).submission(String::new(), None);
-        let mut pieces = pieces.map(submission).collect::<Result<Vec<_>, Error>>().map_err(stop)?;
+        let submission = |piece: Piece| {
+            let cost = piece.cost(whole.cost, count.unwrap_or(u32::MAX));
+            Question::Piece(piece).submission(Terms { cost, ..whole }, String::new(), None)
+        };
+        let mut pieces =
+            pieces.into_iter().map(submission).collect::<Result<Vec<_>, Error>>().map_err(stop)?;
         // The longest first: at the end one worker would have it while the others had nothing.
         pieces.sort_by(|one, other| other.cost.total_cmp(&one.cost));
         Ok(pieces)
@@ -182,7 +194,8 @@ impl Work for Tasks {
         let question = Question::read(payload, ResultId::from(*job)).map_err(stop)?;
         let _span = info_span!("job", %job, kind = question.kind()).entered();
         let began = Instant::now();
-        let answered = self.answer(&question, &Watched(watch)).map_err(stop);
+        let most = Terms::read(payload).map_err(stop)?.most();
+        let answered = self.answer(&question, most, &Watched(watch)).map_err(stop);
         let outcome = match &answered {
             Ok(()) => "succeeded",
             Err(Stop::Cancelled) => "stopped",

@@ -7,6 +7,8 @@
 mod brute;
 #[path = "workspace/dexterity.rs"]
 mod dexterity;
+#[path = "workspace/long_strokes.rs"]
+mod long_strokes;
 #[path = "workspace/lost.rs"]
 mod lost;
 #[path = "workspace/machines.rs"]

@@ -200,7 +200,7 @@ async fn a_thousand_equal_questions_at_once_are_computed_once() {
 #[tokio::test]
 async fn the_seats_of_one_process_are_told() {
     let service = opened(&one_core()).await;
-    assert_eq!(metric(&service, "verne_worker_seats").await, 2);
+    assert_eq!(metric(&service, "verne_worker_seats").await, 3);
     assert_eq!(metric(&service, "verne_worker_seats_busy").await, 0);
     start(&service, &long(0)).await;
     assert_eq!(metric(&service, "verne_worker_seats_busy").await, 1);

@@ -113,15 +113,34 @@ impl Board {
         self.live.get_mut(&id).filter(|entry| entry.life == life)
     }
 
-    /// A free seat and the job to take it. The express lane is for when the main lane is taken.
+    /// A free seat and the job to take it. The other lanes are for when the main lane is taken.
     pub(super) fn next(&mut self, now: Instant) -> Option<(Seat, Taken)> {
-        let seat = self
-            .free
-            .iter()
-            .position(|seat| seat.lane == Lane::Main)
-            .or_else(|| self.free.len().checked_sub(1))?;
-        let taken = self.queue.take(self.free[seat].lane, now)?;
-        Some((self.free.swap_remove(seat), taken))
+        [Lane::Main, Lane::Express, Lane::Guest].into_iter().find_map(|lane| {
+            let seat = self.free.iter().position(|seat| seat.lane == lane)?;
+            let taken = self.next_for(lane, now)?;
+            Some((self.free.swap_remove(seat), taken))
+        })
+    }
+
+    /// One client's jobs never have all seats of the main and the guest lane while others wait: the last of these seats
+    /// is for another client, and the guest lane for nobody else.
+    fn next_for(&mut self, lane: Lane, now: Instant) -> Option<Taken> {
+        let left = self.free.iter().filter(|seat| seat.lane != Lane::Express).count();
+        let other = match self.only_client() {
+            Some(client) if lane != Lane::Express && left == 1 => self.queue.take_other(&client, now),
+            _ => None,
+        };
+        match lane {
+            Lane::Guest => other,
+            Lane::Main | Lane::Express => other.or_else(|| self.queue.take(lane, now)),
+        }
+    }
+
+    /// The client of all jobs on the main and the guest lane, if it is one.
+    fn only_client(&self) -> Option<String> {
+        let mut runs = self.running.values().filter(|run| run.seat.lane != Lane::Express);
+        let client = &runs.next()?.client;
+        runs.all(|run| run.client == *client).then(|| client.clone())
     }
 
     pub(super) fn set_deadline(&mut self, id: JobId, life: u64, deadline: Option<Instant>) {

@@ -235,10 +235,13 @@ impl Keeper {
             // There is no other process.
             End::Elsewhere(reason) => self.end(board, id, life, Outcome::Failed(Failure::Work(reason))),
             End::Split(_) => {}
+            End::Overran(cost) if board.entry(id, life).is_some_and(|entry| entry.is_wanted()) => {
+                self.put_back(board, id, life, cost);
+            }
             End::Drained if board.entry(id, life).is_some_and(|entry| entry.is_wanted()) => {
                 self.requeue(board, id, life);
             }
-            End::Drained => self.end(board, id, life, Outcome::Cancelled),
+            End::Drained | End::Overran(_) => self.end(board, id, life, Outcome::Cancelled),
         }
     }
 

@@ -151,6 +151,22 @@ impl Queue {
     /// The next job for `lane`, at `now`.
     pub(super) fn take(&mut self, lane: Lane, now: Instant) -> Option<Taken> {
         let life = self.overdue(lane, now).or_else(|| self.least(lane).map(|(_, life)| life))?;
+        self.taken(life)
+    }
+
+    /// The next job for the main lane of another client than this one, at `now`.
+    pub(super) fn take_other(&mut self, client: &str, now: Instant) -> Option<Taken> {
+        let overdue = self.overdue(Lane::Main, now);
+        let is_other = |life: &u64| {
+            let mut bands = self.bands(Lane::Main).filter_map(|band| band.by_age.get(life));
+            bands.any(|(job, _)| job.client != client)
+        };
+        let others = self.clients.iter().filter(|(other, _)| *other != client);
+        let least = others.filter_map(|(_, places)| places.first()).min().map(|(_, life)| *life);
+        self.taken(overdue.filter(is_other).or(least)?)
+    }
+
+    fn taken(&mut self, life: u64) -> Option<Taken> {
         let (job, tag) = self.extract(life)?;
         self.forget(&job);
         Some(Taken { life, job, tag })

@@ -1,6 +1,8 @@
 //! What the broker is asked for.
 
+use std::collections::hash_map::RandomState;
 use std::fmt::Display;
+use std::hash::{BuildHasher, Hasher};
 use std::time::Duration;
 
 use async_nats::jetstream::consumer::{AckPolicy, Consumer, pull};
@@ -129,8 +131,20 @@ impl Bus {
     /// Puts a recorded job into its line. Again, it is there once: the message's id is that of its turn.
     pub(super) async fn publish(&self, record: &Record) -> Result<(), Unavailable> {
         let Record { life, turn, job, .. } = record;
+        self.publish_as(record, format!("{}.{life}.{turn}", job.id)).await
+    }
+
+    /// Puts a job that is in its line at the line's end. The message that was there before is the caller's to remove; until
+    /// then there are two for one turn.
+    pub(super) async fn publish_again(&self, record: &Record) -> Result<(), Unavailable> {
+        let Record { life, turn, job, .. } = record;
+        let number: u64 = RandomState::new().build_hasher().finish();
+        self.publish_as(record, format!("{}.{life}.{turn}.{number}", job.id)).await
+    }
+
+    async fn publish_as(&self, record: &Record, message: String) -> Result<(), Unavailable> {
         let mut headers = HeaderMap::new();
-        headers.insert(header::NATS_MESSAGE_ID, format!("{}.{life}.{turn}", job.id));
+        headers.insert(header::NATS_MESSAGE_ID, message);
         let payload = Bytes::from(ticket(record));
         let published = self.context.publish_with_headers(self.place(record), headers, payload);
         published.await.map_err(unavailable)?.await.map_err(unavailable)?;

@@ -137,7 +137,7 @@ impl Record {
     pub(super) fn end_as(&mut self, told: Told) {
         self.end(match told {
             Told::DeadlinePassed => Outcome::Failed(crate::Failure::DeadlinePassed),
-            Told::Cancelled | Told::Drained => Outcome::Cancelled,
+            Told::Cancelled | Told::Drained | Told::Overran => Outcome::Cancelled,
         });
     }
 

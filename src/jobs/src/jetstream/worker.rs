@@ -2,14 +2,16 @@
 
 mod attempt;
 mod delivery;
+mod guest;
 mod intake;
 mod seats;
 mod whole;
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::Duration;
 
+use parking_lot::Mutex;
 use tokio::sync::watch;
 use tokio::task::JoinSet;
 use tokio::time::timeout;
@@ -17,7 +19,7 @@ use tokio::time::timeout;
 use super::client::Client;
 use super::{ConnectError, JetStream, WorkerConfig};
 use crate::Work;
-use crate::threads::pools;
+use crate::threads::pools::{self, Lane};
 use crate::threads::turn::Turn;
 use seats::Seats;
 
@@ -38,6 +40,12 @@ struct Desk {
     work: Arc<dyn Work>,
     turn: Arc<Turn>,
     seats: Seats,
+    /// The clients of the jobs on the main lane.
+    held: Mutex<Vec<String>>,
+    /// How many jobs of the main lane run at once.
+    main: usize,
+    /// Jobs that were put behind others since one was begun.
+    passed: AtomicUsize,
     redelivered: AtomicU64,
     handed_back: AtomicU64,
     stage: watch::Sender<Stage>,
@@ -74,10 +82,14 @@ impl Worker {
     ) -> Result<Self, ConnectError> {
         let seats = pools::seats(config.threads, config.slots, 0)
             .map_err(|fault| ConnectError::Threads(fault.to_string()))?;
+        let client = Arc::clone(&backend.client);
         let desk = Arc::new(Desk {
-            client: Arc::clone(&backend.client),
             work,
             turn: Arc::default(),
+            client,
+            held: Mutex::default(),
+            main: seats.iter().filter(|seat| seat.lane == Lane::Main).count(),
+            passed: AtomicUsize::new(0),
             seats: Seats::new(seats),
             redelivered: AtomicU64::new(0),
             handed_back: AtomicU64::new(0),
@@ -87,6 +99,7 @@ impl Worker {
         let mut tasks = JoinSet::new();
         tasks.spawn(intake::small(Arc::clone(&desk)));
         tasks.spawn(intake::main(Arc::clone(&desk)));
+        tasks.spawn(guest::intake(Arc::clone(&desk)));
         Ok(Self { desk, tasks })
     }
 
@@ -126,6 +139,28 @@ impl Active {
 impl Drop for Active {
     fn drop(&mut self) {
         self.0.active.send_modify(|jobs| *jobs -= 1);
+    }
+}
+
+/// One job on the main lane.
+struct Held {
+    desk: Arc<Desk>,
+    client: String,
+}
+
+impl Held {
+    fn new(desk: &Arc<Desk>, client: String) -> Self {
+        desk.held.lock().push(client.clone());
+        Self { desk: Arc::clone(desk), client }
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        let mut held = self.desk.held.lock();
+        if let Some(place) = held.iter().position(|client| *client == self.client) {
+            held.swap_remove(place);
+        }
     }
 }
 

@@ -12,6 +12,8 @@ pub(crate) enum Lane {
     Main,
     /// Small ones.
     Express,
+    /// Those of another client than the one that has the whole main lane.
+    Guest,
 }
 
 /// Where one job at a time runs, with a pool of its own: in a pool for two jobs a thread that waits for a piece of the
@@ -22,14 +24,18 @@ pub(crate) struct Seat {
     pub(crate) pool: Arc<ThreadPool>,
 }
 
-/// Deals `threads` out among `slots` of the main lane, at least one to each, and adds the express lane. The threads are
-/// nicer by `courtesy` than others of the process.
+/// Deals `threads` out among `slots` of the main lane, at least one to each, and adds the express lane and the guest
+/// lane. The threads are nicer by `courtesy` than others of the process.
 pub(crate) fn seats(threads: usize, slots: usize, courtesy: i32) -> Result<Vec<Seat>, ThreadPoolBuildError> {
     let threads = threads.max(1);
     let slots = slots.clamp(1, threads);
     let share = |slot| threads / slots + usize::from(slot < threads % slots);
     let main = (0..slots).map(|slot| seat(Lane::Main, share(slot), format!("jobs-{slot}"), courtesy));
-    main.chain([seat(Lane::Express, 1, "jobs-express".to_owned(), courtesy)]).collect()
+    let beside = [
+        seat(Lane::Express, 1, "jobs-express".to_owned(), courtesy),
+        seat(Lane::Guest, share(0), "jobs-guest".to_owned(), courtesy),
+    ];
+    main.chain(beside).collect()
 }
 
 fn seat(lane: Lane, threads: usize, name: String, courtesy: i32) -> Result<Seat, ThreadPoolBuildError> {

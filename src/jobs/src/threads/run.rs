@@ -14,6 +14,11 @@ use super::turn::Turn;
 use crate::feed::Feeder;
 use crate::{Failure, JobId, Stop, Submission, Watch, Work};
 
+/// A job may hold the express lane for so many times as long as it was estimated at, seconds; of a shorter estimate than
+/// the second number that is too little.
+const OVERRUN: f64 = 5.0;
+const SHORTEST: f64 = 0.2;
+
 /// Part of a job's progress, and of its cost, that the merge of its parts has.
 pub(crate) const MERGE: f64 = 0.05;
 
@@ -24,6 +29,8 @@ pub(crate) enum Told {
     DeadlinePassed,
     /// To be run again by whoever opens the back end next.
     Drained,
+    /// It held the express lane for too long.
+    Overran,
 }
 
 /// How a job ended.
@@ -42,6 +49,8 @@ pub(crate) enum End {
     /// Its job is to be merged from these.
     Split(Vec<Submission>),
     Drained,
+    /// It is to be queued again as what it has shown itself to cost, seconds of one core.
+    Overran(f64),
     /// It is left to others; the reason if nobody can do it.
     Elsewhere(Bytes),
 }
@@ -51,7 +60,8 @@ impl From<Told> for End {
         match told {
             Told::Cancelled => Self::Final(Outcome::Cancelled),
             Told::DeadlinePassed => Self::Final(Outcome::Failed(Failure::DeadlinePassed)),
-            Told::Drained => Self::Drained,
+            // Only a run that has begun knows how long it took.
+            Told::Drained | Told::Overran => Self::Drained,
         }
     }
 }
@@ -61,20 +71,34 @@ pub(crate) struct Run {
     pub(crate) life: u64,
     /// The job's parts are there.
     pub(crate) merges: bool,
+    /// To whom it is charged.
+    pub(crate) client: String,
     pub(crate) seat: Seat,
     feeder: Feeder,
     turn: Arc<Turn>,
     told: OnceLock<Told>,
     began: Instant,
+    /// How long it may hold the express lane.
+    longest: Duration,
     /// When each thread last rested, nanoseconds after the beginning.
     rested: Box<[AtomicU64]>,
 }
 
 impl Run {
-    pub(crate) fn new(job: (JobId, u64), merges: bool, seat: Seat, feeder: Feeder, turn: Arc<Turn>) -> Self {
+    pub(crate) fn new(
+        job: (JobId, u64),
+        merges: bool,
+        client: String,
+        seat: Seat,
+        feeder: Feeder,
+        turn: Arc<Turn>,
+    ) -> Self {
         let (id, life) = job;
         let rested = (0..seat.pool.current_num_threads()).map(|_| AtomicU64::new(0)).collect();
-        Self { id, life, merges, seat, feeder, turn, told: OnceLock::new(), began: Instant::now(), rested }
+        let (told, began) = (OnceLock::new(), Instant::now());
+        let cost = feeder.job().cost * if merges { MERGE } else { 1.0 };
+        let longest = Duration::try_from_secs_f64(OVERRUN * cost.max(SHORTEST)).unwrap_or(Duration::MAX);
+        Self { id, life, merges, client, seat, feeder, turn, told, began, longest, rested }
     }
 
     /// The first to tell is heard.
@@ -95,7 +119,8 @@ impl Run {
 
     /// Called on the seat's pool. Calls `further` on any of its threads after progress that shows.
     pub(crate) fn run(&self, work: &dyn Work, payload: &[u8], further: &(dyn Fn() + Sync)) -> End {
-        let _passing = (self.seat.lane == Lane::Express).then(|| self.turn.express());
+        let threads = self.seat.pool.current_num_threads();
+        let _beside = (self.seat.lane != Lane::Main).then(|| self.turn.beside(threads));
         let watched = Watched { run: self, further };
         match self.guarded(|| work.run(&self.id, payload, &watched)) {
             Ok(()) => End::Final(Outcome::Succeeded),
@@ -107,6 +132,9 @@ impl Run {
         let outcome = match (catch_unwind(AssertUnwindSafe(call)), self.told()) {
             (Ok(Ok(value)), _) => return Ok(value),
             (Err(panic), _) => Outcome::Failed(Failure::Panicked(message(panic.as_ref()))),
+            (Ok(Err(_)), Some(Told::Overran)) => {
+                return Err(End::Overran(self.began.elapsed().as_secs_f64()));
+            }
             (Ok(Err(_)), Some(told)) => return Err(told.into()),
             (Ok(Err(Stop::Cancelled)), None) => Outcome::Cancelled,
             (Ok(Err(Stop::Failed(reason))), None) => Outcome::Failed(Failure::Work(reason)),
@@ -115,10 +143,13 @@ impl Run {
         Err(End::Final(outcome))
     }
 
-    /// Whether to stop; a thread of the main lane may rest before it is told.
+    /// Whether to stop; a thread of the main lane may rest before it is told. A job that holds the express lane for too
+    /// long is told to stop here.
     fn look(&self) -> bool {
-        if self.seat.lane == Lane::Main && self.turn.is_express() {
-            self.let_pass();
+        match self.seat.lane {
+            Lane::Main if self.turn.is_shared() => self.let_pass(),
+            Lane::Express if self.began.elapsed() > self.longest => self.tell(Told::Overran),
+            Lane::Main | Lane::Express | Lane::Guest => {}
         }
         self.told().is_some()
     }
@@ -187,7 +218,7 @@ mod tests {
         let seat = seats(1, 1, 0).into_iter().flatten().find(|seat| seat.lane == lane);
         #[expect(clippy::unwrap_used, reason = "test")]
         let seat = seat.unwrap();
-        Run::new((id, 1), false, seat, Feeder::new(job), Arc::clone(turn))
+        Run::new((id, 1), false, String::new(), seat, Feeder::new(job), Arc::clone(turn))
     }
 
     fn rests(run: &Run) -> bool {
@@ -200,11 +231,11 @@ mod tests {
         let (long, small) = (run(Lane::Main, &turn), run(Lane::Express, &turn));
         long.seat.pool.install(|| assert!(!long.look()));
         assert!(!rests(&long));
-        let passing = turn.express();
+        let beside = turn.beside(1);
         long.seat.pool.install(|| assert!(!long.look()));
         assert!(rests(&long));
         small.seat.pool.install(|| assert!(!small.look()));
         assert!(!rests(&small));
-        drop(passing);
+        drop(beside);
     }
 }

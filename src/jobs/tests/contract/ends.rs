@@ -165,14 +165,14 @@ async fn a_full_queue_takes_no_more(open: Open) {
     let stand = open(2);
     stand.leave(job("ada", "running", "hold")).await;
     stand.stage.begun(1).await;
-    let _queued = [stand.submit(job("ada", "a", "pass")).await, stand.submit(job("bob", "b", "pass")).await];
+    let _queued = [stand.submit(job("ada", "a", "pass")).await, stand.submit(job("ada", "b", "pass")).await];
     let refused = stand.backend.submit(job("eve", "c", "pass")).await.unwrap_err();
     let SubmitError::Full { retry_after } = refused else {
         panic!("{refused}");
     };
     assert!(retry_after >= Duration::from_secs(1) && retry_after <= Duration::from_mins(1));
     // What is there already needs no room.
-    drop(stand.submit(job("eve", "a", "pass")).await);
+    drop(stand.submit(job("ada", "a", "pass")).await);
     assert_eq!(stand.backend.counts().queued, 2);
     stand.backend.cancel(id("a")).await.unwrap();
     drop(stand.submit(job("eve", "c", "pass")).await);

@@ -48,7 +48,7 @@ async fn a_list_is_filtered(open: Open) {
     stand.submit(job("ada", "done", "pass")).await.finished().await;
     stand.leave(job("bob", "running", "hold")).await;
     stand.stage.begun(2).await;
-    stand.leave(job("ada", "queued", "pass")).await;
+    stand.leave(job("bob", "queued", "pass")).await;
     for (state, expected) in [
         (Some(State::Queued), vec!["queued"]),
         (Some(State::Running), vec!["running"]),
@@ -61,7 +61,7 @@ async fn a_list_is_filtered(open: Open) {
         assert_eq!(page.next, None);
     }
     let page = list(&stand, Filter { client: Some("bob".to_owned()), limit: 9, ..Filter::default() }).await;
-    assert_eq!(names(&page.jobs), ["running"]);
+    assert_eq!(names(&page.jobs), ["queued", "running"]);
 }
 
 async fn a_list_is_bounded(open: Open) {

@@ -1,4 +1,5 @@
-//! Which job is next. One job holds the only place of the main lane while the others are submitted.
+//! Which job is next. A job holds the only place of the main lane, and one of another client that of the guest lane,
+//! while the others are submitted.
 
 use verne_jobs::{State, Submission};
 
@@ -26,12 +27,14 @@ async fn held(open: Open) -> Stand {
     let stand = open(1000);
     stand.leave(job("the first", "first", "hold")).await;
     stand.stage.begun(1).await;
+    stand.leave(job("the guest", "guest", "hold")).await;
+    stand.stage.begun(2).await;
     stand
 }
 
 async fn order(stand: &Stand, count: usize) -> Vec<String> {
     stand.stage.open("first");
-    stand.stage.begun(count + 1).await.split_off(1)
+    stand.stage.begun(count + 2).await.split_off(2)
 }
 
 fn costing(cost: f64, job: Submission) -> Submission {
@@ -114,17 +117,19 @@ async fn what_passes_by_the_express_lane_does_not_set_others_back(open: Open) {
     }
     stand.leave(job("bob", "b", "pass")).await;
     stand.stage.open("first");
-    let begun = stand.stage.begun(72).await;
-    assert_eq!(begun[61..64], ["a0", "a1", "b"]);
+    let begun = stand.stage.begun(73).await;
+    assert_eq!(begun[62..65], ["a0", "a1", "b"]);
 }
 
 async fn others_pass_between_parts(open: Open) {
     let stand = open(1000);
-    stand.leave(costing(100.0, job("ada", "a", "split a1=hold a2=pass a3=pass a4=pass"))).await;
+    stand.leave(job("the guest", "guest", "hold")).await;
     stand.stage.begun(1).await;
+    stand.leave(costing(100.0, job("ada", "a", "split a1=hold a2=pass a3=pass a4=pass"))).await;
+    stand.stage.begun(2).await;
     stand.leave(costing(15.0, job("bob", "b", "pass"))).await;
     stand.stage.open("a1");
-    assert_eq!(stand.stage.begun(6).await, ["a1", "a2", "b", "a3", "a4", "a"]);
+    assert_eq!(stand.stage.begun(7).await, ["guest", "a1", "a2", "b", "a3", "a4", "a"]);
 }
 
 async fn a_job_of_parts_is_charged_once(open: Open) {

@@ -205,7 +205,8 @@ async fn a_small_whole_passes_a_part_of_a_large_one(open: Open) {
     let stand = open(10);
     stand.leave(job("ada", "whole", "split a=hold=1 b=hold=1")).await;
     stand.stage.begun(1).await;
-    let whole = stand.submit(small("second", "c=pass=0.5 d=pass=0.5")).await;
+    let second = Submission { client: "ada".to_owned(), ..small("second", "c=pass=0.5 d=pass=0.5") };
+    let whole = stand.submit(second).await;
     assert_eq!(whole.finished().await.state, State::Succeeded);
     assert_eq!(stand.stage.begun(4).await, ["a", "c", "d", "second"]);
 }

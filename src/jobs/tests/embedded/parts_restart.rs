@@ -34,7 +34,7 @@ async fn a_whole_falls_with_the_part_at_which_processes_die() {
         let first = stand(directory.path());
         first.leave(job("ada", "whole", "split poison=hold")).await;
         first.stage.begun(1).await;
-        first.leave(Submission { cost: 1.0, ..job("bob", "waits", "split good=pass=1000") }).await;
+        first.leave(Submission { cost: 1.0, ..job("ada", "waits", "split good=pass=1000") }).await;
         for attempt in 1..=3 {
             let stand = if attempt == 1 { None } else { Some(stand(directory.path())) };
             let stand = stand.as_ref().unwrap_or(&first);

@@ -33,7 +33,7 @@ async fn jobs_outlive_their_process() {
         let before = stand(directory.path());
         let done = before.submit(job("ada", "done", "fail")).await.finished().await;
         let running = before.submit(job("ada", "running", "hold")).await;
-        let queued = before.submit(job("bob", "queued", "pass")).await;
+        let queued = before.submit(job("ada", "queued", "pass")).await;
         before.stage.begun(2).await;
         before.leave(job("bob", "running", "hold")).await;
         // Answered after all that was to be written.
@@ -51,7 +51,7 @@ async fn jobs_outlive_their_process() {
         assert_eq!((end.state, end.client.as_str()), (State::Succeeded, "ada"));
         assert!(["ada", "bob"].iter().all(|client| end.clients.contains(client)), "{:?}", end.clients);
         let end = after.end("queued").await;
-        assert_eq!((end.state, end.attempts, end.client.as_str()), (State::Succeeded, 1, "bob"));
+        assert_eq!((end.state, end.attempts, end.client.as_str()), (State::Succeeded, 1, "ada"));
         // What is new is the newest.
         after.submit(job("eve", "new", "pass")).await.finished().await;
         let page = after.backend.list(verne_jobs::Filter::default()).await.unwrap();
@@ -66,7 +66,7 @@ async fn a_job_at_which_processes_die_is_given_up() {
         let mut directory = TempDir::new().unwrap();
         let first = stand(directory.path());
         first.leave(job("ada", "poison", "hold")).await;
-        first.leave(job("bob", "good", "pass")).await;
+        first.leave(job("ada", "good", "pass")).await;
         for attempt in 1..=3 {
             let stand = if attempt == 1 { None } else { Some(stand(directory.path())) };
             let stand = stand.as_ref().unwrap_or(&first);

@@ -229,8 +229,8 @@ async fn what_waits_for_the_main_lane_is_in_nobodys_way() {
         let _busy = worker(&nodes[0], &stages[0]);
         let whole = nodes[0].submit(job("ada", "whole", "split a=hold b=pass c=pass")).await.unwrap();
         stages[0].begun(1).await;
-        let large = nodes[0].submit(job("bob", "large", "pass")).await.unwrap();
-        let small = verne_jobs::Submission { cost: 1.0, ..job("bob", "small", "pass") };
+        let large = nodes[0].submit(job("ada", "large", "pass")).await.unwrap();
+        let small = verne_jobs::Submission { cost: 1.0, ..job("ada", "small", "pass") };
         let small = nodes[0].submit(small).await.unwrap();
         assert_eq!(small.finished().await.state, State::Succeeded, "by the express lane");
         assert_eq!(stages[0].begun(2).await, ["a", "small"]);

@@ -67,9 +67,13 @@ impl DexterityQuestion {
         Self { id: ResultId::of(LAYOUT, &published, numbers), published, request }
     }
 
-    /// Estimated work, seconds of one core.
+    /// Estimated work, seconds of one core. The grid is as wide as the machine; across that the table turns what the strokes
+    /// reach.
     pub(crate) fn cost(&self) -> f64 {
-        POINT_COST * (longest(self.published.machine.data()) / self.request.cell).powi(3)
+        let machine = self.published.machine.data();
+        let stroke = machine.limits.stroke.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+        let (wide, across) = (longest(machine), longest(machine).max(stroke));
+        POINT_COST * wide * across * across / self.request.cell.powi(3)
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use verne_solver::workspace::Observer;
+
 use super::workspace_question::{WorkspaceQuestion, check_tolerance};
 use crate::error::Error;
 use crate::faults::{Faults, is_angle, is_tool_length};
@@ -14,6 +16,9 @@ use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest};
 
 /// Most workspaces in a family.
 const MEMBERS: usize = 1000;
+
+/// About how many members of a family are estimated.
+const PROBES: usize = 4;
 
 /// Changes when the bytes do that the same question is answered with.
 const LAYOUT: &[u8] = b"verne family 1";
@@ -95,6 +100,26 @@ impl FamilyQuestion {
             hasher.update(member.id.job().as_bytes());
         }
         Self { published: Arc::clone(published), request, members, id: hasher.finalize().into() }
+    }
+}
+
+impl FamilyQuestion {
+    /// How many workspaces there are.
+    pub(crate) fn count(&self) -> u32 {
+        u32::try_from(self.members.len()).unwrap_or(u32::MAX)
+    }
+
+    /// About how many triangles the largest mesh will have. A tool's length makes it larger, and the tool's inclination cuts
+    /// the workspace of a part: the longest tool is looked at, and some of the members.
+    pub(crate) fn triangles(&self, observer: &dyn Observer) -> Result<f64, Error> {
+        let tool = |member: &&WorkspaceQuestion| member.request.tool_length.unwrap_or_default().abs();
+        let longest = self.members.iter().max_by(|a, b| tool(a).total_cmp(&tool(b)));
+        let some = self.members.iter().step_by(self.members.len().div_ceil(PROBES).max(1));
+        let mut most: f64 = 0.0;
+        for member in some.chain(longest) {
+            most = most.max(member.triangles(observer)?);
+        }
+        Ok(most)
     }
 }
 

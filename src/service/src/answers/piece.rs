@@ -89,15 +89,15 @@ impl Piece {
         }
     }
 
-    /// Estimated work, seconds of one core.
-    pub(crate) fn cost(&self) -> f64 {
+    /// Estimated work, seconds of one core, of a whole that is estimated at `whole` and has so many pieces.
+    pub(crate) fn cost(&self, whole: f64, pieces: u32) -> f64 {
         match self {
-            Self::Member(workspace) => workspace.cost(),
-            Self::Slab { of, number, count } => {
+            Self::Member(_) => whole / f64::from(pieces.max(1)),
+            Self::Slab { number, count, .. } => {
                 let [from, to] = [*number, number + 1].map(|cut| f64::from(cut) / f64::from(*count));
-                of.cost() * (1.0 - VOLUMES_SHARE) * (share(to) - share(from))
+                whole * (1.0 - VOLUMES_SHARE) * (share(to) - share(from))
             }
-            Self::Volumes(map) => map.cost() * VOLUMES_SHARE,
+            Self::Volumes(_) => whole * VOLUMES_SHARE,
         }
     }
 

@@ -5,11 +5,12 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use verne_jobs::Submission;
+use verne_solver::workspace::Observer;
 
 use super::dexterity_question::DexterityQuestion;
 use super::family_question::FamilyQuestion;
 use super::piece::{Piece, WrittenPiece};
-use super::workspace_question::WorkspaceQuestion;
+use super::workspace_question::{self, WorkspaceQuestion, check_triangles};
 use crate::error::{Error, Fault};
 use crate::registry::Published;
 use crate::result_id::ResultId;
@@ -44,8 +45,33 @@ struct Written<'a> {
     asked: Asked,
     machine: MachineObject,
     hash: String,
+    /// There if it is written for a job.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    terms: Option<Terms>,
     #[serde(borrow)]
     request: &'a RawValue,
+}
+
+/// On which terms a job answers a question; they are no part of the question.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(crate) struct Terms {
+    /// Most triangles of each mesh.
+    pub most_triangles: u64,
+    /// Estimated work, seconds of one core.
+    pub cost: f64,
+}
+
+impl Terms {
+    /// Those that are written with a question.
+    pub(crate) fn read(text: &[u8]) -> Result<Self, Error> {
+        let written: Written<'_> = serde_json::from_slice(text).map_err(|_| Error::OtherVersion)?;
+        written.terms.ok_or(Error::OtherVersion)
+    }
+
+    /// Most triangles of each mesh.
+    pub(crate) fn most(self) -> usize {
+        usize::try_from(self.most_triangles).unwrap_or(usize::MAX)
+    }
 }
 
 impl Question {
@@ -78,30 +104,33 @@ impl Question {
         }
     }
 
-    /// Estimated work, seconds of one core.
-    fn cost(&self) -> f64 {
-        match self {
-            Self::Workspace(question) => question.cost(),
-            Self::Family(question) => question.members.iter().map(WorkspaceQuestion::cost).sum(),
-            Self::Dexterity(question) => question.cost(),
-            Self::Piece(piece) => piece.cost(),
-        }
-    }
-
-    /// Refuses meshes of more triangles than this: those of each member of a family. The grid of a dexterity map has a
-    /// bound of its own, and pieces are of what was checked.
-    pub(crate) fn check_triangles(&self, most: u64) -> Result<(), Error> {
-        match self {
-            Self::Workspace(question) => question.check_triangles(most),
-            Self::Family(question) => {
-                question.members.iter().try_for_each(|member| member.check_triangles(most))
+    /// On which terms a job may answer it: estimates its work, and refuses meshes of more triangles than `most`, of each
+    /// member of a family. The grid of a dexterity map has a bound of its own. It takes some milliseconds: to be called on
+    /// the worker threads.
+    pub(crate) fn terms(&self, most: u64, observer: &dyn Observer) -> Result<Terms, Error> {
+        let cost = match self {
+            Self::Workspace(question) => {
+                let triangles = question.triangles(observer)?;
+                check_triangles(triangles, most)?;
+                workspace_question::cost(triangles)
             }
-            Self::Dexterity(_) | Self::Piece(_) => Ok(()),
-        }
+            Self::Family(family) => {
+                let triangles = family.triangles(observer)?;
+                check_triangles(triangles, most)?;
+                workspace_question::cost(triangles) * f64::from(family.count())
+            }
+            Self::Dexterity(question) => question.cost(),
+            Self::Piece(_) => return Err(Error::Internal),
+        };
+        Ok(Terms { most_triangles: most, cost })
     }
 
-    /// The question as text.
+    /// The question as text, without terms.
     pub(crate) fn written(&self) -> Result<Vec<u8>, Error> {
+        self.written_on(None)
+    }
+
+    fn written_on(&self, terms: Option<Terms>) -> Result<Vec<u8>, Error> {
         let (asked, request) = match self {
             Self::Workspace(question) => (Asked::Workspace, raw(&question.request)?),
             Self::Family(question) => (Asked::Family, raw(&question.request)?),
@@ -110,7 +139,8 @@ impl Question {
         };
         let published = self.published();
         let machine = MachineObject::from(published.machine.data());
-        let written = Written { asked, machine, hash: (*published.id.hash).to_owned(), request: &request };
+        let hash = (*published.id.hash).to_owned();
+        let written = Written { asked, machine, hash, terms, request: &request };
         serde_json::to_vec(&written).map_err(|_| Error::Internal)
     }
 
@@ -134,14 +164,14 @@ impl Question {
     }
 
     /// The question as a job for a client.
-    pub(crate) fn submission(&self, client: String, deadline: Option<Duration>) -> Result<Submission, Error> {
-        Ok(Submission {
-            id: self.id().job(),
-            client,
-            cost: self.cost(),
-            payload: self.written()?.into(),
-            deadline,
-        })
+    pub(crate) fn submission(
+        &self,
+        terms: Terms,
+        client: String,
+        deadline: Option<Duration>,
+    ) -> Result<Submission, Error> {
+        let payload = self.written_on(Some(terms))?.into();
+        Ok(Submission { id: self.id().job(), client, cost: terms.cost, payload, deadline })
     }
 }
 

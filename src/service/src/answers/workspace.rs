@@ -1,7 +1,7 @@
 //! `/workspace`: volume, area, surface.
 
 use verne_mesh::Mesh;
-use verne_solver::workspace::{Measure, Observer, Request, Surface, Volume, agree, measure, surface};
+use verne_solver::workspace::{Measure, Observer, Request, Surface, Volume, agree, measure, surface_within};
 
 use super::stage::Stage;
 use super::workspace_colours::coloured;
@@ -33,20 +33,27 @@ pub(crate) struct Workspace {
     pub inclination: Option<f64>,
 }
 
-/// Computes a workspace; to be called on the worker threads.
+/// Computes a workspace, whose mesh may have so many triangles; to be called on the worker threads.
 pub(crate) fn compute_workspace(
     question: &WorkspaceQuestion,
+    most: usize,
     observer: &dyn Observer,
 ) -> Result<Workspace, Error> {
     let (machine, request) = (&question.published.machine, Request::from(&question.request));
     let measuring = Stage::of(observer, 0.0, MEASURING);
     let measure = measure(machine, &request, &measuring).map_err(workspace_error)?;
     let meshing = Stage::of(observer, MEASURING, 1.0);
-    let surface = surface(machine, &request, &meshing).map_err(workspace_error)?;
+    let surface = surface_within(machine, &request, most, &meshing).map_err(workspace_error)?;
     agree(&measure, &surface, request.tolerance, &meshing).map_err(workspace_error)?;
+    go_on(observer)?;
     let mesh = meshed(surface)?;
+    go_on(observer)?;
     let summary = write_json(&summarised(question, &measure, &mesh), SUMMARY_BYTES)?;
     Ok(Workspace { summary, mesh, inclination: measure.inclination })
+}
+
+fn go_on(observer: &dyn Observer) -> Result<(), Error> {
+    if observer.cancelled() { Err(Error::Cancelled) } else { Ok(()) }
 }
 
 fn meshed(surface: Surface) -> Result<Mesh, Error> {

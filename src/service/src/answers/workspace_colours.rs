@@ -14,8 +14,9 @@ const LIGHTEST: f64 = 0.7;
 /// A tag for each triangle, and what the tags mean: `stroke slider1.max`. Only what occurs has one, in a fixed order.
 pub(super) fn coloured(bindings: &[Binding]) -> (Vec<u8>, Vec<Swatch>) {
     let mut names = BTreeMap::new();
-    for &binding in bindings {
-        names.entry(key(binding)).or_insert(0_u8);
+    // A surface has long runs of one binding.
+    for run in bindings.chunk_by(|a, b| a == b) {
+        names.extend(run.first().map(|&binding| (key(binding), 0_u8)));
     }
     let mut elements = BTreeMap::new();
     for (constraint, _) in names.keys() {
@@ -32,7 +33,6 @@ pub(super) fn coloured(bindings: &[Binding]) -> (Vec<u8>, Vec<Swatch>) {
         let name = format!("{} {element}", ConstraintName::from(*constraint));
         palette.push(Swatch { name, rgb: lighter(colour(*constraint), white) });
     }
-    // A surface has long runs of one binding.
     let mut last = None;
     let tag = |&binding: &Binding| match last {
         Some((known, tag)) if known == binding => tag,

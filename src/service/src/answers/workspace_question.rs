@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use verne_solver::MachineData;
-use verne_solver::workspace::WorkspaceError;
+use verne_solver::workspace::{Observer, Request, WorkspaceError, expected_triangles};
 
 use super::dexterity::too_many_points;
 use crate::error::{Error, Fault};
@@ -19,22 +19,9 @@ const TOLERANCES: [f64; 2] = [0.01, 1000.0];
 /// triangles.
 const FINEST: f64 = 1e-6;
 
-/// About the seconds that a volume takes.
+/// About the seconds that a volume takes, and a triangle.
 const VOLUME_COST: f64 = 0.015;
-
-/// About the seconds that a surface takes, times its tolerance as a part of the machine's longest dimension.
-const SURFACE_COST: f64 = 1e-5;
-
-/// Triangles of a mesh of size s at tolerance t: so many times s / t, where chords lie off curves, and so many times its
-/// root, where the lattice is fine enough already. Within 20 % of what `verne workspace` counts for machines of several
-/// proportions, all kinds, and tolerances from a thousandth of the size down; above that it is the greater by up to half.
-const BY_CHORDS: f64 = 3.0;
-const BY_LATTICE: f64 = 60.0;
-
-/// What a tool's length adds to the size, and what a stroke's length makes it in the part frame, which turns about the
-/// table's axis.
-const SIZE_BY_TOOL: f64 = 0.28;
-const SIZE_BY_STROKE: f64 = 1.5;
+const TRIANGLE_COST: f64 = 4e-6;
 
 /// Changes when the bytes do that the same question is answered with.
 const LAYOUT: &[u8] = b"verne workspace 3";
@@ -75,35 +62,27 @@ impl WorkspaceQuestion {
         Self { id: ResultId::of(LAYOUT, &published, numbers), published, request }
     }
 
-    /// Refuses a mesh of more triangles than this, by an estimate: before the work.
-    pub(crate) fn check_triangles(&self, most: u64) -> Result<(), Error> {
-        let (estimate, most) = (self.triangles(), count(most));
-        if estimate <= most {
-            return Ok(());
-        }
-        let detail =
-            format!("would make about {} triangles; at most {} are made", rounded(estimate), rounded(most));
-        Err(Error::Fields(vec![Fault::new("/tolerance", detail)]))
+    /// About how many triangles the mesh will have. It takes some milliseconds: to be called on the worker threads.
+    pub(crate) fn triangles(&self, observer: &dyn Observer) -> Result<f64, Error> {
+        expected_triangles(&self.published.machine, &Request::from(&self.request), observer)
+            .map_err(workspace_error)
     }
+}
 
-    /// About how many triangles the mesh will have.
-    fn triangles(&self) -> f64 {
-        let machine = self.published.machine.data();
-        let (size, tool_length) = (longest(machine), self.request.tool_length.unwrap_or_default());
-        let stroke = machine.limits.stroke.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-        let size = match self.request.kind {
-            KindName::Platform => size,
-            KindName::Tool => size + SIZE_BY_TOOL * tool_length,
-            KindName::Part => size.max(SIZE_BY_STROKE * stroke),
-        };
-        let fineness = size / self.request.tolerance;
-        BY_CHORDS * fineness + BY_LATTICE * fineness.sqrt()
+/// Refuses a mesh of so many triangles if they are more than this.
+pub(super) fn check_triangles(triangles: f64, most: u64) -> Result<(), Error> {
+    let most = count(most);
+    if triangles <= most {
+        return Ok(());
     }
+    let detail =
+        format!("would make about {} triangles; at most {} are made", rounded(triangles), rounded(most));
+    Err(Error::Fields(vec![Fault::new("/tolerance", detail)]))
+}
 
-    /// Estimated work, seconds of one core: what the reference machine's mesh takes at the same fraction of its size.
-    pub(crate) fn cost(&self) -> f64 {
-        VOLUME_COST + SURFACE_COST * longest(self.published.machine.data()) / self.request.tolerance
-    }
+/// Estimated work, seconds of one core, of a workspace with so many triangles.
+pub(super) fn cost(triangles: f64) -> f64 {
+    VOLUME_COST + TRIANGLE_COST * triangles
 }
 
 /// Refuses a tolerance that is too fine for the machine, or no tolerance.
@@ -144,6 +123,10 @@ pub(crate) fn workspace_error(error: WorkspaceError) -> Error {
         WorkspaceError::TooFine => {
             Error::Fields(vec![Fault::new("/tolerance", "asks for more vertices than can be numbered")])
         }
+        WorkspaceError::TooManyTriangles { most } => {
+            let detail = format!("makes more triangles than the {most} that are made at most");
+            Error::Fields(vec![Fault::new("/tolerance", detail)])
+        }
         WorkspaceError::TooManyNodes { nodes } => too_many_points(nodes),
         WorkspaceError::Open => Error::Fields(vec![Fault::new(
             "/tolerance",
@@ -161,6 +144,7 @@ mod tests {
 
     use super::{WorkspaceQuestion, rounded};
     use crate::answers::compute_workspace;
+    use crate::error::{Error, Fault};
     use crate::registry::Registry;
     use crate::wire::machine_ref::MachineRef;
     use crate::wire::workspace::{KindName, WorkspaceRequest};
@@ -178,11 +162,29 @@ mod tests {
                     tolerance,
                 };
                 let question = WorkspaceQuestion::new(&request, &Registry::default()).unwrap();
-                let made = compute_workspace(&question, &Unobserved).unwrap().mesh.triangles().len();
-                let estimate = question.triangles() / f64::from(u32::try_from(made).unwrap());
-                assert!((0.8..1.25).contains(&estimate), "{kind:?} {tolerance}: {made}, {estimate} of them");
+                let made =
+                    compute_workspace(&question, usize::MAX, &Unobserved).unwrap().mesh.triangles().len();
+                let estimate =
+                    question.triangles(&Unobserved).unwrap() / f64::from(u32::try_from(made).unwrap());
+                assert!((0.8..1.5).contains(&estimate), "{kind:?} {tolerance}: {made}, {estimate} of them");
             }
         }
+    }
+
+    #[test]
+    fn a_mesh_that_turns_out_too_large_is_refused() {
+        let request = WorkspaceRequest {
+            machine: MachineRef::default(),
+            kind: KindName::Platform,
+            tool_length: 0.0,
+            phi1: 0.0,
+            phi2: 0.0,
+            tolerance: 1.0,
+        };
+        let question = WorkspaceQuestion::new(&request, &Registry::default()).unwrap();
+        let refused = compute_workspace(&question, 1_000, &Unobserved).map(drop).unwrap_err();
+        let detail = "makes more triangles than the 1000 that are made at most";
+        assert_eq!(refused, Error::Fields(vec![Fault::new("/tolerance", detail)]));
     }
 
     #[test]

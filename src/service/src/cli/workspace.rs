@@ -50,7 +50,7 @@ impl WorkspaceCommand {
         let request = WorkspaceRequest { machine, ..self.query.into_request() };
         let bar = Bar::new();
         let question = WorkspaceQuestion::new(&request, &Registry::default()).map_err(in_flags)?;
-        let workspace = compute_workspace(&question, &bar).map_err(in_flags)?;
+        let workspace = compute_workspace(&question, usize::MAX, &bar).map_err(in_flags)?;
         let slice = |format| {
             let z = self.slice.unwrap_or_default();
             answer_slice(&question, workspace.inclination, z, &self.alpha, format, &bar)

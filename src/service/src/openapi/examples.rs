@@ -150,9 +150,9 @@ fn of_workspaces(machines: &Registry) -> Vec<Example> {
     let question = parse_body(asked.to_string().as_bytes())
         .and_then(|body: WorkspaceBody| body.single().ok_or(Error::Internal))
         .and_then(|request| WorkspaceQuestion::new(&request, machines));
-    let computed = question
-        .clone()
-        .and_then(|question| compute_workspace(&question, &Unobserved).map(|computed| (question, computed)));
+    let computed = question.clone().and_then(|question| {
+        compute_workspace(&question, usize::MAX, &Unobserved).map(|computed| (question, computed))
+    });
     let summary = computed.as_ref().map_err(Clone::clone).and_then(|(_, found)| parse_body(&found.summary));
     let slice = computed.as_ref().map_err(Clone::clone).and_then(|(question, found)| {
         let alphas = Alphas::These(vec![0.0]);

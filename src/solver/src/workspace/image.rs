@@ -37,6 +37,11 @@ impl Image {
         }
     }
 
+    /// Whether columns that are parallel have images that are not.
+    pub(super) fn turns(&self) -> bool {
+        matches!(self, Self::Part { .. })
+    }
+
     #[inline]
     pub(super) fn point(&self, column: &Column, z: f64) -> Point {
         match self {

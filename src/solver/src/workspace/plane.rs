@@ -39,19 +39,21 @@ pub(super) struct Plane {
 }
 
 impl Plane {
+    /// The domain on a lattice, cut to tolerance; an error if a surface over it would have more than `most` triangles.
     pub(super) fn trace(
         domain: &Domain<'_>,
         cover: &Cover,
         squares: u32,
         tolerance: f64,
+        most: usize,
         observer: &dyn Observer,
     ) -> Result<Self, WorkspaceError> {
         let Some(rectangle) = cover.bounds() else {
             return Ok(Self { vertices: Vec::new(), triangles: Vec::new(), rims: Vec::new() });
         };
         let lattice = Lattice::new(with_border(rectangle), squares);
-        let refinement = Refinement { domain, cover, tolerance, observer };
-        let (count, done) = (lattice.count(), AtomicUsize::new(0));
+        let (count, done, made) = (lattice.count(), AtomicUsize::new(0), AtomicUsize::new(0));
+        let refinement = Refinement { domain, cover, tolerance, most, made: &made, observer };
         let patches: Result<Vec<Patch>, WorkspaceError> = (0..count)
             .into_par_iter()
             .map(|number| {
@@ -62,6 +64,11 @@ impl Plane {
             })
             .collect();
         join::join(domain, &lattice, patches?, &mut Pace::new(observer))
+    }
+
+    /// Triangles of a surface over it: two sheets, and two for each side's wall.
+    pub(super) fn surface_triangles(&self) -> usize {
+        2 * (self.triangles.len() + self.rims.len())
     }
 
     /// Whether the sides are closed rings.

@@ -46,6 +46,11 @@ pub enum WorkspaceError {
     Cancelled,
     /// The tolerance asks for more vertices than 32 bits can number.
     TooFine,
+    /// The surface has more triangles than it may.
+    TooManyTriangles {
+        /// How many it may have.
+        most: usize,
+    },
     /// A grid would have more nodes than [`MOST_NODES`](super::dexterity::MOST_NODES).
     TooManyNodes {
         /// Their number.
@@ -65,6 +70,7 @@ impl fmt::Display for WorkspaceError {
             Self::OutOfDomain { field } => write!(f, "{field} is out of range"),
             Self::Cancelled => write!(f, "cancelled"),
             Self::TooFine => write!(f, "the tolerance needs more vertices than can be numbered"),
+            Self::TooManyTriangles { most } => write!(f, "the surface has more than {most} triangles"),
             Self::TooManyNodes { nodes } => write!(f, "the grid would have {nodes} nodes"),
             Self::Disagreement => write!(f, "the volume and the surface disagree"),
             Self::Open => write!(f, "the surface could not be closed at this tolerance"),

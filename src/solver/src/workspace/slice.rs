@@ -64,7 +64,7 @@ pub fn slice(
 fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Plane, WorkspaceError> {
     let cover = Cover::of(domain, Purpose::Pieces(tolerance), observer)?;
     for squares in ATTEMPTS {
-        let plane = Plane::trace(domain, &cover, squares, tolerance, observer)?;
+        let plane = Plane::trace(domain, &cover, squares, tolerance, usize::MAX, observer)?;
         if plane.closes() {
             return Ok(plane);
         }

@@ -12,6 +12,12 @@ use super::request::{Request, WorkspaceError};
 use crate::machine::Machine;
 use crate::pose::Point;
 
+/// Parts of the work that are done when the plane's patches are joined, when the surface is a manifold and when its short
+/// edges are contracted.
+const JOINED: f64 = 0.93;
+const PARTED: f64 = 0.95;
+const TIDIED: f64 = 0.98;
+
 /// A closed surface of triangles, oriented outwards; empty for an empty workspace.
 ///
 /// Every edge belongs to two triangles, which run along it in opposite directions, and the
@@ -38,10 +44,20 @@ pub fn surface(
     request: &Request,
     observer: &dyn Observer,
 ) -> Result<Surface, WorkspaceError> {
+    surface_within(machine, request, usize::MAX, observer)
+}
+
+/// The same, or an error as soon as there are more triangles than `most`.
+pub fn surface_within(
+    machine: &Machine,
+    request: &Request,
+    most: usize,
+    observer: &dyn Observer,
+) -> Result<Surface, WorkspaceError> {
     request.check()?;
     go_on(observer)?;
     let domain = Domain::new(machine, request, None);
-    let mut surface = closed(&domain, request.tolerance, observer)?;
+    let mut surface = closed(&domain, request.tolerance, most, observer)?;
     let mut pace = Pace::new(observer);
     let mut volume = 0.0;
     for triangle in &surface.triangles {
@@ -60,11 +76,16 @@ pub fn surface(
 }
 
 /// The surface over the first lattice on which it closes.
-fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Surface, WorkspaceError> {
+fn closed(
+    domain: &Domain<'_>,
+    tolerance: f64,
+    most: usize,
+    observer: &dyn Observer,
+) -> Result<Surface, WorkspaceError> {
     let mut answer = Err(WorkspaceError::Open);
     let cover = Cover::of(domain, Purpose::Pieces(tolerance), observer)?;
     for squares in ATTEMPTS {
-        let plane = Plane::trace(domain, &cover, squares, tolerance, observer)?;
+        let plane = Plane::trace(domain, &cover, squares, tolerance, most, observer)?;
         go_on(observer)?;
         if plane.triangles.is_empty() && cover.holds(tolerance) {
             return Err(WorkspaceError::Disagreement);
@@ -72,6 +93,7 @@ fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Resul
         if plane.is_thin(&cover, tolerance) {
             return Ok(Surface::default());
         }
+        observer.progress(JOINED);
         let mut pace = Pace::new(observer);
         answer = made_one(Surface::over(domain, &plane, &mut pace)?, tolerance, &mut pace);
         if answer != Err(WorkspaceError::Open) {
@@ -83,7 +105,9 @@ fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Resul
 
 fn made_one(mut surface: Surface, tolerance: f64, pace: &mut Pace<'_>) -> Result<Surface, WorkspaceError> {
     part::part(&mut surface, pace)?;
+    pace.observer.progress(PARTED);
     tidy::contract(&mut surface, tolerance, pace)?;
+    pace.observer.progress(TIDIED);
     // Contraction keeps a manifold one; this looks at the result, and costs little.
     part::part(&mut surface, pace)?;
     Ok(surface)

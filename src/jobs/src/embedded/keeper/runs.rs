@@ -10,8 +10,9 @@ use super::Keeper;
 use super::parts::progressed;
 use crate::embedded::board::Board;
 use crate::embedded::parts::Parts;
-use crate::embedded::queue::{Tag, Taken};
+use crate::embedded::queue::{Tag, Taken, Waiting};
 use crate::embedded::records::Write;
+use crate::job::told_apart;
 use crate::moment::now;
 use crate::threads::pools::Seat;
 use crate::threads::run::{End, Run};
@@ -45,7 +46,8 @@ impl Keeper {
                 job.started = Some(now());
             }
         });
-        let run = Arc::new(Run::new((id, life), merges, seat, entry.feeder.clone(), Arc::clone(&self.turn)));
+        let (client, feeder, turn) = (taken.job.client.clone(), entry.feeder.clone(), Arc::clone(&self.turn));
+        let run = Arc::new(Run::new((id, life), merges, client, seat, feeder, turn));
         entry.run = Some(Arc::clone(&run));
         board.running.insert(life, Arc::clone(&run));
         let write = Write::Start { life, attempts: job.attempts, started: job.started.unwrap_or_else(now) };
@@ -117,6 +119,20 @@ impl Keeper {
         for run in board.running.values().cloned().collect::<Vec<_>>() {
             self.conclude(&mut board, run.id, run.life, End::Drained);
         }
+    }
+
+    /// Queues a job again that has cost more than it was estimated at.
+    pub(super) fn put_back(&self, board: &mut Board, id: JobId, life: u64, cost: f64) {
+        let Some(entry) = board.entry(id, life) else {
+            return;
+        };
+        let client = entry.run.as_ref().map(|run| run.client.clone());
+        let job = entry.feeder.change(|job| job.cost = told_apart(cost.max(job.cost)));
+        tracing::info!(job = %id, cost = job.cost, "a job has cost more than was estimated and is queued again");
+        self.requeue(board, id, life);
+        let waiting = self.waiting(&job, None);
+        let client = client.unwrap_or_else(|| job.client.clone());
+        board.queue.push(life, Waiting { client, ..waiting }, None);
     }
 
     /// As if it had not been begun; only the attempts stay.

@@ -5,6 +5,7 @@ use std::time::{Duration, SystemTime};
 
 use super::entry::Entry;
 use crate::embedded::Retention;
+use crate::jetstream::bus::Line;
 use crate::jetstream::record::{Claimant, Record};
 use crate::{Counts, Filter, Job, JobId, State};
 
@@ -21,6 +22,15 @@ pub(in crate::jetstream) enum Fate {
     Unheard,
 }
 
+/// What a client has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Share {
+    /// Jobs that are queued, by their lines.
+    queued: [usize; Line::ALL.len()],
+    /// Jobs that run, without those that wait for their parts.
+    running: usize,
+}
+
 #[derive(Default)]
 pub(in crate::jetstream) struct Board {
     pub(in crate::jetstream) entries: HashMap<JobId, Entry>,
@@ -34,6 +44,8 @@ pub(in crate::jetstream) struct Board {
     pub(in crate::jetstream) bytes: usize,
     /// Of what is queued, seconds of one core.
     cost: f64,
+    /// By client: of those that have jobs that are queued or run.
+    shares: HashMap<String, Share>,
     /// By the time of their end: jobs, and what were only parts.
     ended: [BTreeSet<(SystemTime, JobId)>; 2],
     /// The last revision that was heard of.
@@ -118,6 +130,15 @@ impl Board {
             State::Running => sum(&mut self.counts.running, 1),
             _ => {}
         }
+        let share = self.shares.entry(job.client.clone()).or_default();
+        match job.state {
+            State::Queued => sum(&mut share.queued[record.line as usize], 1),
+            State::Running if !record.split => sum(&mut share.running, 1),
+            _ => {}
+        }
+        if *share == Share::default() {
+            self.shares.remove(&job.client);
+        }
         if job.state == State::Queued || record.split {
             sum(&mut self.bytes, job.payload.len());
         }
@@ -130,6 +151,21 @@ impl Board {
                 ended.remove(&place)
             };
         }
+    }
+
+    /// Whether in a line a job of another client waits that has fewer jobs running than the client of this job.
+    pub(in crate::jetstream) fn gives_way(&self, id: JobId, line: Line) -> bool {
+        let Some(client) = self.entries.get(&id).map(|entry| &entry.record.job.client) else {
+            return false;
+        };
+        let running = self.shares.get(client).map_or(0, |share| share.running);
+        let waits = |share: &Share| share.queued[line as usize] > 0 && share.running < running;
+        self.shares.iter().any(|(other, share)| other != client && waits(share))
+    }
+
+    /// Whether in a line a job of another client than this one waits.
+    pub(in crate::jetstream) fn has_other(&self, client: &str, line: Line) -> bool {
+        self.shares.iter().any(|(other, share)| other != client && share.queued[line as usize] > 0)
     }
 
     /// Of the queue, seconds of one core.

@@ -9,11 +9,12 @@ use tokio::sync::{oneshot, watch};
 use tokio::time::timeout;
 
 use super::delivery::Delivery;
-use super::{Active, Desk, Stage, whole};
+use super::{Active, Desk, Held, Stage, whole};
 use crate::feed::Feeder;
 use crate::jetstream::listen::write_progress;
 use crate::jetstream::record::Record;
-use crate::threads::pools::Seat;
+use crate::job::told_apart;
+use crate::threads::pools::{Lane, Seat};
 use crate::threads::run::{End, Outcome, Run, Told};
 use crate::{Failure, JobId, State, Unavailable};
 
@@ -150,14 +151,16 @@ pub(super) async fn call(
 ) -> End {
     let merges = matches!(what, Call::Merge);
     let job = (record.job.id, record.life);
-    let run = Arc::new(Run::new(job, merges, seat.clone(), feeder.clone(), Arc::clone(&desk.turn)));
+    let (client, turn) = (record.job.client.clone(), Arc::clone(&desk.turn));
+    let held = (seat.lane == Lane::Main).then(|| Held::new(desk, client.clone()));
+    let run = Arc::new(Run::new(job, merges, client, seat.clone(), feeder.clone(), turn));
     let (sender, receiver) = oneshot::channel();
     let (on_seat, payload, guard) =
         (Arc::clone(&run), record.job.payload.clone(), Seated(Arc::clone(desk), seat));
     let work = Arc::clone(&desk.work);
     run.seat.pool.spawn(move || {
         let end = on_seat.made(work.as_ref(), &payload);
-        drop(guard);
+        drop((held, guard));
         drop(sender.send(end));
     });
     let telling = Telling(Arc::clone(&run));
@@ -247,10 +250,15 @@ async fn record_end(desk: &Desk, delivery: &Delivery, attempt: u32, end: &End) -
                 End::Elsewhere(reason) if record.turn >= MOST_TURNS => {
                     record.end(Outcome::Failed(Failure::Work(reason.clone())));
                 }
+                End::Overran(cost) if record.told.is_none() && record.is_wanted() => {
+                    record.job.cost = told_apart(cost.max(record.job.cost));
+                    record.line = client.bus.config.line(record.job.cost);
+                    record.requeue();
+                }
                 End::Drained | End::Elsewhere(_) if record.told.is_none() && record.is_wanted() => {
                     record.requeue();
                 }
-                End::Drained | End::Elsewhere(_) | End::Split(_) => {
+                End::Drained | End::Elsewhere(_) | End::Overran(_) | End::Split(_) => {
                     record.end_as(record.told.unwrap_or(Told::Cancelled));
                 }
             }

@@ -63,6 +63,24 @@ impl Delivery {
         (record.life, record.turn) < (self.life, self.turn)
     }
 
+    /// Puts a queued job at the end of its line; whether it is there.
+    pub(super) async fn put_behind(&self, client: &Client) -> bool {
+        let known = client.mirror.read(self.id).map(|(record, _)| record);
+        let Some(record) = known.filter(|record| self.is_for(record)) else {
+            return false;
+        };
+        match client.bus.publish_again(&record).await {
+            Ok(()) => {
+                self.done().await;
+                true
+            }
+            Err(fault) => {
+                tracing::debug!(%fault, "a job stays where it is in its line");
+                false
+            }
+        }
+    }
+
     /// The job is recorded as done, or as somebody else's; the broker forgets it. If that fails it comes again, and is found
     /// to be done.
     pub(super) async fn done(&self) {

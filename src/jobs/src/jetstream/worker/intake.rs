@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use futures_util::future::BoxFuture;
@@ -21,6 +22,9 @@ const WAIT: Duration = Duration::from_secs(5);
 
 /// How soon the broker is asked again when it could not be.
 const RETRY: Duration = Duration::from_millis(500);
+
+/// Most jobs that a worker puts behind others before it begins one.
+pub(super) const MOST_PASSED: usize = 64;
 
 /// An answer to the question for a job of a line.
 type Answer = (Line, Result<Option<Delivery>, Unavailable>);
@@ -94,6 +98,9 @@ async fn take(desk: &Arc<Desk>, jobs: &mut JoinSet<()>, (line, delivered): Answe
             return sleep(RETRY).await;
         }
     };
+    if desk.put_behind(&delivery, line).await {
+        return;
+    }
     let active = Active::new(desk);
     match desk.seat_for(&delivery, line).await {
         Some(seat) => drop(jobs.spawn(attempt::attempt(active, delivery, seat))),
@@ -102,6 +109,17 @@ async fn take(desk: &Arc<Desk>, jobs: &mut JoinSet<()>, (line, delivered): Answe
 }
 
 impl Desk {
+    /// Puts a job behind those of its line if one of them is of a client that has fewer jobs running. Whether it did: not
+    /// when as many jobs as are allowed have been put behind since one was begun.
+    async fn put_behind(&self, delivery: &Delivery, line: Line) -> bool {
+        let behind = self.passed.load(Ordering::Relaxed) < MOST_PASSED
+            && self.client.mirror.lock().gives_way(delivery.id, line)
+            && delivery.put_behind(&self.client).await;
+        let passed = if behind { self.passed.load(Ordering::Relaxed).saturating_add(1) } else { 0 };
+        self.passed.store(passed, Ordering::Relaxed);
+        behind
+    }
+
     /// Returns when a queued job of a line could have a seat; whether the worker still takes jobs.
     async fn free_for(&self, line: Line) -> bool {
         tokio::select! {

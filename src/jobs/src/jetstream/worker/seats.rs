@@ -36,7 +36,7 @@ impl Seats {
         Self { state: Mutex::new(State { free, first: [0, 0], aside: 0 }), freed: Notify::new(), all }
     }
 
-    /// Those of the express lane among them.
+    /// Those of the express and the guest lane among them.
     pub(super) fn all(&self) -> usize {
         self.all
     }
@@ -59,6 +59,13 @@ impl Seats {
     /// For a queued job.
     pub(super) fn take(&self, line: Line) -> Option<Seat> {
         self.state.lock().take(line, Who::Queued)
+    }
+
+    /// The guest lane's, for a queued job.
+    pub(super) fn take_guest(&self) -> Option<Seat> {
+        let mut state = self.state.lock();
+        let place = state.free.iter().position(|seat| seat.lane == Lane::Guest)?;
+        (state.aside == 0).then(|| state.free.swap_remove(place))
     }
 
     /// A seat before all that is queued.

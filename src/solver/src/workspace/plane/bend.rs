@@ -76,6 +76,12 @@ fn close(leaf: &Leaf<'_>, curve: usize, a: &Site, b: &Site) -> bool {
     })
 }
 
+/// About how many chords stand for a wall of this height along which the columns turn by this
+/// angle, rad: each may be off by its part of the tolerance.
+pub(super) fn chords(turn: f64, height: f64, tolerance: f64) -> f64 {
+    0.25 * height * turn / (CLOSE * tolerance)
+}
+
 /// The point of a curve beside a part of a chord: on the chord's perpendicular there, or the
 /// chord's own point if the curve is not near.
 pub(super) fn drawn(domain: &Domain<'_>, curve: usize, [a, b]: [[f64; 2]; 2], part: f64) -> [f64; 2] {

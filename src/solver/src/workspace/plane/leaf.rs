@@ -77,8 +77,7 @@ impl<'a> Leaf<'a> {
                 self.cut(CREASES + crease + 1, true)?;
             }
         }
-        self.deliver(patch);
-        Ok(())
+        self.deliver(patch)
     }
 
     fn cut(&mut self, curve: usize, keep: bool) -> Result<(), WorkspaceError> {

@@ -91,6 +91,11 @@ impl Patch {
         site
     }
 
+    /// Triangles of a surface over it: two sheets, and two for each side's wall.
+    pub(super) fn surface_triangles(&self) -> usize {
+        2 * (self.triangles.len() + self.rims.len())
+    }
+
     /// Drops what only the work itself needed.
     pub(super) fn forget(&mut self) {
         self.numbers = Table::default();

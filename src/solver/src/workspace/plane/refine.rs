@@ -3,12 +3,15 @@
 //! Whether an edge is halved depends on that edge alone, so that the two triangles at it agree
 //! without knowing of each other, and parts of the plane can be worked on in any order.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::super::cover::Cover;
 use super::super::domain::{Domain, LIMITS};
 use super::super::observer::Observer;
 use super::super::path::{Shape, control, shape};
 use super::super::request::WorkspaceError;
 use super::super::root;
+use super::bend;
 use super::leaf::Leaf;
 use super::patch::Patch;
 use super::site::{CREASES, Site, value};
@@ -34,6 +37,10 @@ const CHANGE: f64 = 1e-6;
 /// Width of a triangle that is not refined any more, in units of the tolerance.
 const THIN: f64 = 0.01;
 
+/// Most chords that the wall over an edge may need where a limit crosses the edge: cutting a
+/// triangle takes a time that is quadratic in the points that it gets.
+const CHORDS: f64 = 256.0;
+
 /// What becomes of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Edge {
@@ -47,6 +54,9 @@ pub(super) struct Refinement<'a> {
     pub(super) domain: &'a Domain<'a>,
     pub(super) cover: &'a Cover,
     pub(super) tolerance: f64,
+    /// Most triangles of a surface over the plane, and how many there are so far.
+    pub(super) most: usize,
+    pub(super) made: &'a AtomicUsize,
     pub(super) observer: &'a dyn Observer,
 }
 
@@ -65,7 +75,7 @@ impl Refinement<'_> {
         let [ab, bc, ca] = [0, 1, 2].map(|i| self.edge(corners[i], &middles[i], corners[(i + 1) % 3]));
         let [m, n, o] = &middles;
         match (ab, bc, ca) {
-            (Kept, Kept, Kept) => Leaf::new(self, corners).cut_into(patch),
+            (Kept, Kept, Kept) => self.cut(Leaf::new(self, corners), patch),
             (Halved, Kept, Kept) => self.two([a, b, c], m, patch),
             (Kept, Halved, Kept) => self.two([b, c, a], n, patch),
             (Kept, Kept, Halved) => self.two([c, a, b], o, patch),
@@ -97,7 +107,17 @@ impl Refinement<'_> {
             self.divisions(corners[i], corners[(i + 1) % 3], &mut points);
             points
         });
-        Leaf::with_points(self, corners, points).cut_into(patch)
+        self.cut(Leaf::with_points(self, corners, points), patch)
+    }
+
+    fn cut(&self, leaf: Leaf<'_>, patch: &mut Patch) -> Result<(), WorkspaceError> {
+        let before = patch.surface_triangles();
+        leaf.cut_into(patch)?;
+        let added = patch.surface_triangles() - before;
+        if self.made.fetch_add(added, Ordering::Relaxed).saturating_add(added) > self.most {
+            return Err(WorkspaceError::TooManyTriangles { most: self.most });
+        }
+        Ok(())
     }
 
     /// All points at which an edge is halved, in order.
@@ -137,11 +157,11 @@ impl Refinement<'_> {
     /// Of the edge alone, whichever way round it is given.
     fn edge(&self, a: &Site, middle: &Site, b: &Site) -> Edge {
         let (a, b) = if b.precedes(a) { (b, a) } else { (a, b) };
-        let mut doubtful = 0_u32;
+        let (mut doubtful, mut changes) = (0_u32, false);
         for limit in 0..LIMITS {
             match shape(a.values[limit], middle.values[limit], b.values[limit]) {
                 Shape::Outside => return if self.hides([a, b], true) { Edge::Halved } else { Edge::Kept },
-                Shape::Simple => {}
+                Shape::Simple => changes |= (a.values[limit] < 0.0) != (b.values[limit] < 0.0),
                 Shape::Doubtful => doubtful |= 1 << limit,
             }
         }
@@ -150,7 +170,9 @@ impl Refinement<'_> {
         let halved = length > SHORTEST[0] && ((0..LIMITS).any(crossed) || self.hides([a, b], false))
             || length > SHORTEST[1]
                 && !self.domain.flat()
-                && (self.curved([a, middle, b]) || self.hidden([a, b]));
+                && (self.curved([a, middle, b])
+                    || self.hidden([a, b])
+                    || changes && self.twisted([a, middle, b]));
         if halved { Edge::Halved } else { Edge::Kept }
     }
 
@@ -188,6 +210,17 @@ impl Refinement<'_> {
                 value(self.domain, first, &column(part)) > SHALLOW * self.tolerance
             }
         })
+    }
+
+    /// Whether the wall over the edge would need too many chords: columns that turn along it make
+    /// a ruled surface, which two triangles stand for only where the turn is small.
+    fn twisted(&self, [a, middle, b]: [&Site; 3]) -> bool {
+        let turn = (b.column.s * a.column.c - b.column.c * a.column.s).abs();
+        let height = [a, middle, b].iter().fold(0.0, |height: f64, site| {
+            let [low, high] = self.domain.ends(&site.column);
+            height.max(high - low)
+        });
+        self.domain.image.turns() && bend::chords(turn, height, self.tolerance) > CHORDS
     }
 
     /// Whether a sheet leaves the edge by more than is allowed. A sheet is judged by every slider

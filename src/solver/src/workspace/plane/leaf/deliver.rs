@@ -1,28 +1,34 @@
 //! A leaf's pieces as triangles and sides of the plane.
 
 use super::super::super::domain::LIMITS;
+use super::super::super::observer::Pace;
+use super::super::super::request::WorkspaceError;
 use super::super::ears;
-use super::super::patch::{Patch, Rim, Triangle};
+use super::super::patch::{Patch, Rim, Set, Triangle};
 use super::super::site::{CREASES, Site};
 use super::{Leaf, Piece};
 
 impl Leaf<'_> {
     /// Triangles and sides of all pieces.
-    pub(super) fn deliver(self, patch: &mut Patch) {
+    pub(super) fn deliver(self, patch: &mut Patch) -> Result<(), WorkspaceError> {
+        let mut pace = Pace::new(self.observer);
         let mut outlines = Vec::with_capacity(self.pieces.len());
-        let mut edges: Vec<[u32; 2]> = Vec::new();
         for piece in &self.pieces {
             let mut piece = self.with_divisions(piece);
             let mut numbers: Vec<u32> =
                 piece.iter().map(|&site| patch.vertex(self.domain, &self.sites[site])).collect();
             let mut limits = self.limits(&piece);
             without_spikes(&mut piece, &mut numbers, &mut limits);
-            for (i, &a) in numbers.iter().enumerate() {
-                let ends = [a, numbers[(i + 1) % numbers.len()]];
-                edges.push(ends);
-                patch.rims.extend(limits[i].map(|limit| Rim { ends, limit }));
+            for (ends, limit) in sides(&numbers).zip(&limits) {
+                patch.rims.extend(limit.map(|limit| Rim { ends, limit }));
             }
             outlines.push((piece, numbers));
+        }
+        // Where all pieces are triangles already, no edge is asked for.
+        let cuts = outlines.iter().any(|(_, numbers)| numbers.len() > 3);
+        let mut edges: Set<[u32; 2]> = Set::default();
+        if cuts {
+            edges.extend(outlines.iter().flat_map(|(_, numbers)| sides(numbers)));
         }
         for (piece, numbers) in outlines {
             let sliders = self.sliders(&piece);
@@ -31,12 +37,15 @@ impl Leaf<'_> {
                 let (a, b) = (numbers[i], numbers[j]);
                 edges.contains(&[a, b]) || edges.contains(&[b, a])
             };
-            let ears = ears::triangulate(&sites, taken).into_iter().map(|ear| ear.map(|i| numbers[i]));
-            for corners in ears {
+            for ear in ears::triangulate(&sites, taken, &mut pace)? {
+                let corners = ear.map(|i| numbers[i]);
                 patch.triangles.push(Triangle { corners, sliders });
-                edges.extend([0, 1, 2].map(|i| [corners[i], corners[(i + 1) % 3]]));
+                if cuts {
+                    edges.extend(sides(&corners));
+                }
             }
         }
+        Ok(())
     }
 
     /// The limit on which each side of a piece lies, if on any.
@@ -64,6 +73,12 @@ impl Leaf<'_> {
             }
         })
     }
+}
+
+/// The sides of a ring of vertices.
+fn sides(ring: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|(&a, &b)| [a, b])
 }
 
 /// Takes out points that came to lie on their neighbours, and sides that go forth and back. What

@@ -1,0 +1,87 @@
+//! How many triangles a surface will have, before it is made.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::cover::{Cover, Purpose};
+use super::domain::Domain;
+use super::observer::{Observer, go_on};
+use super::plane::{ATTEMPTS, Plane};
+use super::request::{Request, WorkspaceError};
+use crate::machine::Machine;
+
+/// Triangles from which a coarse surface tells the number of a fine one.
+const ENOUGH: usize = 4_000;
+/// By how much the tolerance is lowered until there are enough.
+const STEP: f64 = 4.0;
+/// Looks at the observer after which a trace is given up: one that ends by itself has a few for each triangle.
+const MOST_LOOKS: usize = 100_000;
+/// First tolerance, as a part of the workspace's greatest possible size.
+const COARSE: f64 = 0.02;
+
+/// About how many triangles [`surface`](super::surface) makes; where they are few, the number before short edges are
+/// contracted. It takes the time of some thousand triangles. Where that is not enough, the number is a guess.
+///
+/// The domain is traced at tolerances that are too coarse, ever finer, until there are enough triangles. From there their
+/// number grows as 1/tolerance: curved sheets and walls along which columns turn need so many. The chords of a curve
+/// grow as the root only, so the estimate is rather too high.
+pub fn expected_triangles(
+    machine: &Machine,
+    request: &Request,
+    observer: &dyn Observer,
+) -> Result<f64, WorkspaceError> {
+    request.check()?;
+    let domain = Domain::new(machine, request, None);
+    let mut tolerance = request.tolerance.max(COARSE * size(machine, &domain));
+    let mut last = None;
+    loop {
+        go_on(observer)?;
+        let bounded = Bounded { observer, looks: AtomicUsize::new(0) };
+        let found = match traced(&domain, tolerance, &bounded) {
+            Ok(plane) => plane.surface_triangles(),
+            Err(WorkspaceError::Cancelled) if !observer.cancelled() => ENOUGH,
+            Err(error) => return Err(error),
+        };
+        if tolerance <= request.tolerance {
+            return Ok(count(found));
+        }
+        if let Some(before) = last.filter(|_| found >= ENOUGH) {
+            // What was added by the last step grows so; what was there at any tolerance stays.
+            let added = count(found.saturating_sub(before)) * STEP / (STEP - 1.0);
+            return Ok(count(found) + added * (tolerance / request.tolerance - 1.0));
+        }
+        last = Some(found);
+        tolerance = (tolerance / STEP).max(request.tolerance);
+    }
+}
+
+fn traced(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Plane, WorkspaceError> {
+    let cover = Cover::of(domain, Purpose::Pieces(tolerance), observer)?;
+    let [squares, ..] = ATTEMPTS;
+    Plane::trace(domain, &cover, squares, tolerance, usize::MAX, observer)
+}
+
+/// Stops what takes far longer than an estimate should: on some domains a trace refines much that it drops again.
+struct Bounded<'a> {
+    observer: &'a dyn Observer,
+    looks: AtomicUsize,
+}
+
+impl Observer for Bounded<'_> {
+    fn progress(&self, _part: f64) {}
+
+    fn cancelled(&self) -> bool {
+        self.looks.fetch_add(1, Ordering::Relaxed) >= MOST_LOOKS || self.observer.cancelled()
+    }
+}
+
+/// Greatest extent that the workspace may have, mm.
+fn size(machine: &Machine, domain: &Domain<'_>) -> f64 {
+    let [low, high] = domain.rectangle();
+    let strokes = machine.limits().stroke.iter().map(|[low, high]| high - low);
+    strokes.fold((high[0] - low[0]).max(high[1] - low[1]), f64::max)
+}
+
+#[expect(clippy::cast_precision_loss, reason = "an estimate")]
+fn count(n: usize) -> f64 {
+    n as f64
+}
