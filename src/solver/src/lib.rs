@@ -113,6 +113,7 @@
 mod angle;
 pub mod axis;
 mod circle;
+mod clearance;
 mod closure;
 mod forward;
 mod inverse;
@@ -127,6 +128,7 @@ mod rods;
 mod table;
 pub mod workspace;
 
+pub use clearance::Clearance;
 pub use forward::{forward, forward_working};
 pub use inverse::{part, part_working, platform, platform_working, tool, tool_working};
 pub use limit::{Constraint, DOMAIN, Element, Margin, Refusal};

@@ -5,6 +5,8 @@
 
 #[path = "workspace/brute.rs"]
 mod brute;
+#[path = "workspace/clearance.rs"]
+mod clearance;
 #[path = "workspace/dexterity.rs"]
 mod dexterity;
 #[path = "workspace/machines.rs"]

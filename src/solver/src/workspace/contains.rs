@@ -34,6 +34,7 @@ pub fn contains(
 ) -> Result<Vec<Membership>, WorkspaceError> {
     request.check()?;
     let part = request.kind == Kind::Part;
+    let clearance = request.clearance(machine);
     let nothing = Membership { inside: false, margin: None };
     let mut members = Pace::new(observer).filled(&nothing, points.len())?;
     points.par_chunks(BATCH).zip(members.par_chunks_mut(BATCH)).try_for_each(|(points, members)| {
@@ -51,6 +52,7 @@ pub fn contains(
             solved.worst(
                 machine,
                 |alpha| part.then(|| table_angles(machine, alpha, request.phi1, request.phi2)),
+                clearance.as_ref(),
                 |i, margin| places[i] = Membership { inside: margin.value >= 0.0, margin: Some(margin) },
             );
         }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::column::Column;
-use super::image::Image;
+use super::image::{Image, NOWHERE};
 use super::request::{Kind, Request};
 use crate::inverse::first_leg::FirstLeg;
 use crate::jacobian::{determinant, matrix};
@@ -15,7 +15,7 @@ use crate::rods::Rods;
 use crate::table::table_angles;
 
 /// Number of limits.
-pub(super) const LIMITS: usize = 26;
+pub(super) const LIMITS: usize = 27;
 /// First of the limits that stem from the rods' distances: of leg I's, of a parallelogram's, between
 /// legs.
 const INTERFERENCE: usize = 15;
@@ -23,6 +23,10 @@ const INTERFERENCE: usize = 15;
 pub(super) const STROKES: usize = 18;
 /// First of the two limits that stem from the table.
 pub(super) const TILT: usize = 24;
+/// The limit that stems from the table's plane.
+pub(super) const TABLE: usize = 26;
+/// Number of the table among what may bind a sheet: it comes after the sliders.
+pub(super) const BY_TABLE: u8 = 3;
 /// Pairs of sliders (i, j): `z_hi` of slider i over `z_lo` of slider j.
 const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
 const RODS: [u8; 4] = [11, 12, 21, 31];
@@ -50,7 +54,10 @@ pub(super) struct Domain<'a> {
     chords: [f64; 2],
     /// Middle and half of the tilting range, moved by phi1 so that it holds for alpha.
     tilt: Option<[f64; 2]>,
-    /// The rotary angle, which is constant, is out of its range.
+    /// Least Z of the tool centre point over the table, and what is lowest there: the tool's orientation
+    /// is constant, and so is their difference.
+    floor: Option<(f64, Element)>,
+    /// The rotary angle, which is constant, is out of its range; or a slice lies below the floor.
     pub(super) empty: bool,
 }
 
@@ -62,13 +69,19 @@ impl<'a> Domain<'a> {
         let [low, high] = limits.tilt;
         let half = 0.5 * (high - low);
         let theta2 = table_angles(machine, 0.0, request.phi1, request.phi2).theta2;
+        let floor = request.clearance(machine).map(|clearance| {
+            let (depth, element) = clearance.depth(machine, request.phi1);
+            (clearance.least + depth, element)
+        });
+        let below = floor.zip(height).is_some_and(|((floor, _), height)| height < floor);
         Self {
             machine,
             image: Image::new(machine, request),
             height,
             chords: [chord(limits.slider_cone), chord(limits.platform_cone)],
             tilt: (part && half < PI).then_some([low + half + request.phi1, half]),
-            empty: part && !(limits.rotary[0]..=limits.rotary[1]).contains(&theta2),
+            floor,
+            empty: below || part && !(limits.rotary[0]..=limits.rotary[1]).contains(&theta2),
         }
     }
 
@@ -121,7 +134,8 @@ impl<'a> Domain<'a> {
                 interference::nearest_by_legs(g, rods)[limit - INTERFERENCE] - 2.0 * g.rod_radius
             }
             STROKES..TILT => self.stroke(limit - STROKES, column),
-            _ => self.tilt(limit - TILT, column),
+            TILT..TABLE => self.tilt(limit - TILT, column),
+            _ => self.above_table(column),
         }
     }
 
@@ -157,6 +171,40 @@ impl<'a> Domain<'a> {
         if end == 0 { half + off } else { half - off }
     }
 
+    /// Height over the floor of the higher end of a column: of the two ends that the strokes leave.
+    fn above_table(&self, column: &Column) -> f64 {
+        match self.heights(column) {
+            Some([low, high]) => low.max(high),
+            None => half_turn(),
+        }
+    }
+
+    /// Heights over the floor of the two ends that the strokes leave of a column; `None` without a
+    /// floor, and for a slice, which is above it altogether or below.
+    #[inline]
+    fn heights(&self, column: &Column) -> Option<[f64; 2]> {
+        let (floor, _) = self.floor.filter(|_| !self.flat())?;
+        Some(self.stroke_ends(column).map(|z| self.image.point(column, z)[2] - floor))
+    }
+
+    /// Whether the table may bind a sheet.
+    #[inline]
+    pub(super) fn floored(&self) -> bool {
+        self.floor.is_some() && !self.flat()
+    }
+
+    /// Positive where the table binds the lower sheet, and the upper sheet, of columns in the domain.
+    ///
+    /// Where theta1 is beyond a quarter turn the lower end of a column is the one nearer to the table.
+    /// The other end's height keeps these away from zero along the domain's boundary, where an end
+    /// lies on the floor.
+    pub(super) fn floor_creases(&self, column: &Column) -> [f64; 2] {
+        match self.heights(column) {
+            Some([low, high]) => [(high - low).min(-low), (low - high).min(-high)],
+            None => [-1.0; 2],
+        }
+    }
+
     /// The lowest z of each slider's stroke at this column; their maximum is `z_lo`.
     #[inline]
     pub(super) fn lows(&self, column: &Column) -> [f64; 3] {
@@ -173,6 +221,9 @@ impl<'a> Domain<'a> {
 
     /// The binding constraint of a limit at a point on it, with the two rods that are nearest there.
     pub(super) fn binding_at(&self, limit: u8, at: [f64; 2]) -> Binding {
+        if usize::from(limit) == TABLE {
+            return self.floor_binding();
+        }
         let found = binding(limit);
         if found.constraint != Constraint::RodInterference {
             return found;
@@ -181,18 +232,41 @@ impl<'a> Domain<'a> {
         Binding { element: Element::Rods(a, b), ..found }
     }
 
-    /// One sheet's height at each slider's end of stroke.
+    /// One sheet's height at each slider's end of stroke, and at the table.
     #[inline]
-    pub(super) fn sheet(&self, column: &Column, upper: bool) -> [f64; 3] {
-        if upper { self.highs(column) } else { self.lows(column) }
+    pub(super) fn sheet(&self, column: &Column, upper: bool) -> [f64; 4] {
+        let [a, b, c] = if upper { self.highs(column) } else { self.lows(column) };
+        [a, b, c, self.table_bound(column, upper)]
     }
 
-    /// The slider whose end of stroke is the sheet; the first of equal ones.
+    /// The height to which the table bounds a column from this side, beyond every stroke where it does
+    /// not: from above as z points down, and from below where theta1 is beyond a quarter turn.
     #[inline]
-    pub(super) fn binding_slider([a, b, c]: [f64; 3], upper: bool) -> usize {
+    fn table_bound(&self, column: &Column, upper: bool) -> f64 {
+        match self.floor {
+            Some((floor, _)) if self.image.upright(column) == upper => self.image.z_at(column, floor),
+            _ if upper => NOWHERE,
+            _ => -NOWHERE,
+        }
+    }
+
+    /// The slider whose end of stroke is the sheet, or the table; the first of equal ones.
+    #[inline]
+    pub(super) fn binding_slider([a, b, c, table]: [f64; 4], upper: bool) -> usize {
         let before = |a: f64, b: f64| if upper { a < b } else { a > b };
         let (first, height) = if before(b, a) { (1, b) } else { (0, a) };
-        if before(c, height) { 2 } else { first }
+        let (first, height) = if before(c, height) { (2, c) } else { (first, height) };
+        if before(table, height) { usize::from(BY_TABLE) } else { first }
+    }
+
+    /// What binds a sheet, by its number.
+    pub(super) fn sheet_binding(&self, number: u8, high: bool) -> Binding {
+        if number == BY_TABLE { self.floor_binding() } else { stroke_binding(number, high) }
+    }
+
+    fn floor_binding(&self) -> Binding {
+        let element = self.floor.map_or(Element::Tool, |(_, element)| element);
+        Binding { constraint: Constraint::TableClearance, element }
     }
 
     /// `z_lo` and `z_hi`, or twice the height at which a slice meets the column.
@@ -201,6 +275,22 @@ impl<'a> Domain<'a> {
         if let Some(height) = self.height {
             return [self.image.z_at(column, height); 2];
         }
+        let [low, high] = self.stroke_ends(column);
+        match self.heights(column) {
+            // The height changes evenly along a column.
+            Some([at_low, at_high]) if at_high < 0.0 && at_high < at_low => {
+                [low, low + (high - low) * (at_low / (at_low - at_high))]
+            }
+            Some([at_low, at_high]) if at_low < 0.0 && at_low < at_high => {
+                [high + (low - high) * (at_high / (at_high - at_low)), high]
+            }
+            _ => [low, high],
+        }
+    }
+
+    /// The ends that the strokes leave of a column.
+    #[inline]
+    fn stroke_ends(&self, column: &Column) -> [f64; 2] {
         let ([a, b, c], [d, e, f]) = (self.lows(column), self.highs(column));
         [a.max(b).max(c), d.min(e).min(f)]
     }

@@ -2,11 +2,11 @@
 
 use verne_solver::workspace::{Kind, Request, Unobserved, contains};
 use verne_solver::{
-    Constraint, Machine, Margin, Margins, PartPose, part_working, platform_working, table_angles,
+    Clearance, Constraint, Machine, Margin, Margins, PartPose, part_working, platform_working, table_angles,
     tool_working,
 };
 
-use crate::machines::{Random, changed, others, random, request};
+use crate::machines::{Random, above, changed, others, random, request};
 
 #[test]
 fn is_solution_and_margins() {
@@ -63,7 +63,13 @@ fn worst_of_all(machine: &Machine, request: &Request, [x, y, z]: [f64; 3]) -> Op
     let posture = posture.ok()?;
     let table =
         (request.kind == Kind::Part).then(|| table_angles(machine, posture.pose.alpha, phi1, request.phi2));
-    Some(Margins::of(machine, &posture, table).worst(machine))
+    let margins = Margins::of(machine, &posture, table);
+    let clearance = Clearance::of(machine, request.table_clearance, tool_length, request.tool_radius);
+    let margins = match table.zip(clearance) {
+        Some((table, clearance)) => margins.above_table(machine, &posture, table, &clearance),
+        None => margins,
+    };
+    Some(margins.worst(machine))
 }
 
 /// A member's margin is computed with most constraints left out. It is the worst of all, to the
@@ -82,6 +88,7 @@ fn names_the_worst_of_all_margins() {
             request(Kind::Platform, 0.0, 0.0, 1.0),
             request(Kind::Tool, 150.0, 0.0, 1.0),
             Request { phi2: 0.4, ..request(Kind::Part, 50.0, 35.0, 1.0) },
+            above(60.0, 30.0, Request { phi2: 0.4, ..request(Kind::Part, 50.0, 35.0, 1.0) }),
         ] {
             let [low, high] = if question.kind == Kind::Part { [-400.0, 1_000.0] } else { [700.0, 1_800.0] };
             let points: Vec<[f64; 3]> = (0..1_200)
@@ -109,6 +116,7 @@ fn names_the_worst_of_all_margins() {
         Constraint::PlatformJoint,
         Constraint::RodInterference,
         Constraint::Tilt,
+        Constraint::TableClearance,
     ];
     assert!(all.iter().all(|constraint| named.contains(constraint)), "{named:?}");
 }
