@@ -84,16 +84,17 @@ impl Margins {
         }
     }
 
-    /// The same margins and that of the table's plane, for the tool of `clearance`.
-    #[must_use]
+    /// The same with the margin of the table's plane, where there is a clearance to keep and the table
+    /// takes part.
     pub fn above_table(
-        self,
         machine: &Machine,
         posture: &Posture,
-        table: TableAngles,
-        clearance: &Clearance,
+        table: Option<TableAngles>,
+        clearance: Option<&Clearance>,
     ) -> Self {
-        Self { table_clearance: Some(clearance.margin(machine, &posture.pose, table)), ..self }
+        let above = table.zip(clearance);
+        let above = above.map(|(table, clearance)| clearance.margin(machine, &posture.pose, table));
+        Self { table_clearance: above, ..Self::of(machine, posture, table) }
     }
 
     /// Whether every margin is at least zero.

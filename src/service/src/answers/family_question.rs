@@ -66,14 +66,26 @@ impl FamilyQuestion {
                 extremes(numbers).into_iter().find(|angle| !numbers.is_empty() && !is_angle(*angle));
             faults.angle(pointer, outside);
         }
+        faults.clearance(asked.table_clearance, asked.tool_radius, asked.kind.without_tilt());
         check_tolerance(asked.tolerance, resolved.as_deref().ok(), &mut faults);
         let count = tool_length.len().saturating_mul(phi1.len()).saturating_mul(phi2.len());
         if count > MEMBERS {
             faults.add("", format!("makes {count} workspaces; at most {MEMBERS} are computed at once"));
         }
         faults.into_result()?;
-        let request = FamilyRequest { kind: asked.kind, tool_length, phi1, phi2, tolerance: asked.tolerance };
-        Ok(Self::of(&resolved?, request))
+        let published = resolved?;
+        let own = published.machine.data().limits.table_clearance;
+        let clearance = asked.table_clearance.or(own).filter(|_| part);
+        let request = FamilyRequest {
+            kind: asked.kind,
+            tool_length,
+            table_clearance: clearance.map(|least| least + 0.0),
+            tool_radius: clearance.map(|_| asked.tool_radius + 0.0),
+            phi1,
+            phi2,
+            tolerance: asked.tolerance,
+        };
+        Ok(Self::of(&published, request))
     }
 
     /// A question that was checked before.
@@ -108,6 +120,8 @@ impl FamilyRequest {
                     machine: MachineRef::default(),
                     kind: self.kind,
                     tool_length,
+                    table_clearance: self.table_clearance,
+                    tool_radius: self.tool_radius.unwrap_or_default(),
                     phi1,
                     phi2,
                     tolerance: self.tolerance,

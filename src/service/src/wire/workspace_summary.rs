@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::answer::MachineId;
+use super::limit::Unchecked;
 use super::numbers::Triple;
 use super::workspace::{CanonicalRequest, FrameName, KindName};
 use crate::result_id::ResultId;
@@ -37,6 +38,9 @@ pub(crate) struct WorkspaceSummary {
     pub triangles: usize,
     /// Whether some positions are reached from two platform positions.
     pub folded: bool,
+    /// What was not checked.
+    #[schema(value_type = Vec<Unchecked>)]
+    pub not_checked: &'static [Unchecked],
     /// Why there is no volume; only where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, value_type = String)]

@@ -74,8 +74,8 @@ fn the_margin_is_a_height() {
             };
             let table =
                 TableAngles { theta1: numbers.between(-3.2, 3.2), theta2: numbers.between(-6.0, 6.0) };
-            let margins = Margins::of(&machine, &posture, Some(table));
-            let margin = margins.above_table(&machine, &posture, table, &tool).table_clearance.unwrap();
+            let margins = Margins::above_table(&machine, &posture, Some(table), Some(&tool));
+            let margin = margins.table_clearance.unwrap();
             let (least, element) = lowest(&machine, &posture.pose, table.theta1, &tool);
             // The sampled circle misses its lowest point by less than this.
             let allowed = 1e-9 + tool.tool_radius * 1e-6;
@@ -331,8 +331,7 @@ fn membership_is_margins() {
                 tool_length: question.tool_length,
                 tool_radius: question.tool_radius,
             };
-            let margins =
-                Margins::of(&machine, &posture, Some(table)).above_table(&machine, &posture, table, &tool);
+            let margins = Margins::above_table(&machine, &posture, Some(table), Some(&tool));
             assert_eq!(member.inside, margins.feasible(), "{pose:?} {margins:?}");
             assert_eq!(member.margin, Some(margins.worst(&machine)));
             by_table += usize::from(uncut.inside && !member.inside);

@@ -130,7 +130,7 @@ fn surfaces_are_closed_and_of_the_right_volume() {
         (short.clone(), asked(-0.2, 0.3, 50.0)),
         (Machine::verne(), above(-0.7, 0.4, 60.0, 80.0)),
         (Machine::verne(), above(0.3, 1.3, 0.0, 30.0)),
-        (short, above(-0.4, 0.1, 150.0, 80.0)),
+        (short, above(-0.4, 0.1, 400.0, 80.0)),
     ] {
         let found = computed(&machine, &request);
         for region in [&found.reachable, &found.dexterous] {

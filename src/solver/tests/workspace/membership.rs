@@ -63,13 +63,8 @@ fn worst_of_all(machine: &Machine, request: &Request, [x, y, z]: [f64; 3]) -> Op
     let posture = posture.ok()?;
     let table =
         (request.kind == Kind::Part).then(|| table_angles(machine, posture.pose.alpha, phi1, request.phi2));
-    let margins = Margins::of(machine, &posture, table);
     let clearance = Clearance::of(machine, request.table_clearance, tool_length, request.tool_radius);
-    let margins = match table.zip(clearance) {
-        Some((table, clearance)) => margins.above_table(machine, &posture, table, &clearance),
-        None => margins,
-    };
-    Some(margins.worst(machine))
+    Some(Margins::above_table(machine, &posture, table, clearance.as_ref()).worst(machine))
 }
 
 /// A member's margin is computed with most constraints left out. It is the worst of all, to the

@@ -11,11 +11,8 @@ fn margins(machine: &Machine, [x, y, z]: [f64; 3], phi1: f64, asked: &DexterityR
     let DexterityRequest { tool_length, table_clearance, tool_radius, phi2, .. } = *asked;
     let posture = part_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length).ok()?;
     let table = table_angles(machine, posture.pose.alpha, phi1, phi2);
-    let margins = Margins::of(machine, &posture, Some(table));
-    Some(match Clearance::of(machine, table_clearance, tool_length, tool_radius) {
-        Some(clearance) => margins.above_table(machine, &posture, table, &clearance),
-        None => margins,
-    })
+    let clearance = Clearance::of(machine, table_clearance, tool_length, tool_radius);
+    Some(Margins::above_table(machine, &posture, Some(table), clearance.as_ref()))
 }
 
 /// The margins' own answer.
