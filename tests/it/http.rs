@@ -19,6 +19,7 @@ mod machines;
 mod part_frame;
 mod rates;
 mod shares;
+mod table;
 mod transport;
 mod viewer;
 mod workspace;
