@@ -245,7 +245,8 @@ async fn meshes_and_slices_end_at_the_table() {
     let asked = super::json_request(axum::http::Method::POST, "/workspace", &question);
     let found = super::send_to(service.clone(), asked).await.json;
     let path = found["links"]["self"].as_str().unwrap();
-    let mesh = super::get_from(&service, &format!("{path}/mesh?format=json"), &[]).await.json["extras"].clone();
+    let mesh =
+        super::get_from(&service, &format!("{path}/mesh?format=json"), &[]).await.json["extras"].clone();
     let names: Vec<&str> = mesh["constraints"]
         .as_array()
         .unwrap()
