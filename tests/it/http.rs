@@ -20,6 +20,7 @@ mod part_frame;
 mod rates;
 mod shares;
 mod table;
+mod table_workspaces;
 mod transport;
 mod viewer;
 mod workspace;

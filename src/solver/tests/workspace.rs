@@ -7,6 +7,8 @@
 mod brute;
 #[path = "workspace/clearance.rs"]
 mod clearance;
+#[path = "workspace/clearance_margin.rs"]
+mod clearance_margin;
 #[path = "workspace/dexterity.rs"]
 mod dexterity;
 #[path = "workspace/machines.rs"]

@@ -5,26 +5,26 @@ use serde_json::{Value, json};
 use super::{get, post};
 use crate::cli::verne;
 
-const CHECKED: [&str; 2] = ["part", "fixtures"];
-const UNCHECKED: [&str; 3] = ["table", "part", "fixtures"];
+pub(super) const CHECKED: [&str; 2] = ["part", "fixtures"];
+pub(super) const UNCHECKED: [&str; 3] = ["table", "part", "fixtures"];
 
 /// The built-in machine with a limit of its own.
-fn machine(least: &Value) -> Value {
+pub(super) fn machine(least: &Value) -> Value {
     let mut machine =
         serde_json::from_str::<Value>(include_str!("../../reference/machine-verne.json")).unwrap();
     machine["limits"]["table_clearance"] = least.clone();
     machine
 }
 
-/// What the issue shows: a tip below the table, all other margins kept.
+/// A tip below the table; all other margins are kept.
 fn below() -> Value {
     json!({"pose": {"x": 0, "y": 0, "z": -120, "phi1": 0, "phi2": 0}, "tool_length": 400})
 }
 
-fn with(mut question: Value, fields: Value) -> Value {
-    for (name, value) in fields.as_object().unwrap() {
-        question[name] = value.clone();
-    }
+/// A question with further fields.
+pub(super) fn with(mut question: Value, fields: Value) -> Value {
+    let Value::Object(fields) = fields else { unreachable!("fields are an object") };
+    question.as_object_mut().unwrap().extend(fields);
     question
 }
 
@@ -211,80 +211,6 @@ async fn batches_answer_as_single_requests_do() {
         if solution["feasible"] == false {
             assert_eq!(batch["margin"][i], solution["margins"]["worst"]["value"]);
         }
-    }
-}
-
-#[tokio::test]
-async fn a_workspace_ends_at_the_table() {
-    let part = json!({"kind": "part", "tool_length": 400, "tolerance": 5});
-    let before = post("/workspace", &part).await.json;
-    let after = post("/workspace", with(part.clone(), json!({"table_clearance": 0}))).await.json;
-    assert!(before["bounds"]["min"][2].as_f64().unwrap() < -300.0);
-    assert!(after["bounds"]["min"][2].as_f64().unwrap().abs() < 1e-6, "{}", after["bounds"]);
-    assert!(after["volume"].as_f64().unwrap() < 0.9 * before["volume"].as_f64().unwrap());
-    assert_ne!(after["id"], before["id"]);
-    assert_eq!(after["not_checked"], json!(CHECKED));
-    assert_eq!(after["request"]["table_clearance"], 0.0);
-    // Without a clearance the radius has no effect, and the question is the one that it always was.
-    let idle = post("/workspace", with(part.clone(), json!({"tool_radius": 30}))).await.json;
-    assert_eq!((&idle["id"], &idle["request"]), (&before["id"], &before["request"]));
-    assert_eq!(before["request"].get("table_clearance"), None);
-    // The machine's own limit is filled in.
-    let own = post("/workspace", with(part.clone(), json!({"machine": machine(&json!(0))}))).await.json;
-    assert_eq!(own["volume"], after["volume"]);
-    assert_eq!(own["request"], after["request"]);
-    assert_ne!(own["machine"]["hash"], after["machine"]["hash"]);
-    let platform = json!({"machine": machine(&json!(0)), "tolerance": 20});
-    assert_eq!(post("/workspace", platform).await.json["not_checked"], json!(UNCHECKED));
-}
-
-#[tokio::test]
-async fn meshes_and_slices_end_at_the_table() {
-    let service = super::service().await;
-    let question = json!({"kind": "part", "tool_length": 400, "tolerance": 5, "table_clearance": 20});
-    let asked = super::json_request(axum::http::Method::POST, "/workspace", &question);
-    let found = super::send_to(service.clone(), asked).await.json;
-    let path = found["links"]["self"].as_str().unwrap();
-    let mesh =
-        super::get_from(&service, &format!("{path}/mesh?format=json"), &[]).await.json["extras"].clone();
-    let names: Vec<&str> = mesh["constraints"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|swatch| swatch["name"].as_str().unwrap())
-        .collect();
-    assert!(names.contains(&"table_clearance tool"), "{names:?}");
-    assert_eq!(mesh["not_checked"], json!(CHECKED));
-    for (z, empty) in [(10, true), (30, false)] {
-        let slice = super::get_from(&service, &format!("{path}/slice?z={z}"), &[]).await.json;
-        assert_eq!(slice["polygons"] == json!([]), empty, "{z}");
-        assert_eq!(slice["not_checked"], json!(CHECKED));
-    }
-}
-
-#[tokio::test]
-async fn families_membership_and_dexterity_have_it() {
-    let question = json!({"kind": "part", "tool_length": 400, "table_clearance": 0});
-    let family =
-        post("/workspace", with(question.clone(), json!({"phi1": [0, 20], "tolerance": 20}))).await.json;
-    assert_eq!(family["not_checked"], json!(CHECKED));
-    for member in family["members"].as_array().unwrap() {
-        assert_eq!(member["request"]["table_clearance"], 0.0);
-        assert!(member["bounds"]["min"][2].as_f64().unwrap() > -1.0, "{member}");
-    }
-    let points = json!([[0, 0, -120], [0, 0, 120], [0, 0, 0.001]]);
-    let members = post("/workspace/contains", with(question, json!({"points": points}))).await.json;
-    assert_eq!(members["inside"], json!([false, true, true]));
-    assert_eq!(members["constraint"][0], "table_clearance");
-    assert_eq!((&members["element"][0], &members["unit"][0]), (&json!("tool"), &json!("mm")));
-    assert_eq!(members["not_checked"], json!(CHECKED));
-    let map = json!({"phi1": {"from": -20, "to": 20}, "tool_length": 400, "cell": 150});
-    let before = post("/workspace/dexterity", &map).await.json;
-    let after = post("/workspace/dexterity", with(map, json!({"table_clearance": 0}))).await.json;
-    assert_eq!(after["not_checked"], json!(CHECKED));
-    for set in ["reachable", "dexterous"] {
-        let volume = |map: &Value| map[set]["volume"].as_f64().unwrap();
-        assert!(volume(&after) < 0.95 * volume(&before), "{set}: {after}");
     }
 }
 

@@ -10,6 +10,7 @@ use crate::registry::{Published, Registry};
 use crate::result_id::ResultId;
 use crate::wire::degrees::from_degrees;
 use crate::wire::dexterity::{CanonicalDexterity, DexterityBody, Inclinations};
+use crate::wire::workspace::over_table;
 
 use super::workspace_question::longest;
 
@@ -54,10 +55,11 @@ impl DexterityQuestion {
         faults.into_result()?;
         let published = resolved?;
         let clearance = asked.table_clearance.or(published.machine.data().limits.table_clearance);
+        let [table_clearance, tool_radius] = over_table(clearance, asked.tool_radius);
         let request = CanonicalDexterity {
             tool_length: asked.tool_length + 0.0,
-            table_clearance: clearance.map(|least| least + 0.0),
-            tool_radius: clearance.map(|_| asked.tool_radius + 0.0),
+            table_clearance,
+            tool_radius,
             phi1: Inclinations { from: from + 0.0, to: to + 0.0 },
             phi2: asked.phi2 + 0.0,
             cell: asked.cell,

@@ -10,7 +10,7 @@ use crate::result_id::ResultId;
 use crate::wire::family::{FamilyRequest, WorkspaceBody};
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::span::Span;
-use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest};
+use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest, over_table};
 
 /// Most workspaces in a family.
 const MEMBERS: usize = 1000;
@@ -76,11 +76,12 @@ impl FamilyQuestion {
         let published = resolved?;
         let own = published.machine.data().limits.table_clearance;
         let clearance = asked.table_clearance.or(own).filter(|_| part);
+        let [table_clearance, tool_radius] = over_table(clearance, asked.tool_radius);
         let request = FamilyRequest {
             kind: asked.kind,
             tool_length,
-            table_clearance: clearance.map(|least| least + 0.0),
-            tool_radius: clearance.map(|_| asked.tool_radius + 0.0),
+            table_clearance,
+            tool_radius,
             phi1,
             phi2,
             tolerance: asked.tolerance,

@@ -115,16 +115,22 @@ pub(crate) struct CanonicalRequest {
     pub tolerance: f64,
 }
 
+/// A clearance over the table and a tool's radius as they are kept: the radius counts beside a clearance alone. -0 is 0.
+pub(crate) fn over_table(clearance: Option<f64>, tool_radius: f64) -> [Option<f64>; 2] {
+    [clearance, clearance.map(|_| tool_radius)].map(|length| length.map(|length| length + 0.0))
+}
+
 impl From<&WorkspaceRequest> for CanonicalRequest {
     fn from(asked: &WorkspaceRequest) -> Self {
         // -0 is 0.
         let (tool, part) = (asked.kind != KindName::Platform, asked.kind == KindName::Part);
         let clearance = asked.table_clearance.filter(|_| part);
+        let [table_clearance, tool_radius] = over_table(clearance, asked.tool_radius);
         Self {
             kind: asked.kind,
             tool_length: tool.then_some(asked.tool_length + 0.0),
-            table_clearance: clearance.map(|least| least + 0.0),
-            tool_radius: clearance.map(|_| asked.tool_radius + 0.0),
+            table_clearance,
+            tool_radius,
             phi1: part.then_some(asked.phi1 + 0.0),
             phi2: part.then_some(asked.phi2 + 0.0),
             tolerance: asked.tolerance,

@@ -1,9 +1,11 @@
 //! The plane domain: every limit as a function of (x, y), zero on the limit and positive inside.
 
+mod floor;
+
 use std::f64::consts::{PI, TAU};
 
 use super::column::Column;
-use super::image::{Image, NOWHERE};
+use super::image::Image;
 use super::request::{Kind, Request};
 use crate::inverse::first_leg::FirstLeg;
 use crate::jacobian::{determinant, matrix};
@@ -13,6 +15,7 @@ use crate::margins::cone::Columns;
 use crate::margins::interference;
 use crate::rods::Rods;
 use crate::table::table_angles;
+use floor::Floor;
 
 /// Number of limits.
 pub(super) const LIMITS: usize = 27;
@@ -54,9 +57,8 @@ pub(super) struct Domain<'a> {
     chords: [f64; 2],
     /// Middle and half of the tilting range, moved by phi1 so that it holds for alpha.
     tilt: Option<[f64; 2]>,
-    /// Least Z of the tool centre point over the table, and what is lowest there: the tool's orientation
-    /// is constant, and so is their difference.
-    floor: Option<(f64, Element)>,
+    /// The table's plane, where it is a limit.
+    floor: Option<Floor>,
     /// The rotary angle, which is constant, is out of its range; or a slice lies below the floor.
     pub(super) empty: bool,
 }
@@ -69,11 +71,8 @@ impl<'a> Domain<'a> {
         let [low, high] = limits.tilt;
         let half = 0.5 * (high - low);
         let theta2 = table_angles(machine, 0.0, request.phi1, request.phi2).theta2;
-        let floor = request.clearance(machine).map(|clearance| {
-            let (depth, element) = clearance.depth(machine, request.phi1);
-            (clearance.least + depth, element)
-        });
-        let below = floor.zip(height).is_some_and(|((floor, _), height)| height < floor);
+        let floor = Floor::new(machine, request);
+        let below = floor.zip(height).is_some_and(|(floor, height)| height < floor.least);
         Self {
             machine,
             image: Image::new(machine, request),
@@ -171,40 +170,6 @@ impl<'a> Domain<'a> {
         if end == 0 { half + off } else { half - off }
     }
 
-    /// Height over the floor of the higher end of a column: of the two ends that the strokes leave.
-    fn above_table(&self, column: &Column) -> f64 {
-        match self.heights(column) {
-            Some([low, high]) => low.max(high),
-            None => half_turn(),
-        }
-    }
-
-    /// Heights over the floor of the two ends that the strokes leave of a column; `None` without a
-    /// floor, and for a slice, which is above it altogether or below.
-    #[inline]
-    fn heights(&self, column: &Column) -> Option<[f64; 2]> {
-        let (floor, _) = self.floor.filter(|_| !self.flat())?;
-        Some(self.stroke_ends(column).map(|z| self.image.point(column, z)[2] - floor))
-    }
-
-    /// Whether the table may bind a sheet.
-    #[inline]
-    pub(super) fn floored(&self) -> bool {
-        self.floor.is_some() && !self.flat()
-    }
-
-    /// Positive where the table binds the lower sheet, and the upper sheet, of columns in the domain.
-    ///
-    /// Where theta1 is beyond a quarter turn the lower end of a column is the one nearer to the table.
-    /// The other end's height keeps these away from zero along the domain's boundary, where an end
-    /// lies on the floor.
-    pub(super) fn floor_creases(&self, column: &Column) -> [f64; 2] {
-        match self.heights(column) {
-            Some([low, high]) => [(high - low).min(-low), (low - high).min(-high)],
-            None => [-1.0; 2],
-        }
-    }
-
     /// The lowest z of each slider's stroke at this column; their maximum is `z_lo`.
     #[inline]
     pub(super) fn lows(&self, column: &Column) -> [f64; 3] {
@@ -239,17 +204,6 @@ impl<'a> Domain<'a> {
         [a, b, c, self.table_bound(column, upper)]
     }
 
-    /// The height to which the table bounds a column from this side, beyond every stroke where it does
-    /// not: from above as z points down, and from below where theta1 is beyond a quarter turn.
-    #[inline]
-    fn table_bound(&self, column: &Column, upper: bool) -> f64 {
-        match self.floor {
-            Some((floor, _)) if self.image.upright(column) == upper => self.image.z_at(column, floor),
-            _ if upper => NOWHERE,
-            _ => -NOWHERE,
-        }
-    }
-
     /// The slider whose end of stroke is the sheet, or the table; the first of equal ones.
     #[inline]
     pub(super) fn binding_slider([a, b, c, table]: [f64; 4], upper: bool) -> usize {
@@ -259,33 +213,13 @@ impl<'a> Domain<'a> {
         if before(table, height) { usize::from(BY_TABLE) } else { first }
     }
 
-    /// What binds a sheet, by its number.
-    pub(super) fn sheet_binding(&self, number: u8, high: bool) -> Binding {
-        if number == BY_TABLE { self.floor_binding() } else { stroke_binding(number, high) }
-    }
-
-    fn floor_binding(&self) -> Binding {
-        let element = self.floor.map_or(Element::Tool, |(_, element)| element);
-        Binding { constraint: Constraint::TableClearance, element }
-    }
-
     /// `z_lo` and `z_hi`, or twice the height at which a slice meets the column.
     #[inline]
     pub(super) fn ends(&self, column: &Column) -> [f64; 2] {
         if let Some(height) = self.height {
             return [self.image.z_at(column, height); 2];
         }
-        let [low, high] = self.stroke_ends(column);
-        match self.heights(column) {
-            // The height changes evenly along a column.
-            Some([at_low, at_high]) if at_high < 0.0 && at_high < at_low => {
-                [low, low + (high - low) * (at_low / (at_low - at_high))]
-            }
-            Some([at_low, at_high]) if at_low < 0.0 && at_low < at_high => {
-                [high + (low - high) * (at_high / (at_high - at_low)), high]
-            }
-            _ => [low, high],
-        }
+        self.above_floor(column, self.stroke_ends(column))
     }
 
     /// The ends that the strokes leave of a column.
