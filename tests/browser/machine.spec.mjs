@@ -39,7 +39,7 @@ test("a good file becomes the machine, and the link carries it", async ({ page, 
   ];
   await drop(page, "short.json", JSON.stringify(machine));
   await expect(page.getByLabel("Machine", { exact: true })).toContainText("short stroke (own file)");
-  const answer = await request.post("/workspace", { data: { machine, kind: "part", tool_length: 50 } });
+  const answer = await request.post("/workspace", { data: { machine, kind: "part", tool_length: 50, table_clearance: 0 } });
   const asked = await answer.json();
   await expect(page.getByRole("link", { name: "GLB" })).toHaveAttribute("href", new RegExp(asked.id));
   expect(await value(volume)).toBe(asked.volume);

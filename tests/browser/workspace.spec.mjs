@@ -8,9 +8,45 @@ test("another tool length gives another volume: the API's", async ({ page, reque
   const length = page.getByLabel("Tool length, typed, mm");
   await length.fill("200");
   await length.press("Enter");
-  const asked = await ask(request, "/workspace", { kind: "part", tool_length: 200, phi1: 30 });
+  const asked = await ask(request, "/workspace", {
+    kind: "part",
+    tool_length: 200,
+    phi1: 30,
+    table_clearance: 0,
+  });
   await expect(page.getByRole("link", { name: "GLB" })).toHaveAttribute("href", new RegExp(asked.id));
   expect(await value(volume)).toBe(asked.volume);
+});
+
+test("the workspace ends at the table, and the height over it is a control", async ({ page, request }) => {
+  await open(page, "#tool=400");
+  const volume = page.getByTestId("volume");
+  await expect(volume).toBeVisible();
+  const question = { kind: "part", tool_length: 400 };
+  const at = (table_clearance) => ask(request, "/workspace", { ...question, table_clearance });
+  expect(await value(volume)).toBe((await at(0)).volume);
+  expect(await value(volume)).toBeLessThan(0.7 * (await ask(request, "/workspace", question)).volume);
+  await expect(page.locator(".legend li", { hasText: "as near to the table as allowed" })).toHaveCount(1);
+  const least = page.getByLabel("Least height of tool and platform over the table, mm");
+  await expect(least).toHaveValue("0.0");
+  await least.fill("60");
+  await least.press("Enter");
+  const higher = await at(60);
+  await expect(page.getByRole("link", { name: "GLB" })).toHaveAttribute("href", new RegExp(higher.id));
+  expect(await value(volume)).toBe(higher.volume);
+  await expect(page).toHaveURL(/clearance=60/);
+});
+
+test("a tip below the table is not allowed", async ({ page }) => {
+  await open(page, "#tool=400");
+  const z = page.getByLabel("Z above the table, mm");
+  await z.fill("-20");
+  await z.press("Enter");
+  await expect(page.getByTestId("trouble")).toHaveText(
+    /^Not allowed: the tool’s end 20\.0.mm too low over the table\.$/,
+  );
+  await page.getByRole("button", { name: /^Show all/ }).click();
+  await expect(page.getByTestId("margins")).toContainText(/the tool’s end can come [\d.]+.mm nearer to the table/);
 });
 
 test("the section plane shows the slice and its area; all files are there", async ({ page, request }) => {

@@ -26,6 +26,8 @@ mod proxies;
 mod query_parameters;
 mod rates;
 mod shares;
+mod table;
+mod table_workspaces;
 mod transport;
 mod viewer;
 mod workspace;

@@ -138,6 +138,7 @@ fn machine(file: &str) -> Machine {
             parallel_margin: l("parallel_margin"),
             tilt: degrees("tilt"),
             rotary: degrees("rotary"),
+            table_clearance: None,
             slider_axes: None,
             platform_axes: None,
         },

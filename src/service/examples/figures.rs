@@ -60,7 +60,8 @@ fn outline(machine: &Machine, platform: &Measure) -> Result<(), WorkspaceError> 
 }
 
 fn request(kind: Kind, tool_length: f64, phi1: f64) -> Request {
-    Request { kind, tool_length, phi1: phi1.to_radians(), phi2: 0.0, tolerance: 1.0 }
+    let phi1 = phi1.to_radians();
+    Request { kind, tool_length, phi1, phi2: 0.0, table_clearance: None, tool_radius: 0.0, tolerance: 1.0 }
 }
 
 fn of(machine: &Machine, kind: Kind, tool_length: f64, phi1: f64) -> Result<Measure, WorkspaceError> {

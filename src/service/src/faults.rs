@@ -54,6 +54,23 @@ impl Faults {
         }
     }
 
+    /// The clearance over the table, if one is asked for, and the tool's radius. `theta1` is what a question must
+    /// have for a clearance, if it does not have it.
+    pub(crate) fn clearance(&mut self, least: Option<f64>, tool_radius: f64, lacking: Option<&str>) {
+        let allowed = format!("must be a number from 0 to {DOMAIN:e} mm");
+        if !is_tool_length(tool_radius) {
+            self.add("/tool_radius", allowed.clone());
+        }
+        match (least, lacking) {
+            (Some(least), _) if !is_tool_length(least) => self.add("/table_clearance", allowed),
+            (Some(_), Some(lacking)) => {
+                let detail = format!("{lacking}: the height over the table depends on theta1");
+                self.add("/table_clearance", detail);
+            }
+            _ => {}
+        }
+    }
+
     /// Ends the collection: an error if anything was found.
     pub(crate) fn into_result(self) -> Result<(), Error> {
         if self.0.is_empty() { Ok(()) } else { Err(Error::Fields(self.0)) }

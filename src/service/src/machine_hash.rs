@@ -39,5 +39,7 @@ pub(crate) fn machine_hash(data: &MachineData) -> String {
         put(if axes.is_some() { 1.0 } else { 0.0 });
         axes.into_iter().flatten().flatten().for_each(&mut put);
     }
+    // Machines without it keep the hash that they had before there was such a limit.
+    l.table_clearance.into_iter().for_each(&mut put);
     hasher.finalize().to_hex().to_string()
 }

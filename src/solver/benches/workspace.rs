@@ -18,7 +18,15 @@ const LOW: [f64; 3] = [-420.0, -560.0, 850.0];
 const HIGH: [f64; 3] = [410.0, 560.0, 1_650.0];
 
 fn request(tolerance: f64) -> Request {
-    Request { kind: Kind::Platform, tool_length: 0.0, phi1: 0.0, phi2: 0.0, tolerance }
+    Request {
+        kind: Kind::Platform,
+        tool_length: 0.0,
+        phi1: 0.0,
+        phi2: 0.0,
+        table_clearance: None,
+        tool_radius: 0.0,
+        tolerance,
+    }
 }
 
 fn member(machine: &Machine, point: [f64; 3]) -> bool {

@@ -119,6 +119,7 @@
 mod angle;
 pub mod axis;
 mod circle;
+mod clearance;
 mod closure;
 mod forward;
 mod inverse;
@@ -133,6 +134,7 @@ mod rods;
 mod table;
 pub mod workspace;
 
+pub use clearance::Clearance;
 pub use forward::{forward, forward_working};
 pub use inverse::{
     part, part_every_working, part_working, platform, platform_working, tool, tool_every_working,

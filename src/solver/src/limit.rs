@@ -25,6 +25,8 @@ pub enum Constraint {
     Tilt,
     /// The table's rotary angle within its range, rad.
     Rotary,
+    /// Height of the tool's end and of the platform's joints over the table's plane, mm.
+    TableClearance,
 }
 
 /// The part of the machine that a margin belongs to.
@@ -50,6 +52,10 @@ pub enum Element {
     },
     /// The platform as a whole.
     Platform,
+    /// The tool's end.
+    Tool,
+    /// The joint at the platform of a rod: 11, 12, 21, 22, 31 or 32.
+    Joint(u8),
 }
 
 /// One constraint's margin: positive inside, zero on the limit, negative outside.

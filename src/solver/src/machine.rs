@@ -75,6 +75,9 @@ pub struct Limits {
     pub tilt: [f64; 2],
     /// Range of the rotary angle theta2.
     pub rotary: [f64; 2],
+    /// Least height of the tool's end and of the platform's joints over the plane Z = 0 of the part
+    /// frame, mm. `None`: the table is no limit, unless the question says so. See [`crate::Clearance`].
+    pub table_clearance: Option<f64>,
     /// Axes of the slider cones in the base frame, for rod 11, rod 12, leg II, leg III;
     /// any length but zero. `None`: the rods' own directions at home.
     pub slider_axes: Option<[[f64; 3]; 4]>,

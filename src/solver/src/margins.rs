@@ -6,6 +6,7 @@ pub(crate) mod together;
 pub(crate) mod weights;
 mod worst;
 
+use crate::clearance::Clearance;
 use crate::jacobian::{determinant, matrix};
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
@@ -39,10 +40,14 @@ pub struct Margins {
     pub tilt: Option<[f64; 2]>,
     /// `[theta2 - min, max - theta2]`, where the table takes part, rad.
     pub rotary: Option<[f64; 2]>,
+    /// Height over the table's plane, less the least one, of what is lowest: the tool's end or a joint
+    /// of the platform. `None` where it is not checked.
+    pub table_clearance: Option<Margin>,
 }
 
 impl Margins {
-    /// The margins of a posture, with the table's where it takes part.
+    /// The margins of a posture, with the table's ranges where it takes part. The table's plane is not
+    /// among them: see [`Self::above_table`].
     pub fn of(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Self {
         Self::of_solution(machine, &posture.pose, posture.rho, table)
     }
@@ -75,7 +80,21 @@ impl Margins {
             nearest_rods,
             tilt: table.map(|table| between(limits.tilt, table.theta1)),
             rotary: table.map(|table| between(limits.rotary, table.theta2)),
+            table_clearance: None,
         }
+    }
+
+    /// The same with the margin of the table's plane, where there is a clearance to keep and the table
+    /// takes part.
+    pub fn above_table(
+        machine: &Machine,
+        posture: &Posture,
+        table: Option<TableAngles>,
+        clearance: Option<&Clearance>,
+    ) -> Self {
+        let above = table.zip(clearance);
+        let above = above.map(|(table, clearance)| clearance.margin(machine, &posture.pose, table));
+        Self { table_clearance: above, ..Self::of(machine, posture, table) }
     }
 
     /// Whether every margin is at least zero.
@@ -89,6 +108,7 @@ impl Margins {
             && all(&self.platform_joint)
             && all(&[self.parallel_singularity, self.rod_crossing, self.rod_interference])
             && self.tilt.iter().chain(&self.rotary).all(inside)
+            && self.table_clearance.is_none_or(|margin| margin.value >= 0.0)
     }
 
     /// What keeps a posture from being in the working mode: crossed rods, or the slider end that

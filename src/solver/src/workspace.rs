@@ -1,8 +1,8 @@
 //! The workspace of the working mode: volumes, surfaces, slices and membership.
 //!
-//! All guideways are parallel to z, so alpha and every constraint but the strokes depend on (x, y)
-//! alone, and the workspace is a set of vertical columns over a plane domain: nothing is sampled
-//! in three dimensions. The domain's boundary is found by root-finding on the constraints.
+//! All guideways are parallel to z, so alpha and every constraint but the strokes and the table's plane
+//! depend on (x, y) alone, and the workspace is a set of vertical columns over a plane domain: nothing
+//! is sampled in three dimensions. The height over the table is linear along a column. The domain's boundary is found by root-finding on the constraints.
 
 mod agreement;
 mod column;

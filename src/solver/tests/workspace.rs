@@ -5,6 +5,10 @@
 
 #[path = "workspace/brute.rs"]
 mod brute;
+#[path = "workspace/clearance.rs"]
+mod clearance;
+#[path = "workspace/clearance_margin.rs"]
+mod clearance_margin;
 #[path = "workspace/dexterity.rs"]
 mod dexterity;
 #[path = "workspace/long_strokes.rs"]

@@ -8,7 +8,7 @@ import { keepAddress, onNewAddress, viewOfAddress } from "./state/address_bar";
 import { keepWorkspace } from "./state/computation";
 import { listMachines, loadMachine } from "./state/machines";
 import { stay } from "./state/motion";
-import { failure, ghostKind, machine, tool, view } from "./state/store";
+import { failure, ghostKind, machine, overTable, tool, view } from "./state/store";
 import type { View } from "./state/view";
 
 async function load(next: View): Promise<void> {
@@ -32,11 +32,11 @@ async function start(): Promise<void> {
   followTool();
 }
 
-/** Another tool or other ghosts: the same joints are solved anew. */
+/** Another tool, another height over the table or other ghosts: the same joints are solved anew. */
 function followTool(): void {
   let before = "";
   effect(() => {
-    const now = `${tool.value} ${ghostKind.value}`;
+    const now = `${tool.value} ${JSON.stringify(overTable.value)} ${ghostKind.value}`;
     if (before !== "" && now !== before && machine.peek()) stay();
     before = now;
   });

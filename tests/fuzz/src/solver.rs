@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use verne_solver::workspace::dexterity::DexterityRequest;
 use verne_solver::workspace::{Kind, Request, Unobserved, contains, dexterity};
 use verne_solver::{
     DOMAIN, Machine, Margins, PartPose, Posture, Refusal, TableAngles, axis, forward, forward_working,
@@ -146,7 +147,8 @@ fn finite(numbers: &[f64]) {
 fn membership(machine: &Machine, draw: &mut Draw<'_>, point: [f64; 3], numbers: &[f64; 6]) {
     let kind = draw.pick(&[Kind::Platform, Kind::Tool, Kind::Part]);
     let [_, _, _, tool_length, phi1, phi2] = *numbers;
-    let request = Request { kind, tool_length, phi1, phi2, tolerance: 1.0 };
+    let (table_clearance, tool_radius) = clearance(machine, draw);
+    let request = Request { kind, tool_length, phi1, phi2, table_clearance, tool_radius, tolerance: 1.0 };
     let points = [point, [0; 3].map(|_| draw.number(scale(machine))), [0.0; 3]];
     match contains(machine, &request, &points, &Unobserved) {
         Ok(members) => {
@@ -157,14 +159,25 @@ fn membership(machine: &Machine, draw: &mut Draw<'_>, point: [f64; 3], numbers: 
                 assert!(!member.inside || inside, "{member:?}");
             }
         }
-        Err(error) => assert!(!is_in_domain(&numbers[3..]), "{error}"),
+        Err(error) => {
+            let all = [tool_length, phi1, phi2, table_clearance.unwrap_or_default(), tool_radius];
+            assert!(!is_in_domain(&all), "{error}");
+        }
     }
+}
+
+/// A clearance over the table, perhaps, and the radius of a tool.
+pub(crate) fn clearance(machine: &Machine, draw: &mut Draw<'_>) -> (Option<f64>, f64) {
+    let unit = 0.2 * scale(machine);
+    (draw.one_in(2).then(|| draw.number(unit)), draw.number(unit))
 }
 
 fn orientation(machine: &Machine, draw: &mut Draw<'_>, point: [f64; 3], numbers: &[f64; 6]) {
     let [_, _, _, tool_length, from, phi2] = *numbers;
     let range = [from, from + draw.between(0.0, 6.2)];
-    if let Ok(intervals) = dexterity::orientations(machine, point, phi2, tool_length, range) {
+    let (table_clearance, tool_radius) = clearance(machine, draw);
+    let asked = DexterityRequest { tool_length, table_clearance, tool_radius, phi2, phi1: range, cell: 1.0 };
+    if let Ok(intervals) = dexterity::orientations(machine, point, &asked) {
         let mut last = range[0];
         for interval in intervals {
             let [from, to] = interval.ends;

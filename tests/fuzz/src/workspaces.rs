@@ -8,6 +8,7 @@ use verne_solver::{DOMAIN, Machine};
 
 use crate::draw::Draw;
 use crate::machines::{machine, scale};
+use crate::solver::clearance;
 
 /// So many looks at the observer are what one computation may take: then it is told to stop, as a job is.
 const LOOKS: u32 = 2_000;
@@ -33,8 +34,12 @@ pub(crate) fn workspaces(bytes: &[u8]) {
     let [phi1, phi2] = [0; 2].map(|_| draw.number(2.0));
     let tolerance = if draw.one_in(8) { draw.number(unit) } else { unit * draw.between(0.01, 0.3) };
     let kind = draw.pick(&[Kind::Platform, Kind::Tool, Kind::Part]);
-    let request = Request { kind, tool_length, phi1, phi2, tolerance };
-    let good = [tool_length, phi1, phi2, tolerance].iter().all(|n| n.abs() <= DOMAIN) && tolerance >= 1e-3;
+    let (table_clearance, tool_radius) = clearance(&machine, &mut draw);
+    let request = Request { kind, tool_length, phi1, phi2, table_clearance, tool_radius, tolerance };
+    let good = [tool_length, phi1, phi2, table_clearance.unwrap_or_default(), tool_radius, tolerance]
+        .iter()
+        .all(|n| n.abs() <= DOMAIN)
+        && tolerance >= 1e-3;
     let observer = Impatient(AtomicU32::new(0));
     match draw.below(8) {
         0..3 => volume(&machine, &request, good, &observer),
@@ -97,11 +102,12 @@ fn cut(machine: &Machine, request: &Request, draw: &mut Draw<'_>, observer: &Imp
 }
 
 fn map(machine: &Machine, request: &Request, draw: &mut Draw<'_>, observer: &Impatient) {
-    let &Request { tool_length, phi1, phi2, .. } = request;
+    let &Request { tool_length, phi1, phi2, table_clearance, tool_radius, .. } = request;
     let to = phi1 + draw.between(0.0, 6.2);
     let cell =
         if draw.one_in(4) { draw.number(scale(machine)) } else { scale(machine) * draw.between(0.2, 0.5) };
-    let request = DexterityRequest { tool_length, phi2, phi1: [phi1, to], cell };
+    let request =
+        DexterityRequest { tool_length, table_clearance, tool_radius, phi2, phi1: [phi1, to], cell };
     if let Ok(map) = dexterity(machine, &request, observer) {
         assert_eq!(map.offsets.len(), map.grid.nodes() + 1);
         map.intervals.iter().for_each(|ends| assert!(phi1 <= ends[0] && ends[0] <= ends[1] && ends[1] <= to));

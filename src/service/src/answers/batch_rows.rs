@@ -2,13 +2,13 @@
 
 use arrayvec::ArrayVec;
 use serde_json::value::RawValue;
-use verne_solver::{DOMAIN, Machine, Margin, Margins, Posture, Refusal, TableAngles};
+use verne_solver::{Clearance, DOMAIN, Machine, Margin, Margins, Posture, Refusal, TableAngles};
 
 use super::solutions::unheld;
 use crate::error::Error;
 use crate::faults::{Faults, LARGEST_ANGLE, is_angle, is_length, too_far};
 use crate::wire::batch::{Counts, Row, RowError, RowReport, Rows, Status};
-use crate::wire::limit::Limit;
+use crate::wire::limit::{Limit, Unchecked};
 
 /// Rows that one task takes at least: enough to outweigh the cost of handing them over.
 pub(super) const CHUNK: usize = 64;
@@ -96,8 +96,13 @@ fn first_item(text: &str) -> (&str, Option<&str>) {
 }
 
 /// Judges a solved row by its margins.
-pub(super) fn judge(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Verdict {
-    let margins = Margins::of(machine, posture, table);
+pub(super) fn judge(
+    machine: &Machine,
+    posture: &Posture,
+    table: Option<TableAngles>,
+    clearance: Option<&Clearance>,
+) -> Verdict {
+    let margins = Margins::above_table(machine, posture, table, clearance);
     if margins.feasible() { Verdict::Ok } else { Verdict::Infeasible(margins.worst(machine)) }
 }
 
@@ -111,14 +116,15 @@ pub(super) fn refuse(machine: &Machine, refusal: Refusal) -> Verdict {
     }
 }
 
-/// Turns verdicts into columns.
-pub(super) fn report(verdicts: impl ExactSizeIterator<Item = Verdict>) -> RowReport {
+/// Turns verdicts into columns; says whether the table was checked of every row.
+pub(super) fn report(verdicts: impl ExactSizeIterator<Item = Verdict>, table_checked: bool) -> RowReport {
     let rows = verdicts.len();
     let mut report = RowReport {
         status: Vec::with_capacity(rows),
         constraint: Vec::with_capacity(rows),
         margin: Vec::with_capacity(rows),
         element: Vec::with_capacity(rows),
+        not_checked: Unchecked::beside(table_checked),
         ..RowReport::default()
     };
     for (row, verdict) in verdicts.enumerate() {
@@ -152,12 +158,33 @@ fn count(counts: &mut Counts, status: Status) {
     }
 }
 
-/// Checks what all rows share.
-pub(super) fn check_batch(tool_length: f64, rows: usize, limit: usize) -> Result<(), Error> {
+/// A tool and the clearance over the table, as all rows of a batch have them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shared {
+    pub(super) tool_length: f64,
+    pub(super) table_clearance: Option<f64>,
+    pub(super) tool_radius: f64,
+}
+
+impl Shared {
+    /// The clearance that is checked.
+    pub(super) fn clearance(self, machine: &Machine) -> Option<Clearance> {
+        Clearance::of(machine, self.table_clearance, self.tool_length, self.tool_radius)
+    }
+}
+
+/// Checks what all rows share; `lacking` is why they have no theta1, where none has.
+pub(super) fn check_batch(
+    shared: Shared,
+    lacking: Option<&str>,
+    rows: usize,
+    limit: usize,
+) -> Result<(), Error> {
     if rows > limit {
         return Err(Error::TooManyRows { rows, limit });
     }
     let mut faults = Faults::default();
-    faults.tool_length(tool_length);
+    faults.tool_length(shared.tool_length);
+    faults.clearance(shared.table_clearance, shared.tool_radius, lacking);
     faults.into_result()
 }

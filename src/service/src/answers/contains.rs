@@ -9,7 +9,6 @@ use super::workspace_question::{WorkspaceQuestion, workspace_error};
 use crate::error::Error;
 use crate::faults::{Faults, out_of_proportion};
 use crate::registry::Registry;
-use crate::wire::answer::MachineId;
 use crate::wire::batch::{RowError, Rows};
 use crate::wire::contains::{ContainsAnswer, ContainsCounts, ContainsRequest};
 use crate::wire::json::write_json;
@@ -35,8 +34,11 @@ pub(crate) fn answer_contains(
     if rows > limit {
         return Err(Error::TooManyRows { rows, limit });
     }
-    let ContainsRequest { machine, kind, tool_length, phi1, phi2, points } = asked;
-    let whole = WorkspaceRequest { machine, kind, tool_length, phi1, phi2, tolerance: COARSE };
+    let ContainsRequest { machine, kind, tool_length, table_clearance, tool_radius, phi1, phi2, points } =
+        asked;
+    let tolerance = COARSE;
+    let whole =
+        WorkspaceRequest { machine, kind, tool_length, table_clearance, tool_radius, phi1, phi2, tolerance };
     let question = WorkspaceQuestion::new(&whole, machines)?;
     let machine = &question.published.machine;
     let mut faults = Faults::default();
@@ -55,7 +57,7 @@ pub(crate) fn answer_contains(
     let good: Vec<Point> = read.iter().flatten().copied().collect();
     let request = Request::from(&question.request);
     let found = contains(machine, &request, &good, observer).map_err(workspace_error)?;
-    let mut answer = ContainsAnswer::with_room(question.published.id.clone(), rows);
+    let mut answer = ContainsAnswer::with_room(&question, rows);
     let mut found = found.into_iter();
     for point in read {
         match point {
@@ -67,15 +69,16 @@ pub(crate) fn answer_contains(
 }
 
 impl ContainsAnswer {
-    fn with_room(machine: MachineId, points: usize) -> Self {
+    fn with_room(question: &WorkspaceQuestion, points: usize) -> Self {
         Self {
-            machine,
+            machine: question.published.id.clone(),
             inside: Vec::with_capacity(points),
             margin: Vec::with_capacity(points),
             unit: Vec::with_capacity(points),
             constraint: Vec::with_capacity(points),
             element: Vec::with_capacity(points),
             counts: ContainsCounts::default(),
+            not_checked: question.request.not_checked(),
             errors: Vec::new(),
         }
     }

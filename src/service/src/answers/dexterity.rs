@@ -13,6 +13,7 @@ use crate::wire::dexterity::{
     DexterityCells, DexterityLinks, DexteritySummary, GridObject, SetName, SetObject,
 };
 use crate::wire::json::write_json;
+use crate::wire::limit::Unchecked;
 use crate::wire::numbers::Exactly;
 use crate::wire::workspace_summary::BoundsObject;
 
@@ -83,6 +84,7 @@ fn summarised(question: &DexterityQuestion, map: &Dexterity, meshes: &[Mesh; 2])
         reached: map.offsets.windows(2).filter(|ends| ends[0] < ends[1]).count(),
         reachable,
         dexterous,
+        not_checked: Unchecked::beside(question.request.table_clearance.is_some()),
         links: DexterityLinks {
             reachable: format!("{path}/mesh?set=reachable"),
             dexterous: format!("{path}/mesh?set=dexterous"),

@@ -10,6 +10,7 @@ use crate::registry::{Published, Registry};
 use crate::result_id::ResultId;
 use crate::wire::degrees::from_degrees;
 use crate::wire::dexterity::{CanonicalDexterity, DexterityBody, Inclinations};
+use crate::wire::workspace::over_table;
 
 use super::workspace_question::longest;
 
@@ -38,6 +39,7 @@ impl DexterityQuestion {
     pub(crate) fn new(asked: &DexterityBody, machines: &Registry) -> Result<Self, Error> {
         let mut faults = Faults::default();
         faults.tool_length(asked.tool_length);
+        faults.clearance(asked.table_clearance, asked.tool_radius, None);
         faults.angle("/phi2", Some(asked.phi2));
         let Inclinations { from, to } = asked.phi1;
         faults.angle("/phi1/from", Some(from));
@@ -51,19 +53,26 @@ impl DexterityQuestion {
         }
         let resolved = machines.resolve(&asked.machine);
         faults.into_result()?;
+        let published = resolved?;
+        let clearance = asked.table_clearance.or(published.machine.data().limits.table_clearance);
+        let [table_clearance, tool_radius] = over_table(clearance, asked.tool_radius);
         let request = CanonicalDexterity {
             tool_length: asked.tool_length + 0.0,
+            table_clearance,
+            tool_radius,
             phi1: Inclinations { from: from + 0.0, to: to + 0.0 },
             phi2: asked.phi2 + 0.0,
             cell: asked.cell,
         };
-        Ok(Self::of(resolved?, request))
+        Ok(Self::of(published, request))
     }
 
     /// A question that was checked before.
     pub(crate) fn of(published: Arc<Published>, request: CanonicalDexterity) -> Self {
-        let CanonicalDexterity { tool_length, phi1, phi2, cell } = request;
+        let CanonicalDexterity { tool_length, table_clearance, tool_radius, phi1, phi2, cell } = request;
+        // Questions without the table keep the ids that they had before it could be asked for.
         let numbers = [tool_length, phi1.from, phi1.to, phi2, cell];
+        let numbers = numbers.into_iter().chain(table_clearance).chain(tool_radius);
         Self { id: ResultId::of(LAYOUT, &published, numbers), published, request }
     }
 
@@ -81,6 +90,8 @@ impl From<&CanonicalDexterity> for DexterityRequest {
     fn from(asked: &CanonicalDexterity) -> Self {
         Self {
             tool_length: asked.tool_length,
+            table_clearance: asked.table_clearance,
+            tool_radius: asked.tool_radius.unwrap_or_default(),
             phi2: from_degrees(asked.phi2),
             phi1: [asked.phi1.from, asked.phi1.to].map(from_degrees),
             cell: asked.cell,

@@ -5,6 +5,7 @@ use super::workspace_question::WorkspaceQuestion;
 use crate::error::Error;
 use crate::wire::family::{FamilyLinks, FamilyMember, FamilySummary, Figures};
 use crate::wire::json::write_json;
+use crate::wire::limit::Unchecked;
 
 /// About the bytes of a member.
 const MEMBER_BYTES: usize = 512;
@@ -47,6 +48,7 @@ impl FamilyTable {
             request: question.request.clone(),
             machine: question.published.id.clone(),
             members: self.0,
+            not_checked: Unchecked::beside(question.request.table_clearance.is_some()),
             links: FamilyLinks { itself: question.id.path() },
         };
         write_json(&summary, bytes)

@@ -12,7 +12,7 @@ use crate::result_id::ResultId;
 use crate::wire::family::{FamilyRequest, WorkspaceBody};
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::span::Span;
-use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest};
+use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest, over_table};
 
 /// Most workspaces in a family.
 const MEMBERS: usize = 1000;
@@ -71,14 +71,27 @@ impl FamilyQuestion {
                 extremes(numbers).into_iter().find(|angle| !numbers.is_empty() && !is_angle(*angle));
             faults.angle(pointer, outside);
         }
+        faults.clearance(asked.table_clearance, asked.tool_radius, asked.kind.without_tilt());
         check_tolerance(asked.tolerance, resolved.as_deref().ok(), &mut faults);
         let count = tool_length.len().saturating_mul(phi1.len()).saturating_mul(phi2.len());
         if count > MEMBERS {
             faults.add("", format!("makes {count} workspaces; at most {MEMBERS} are computed at once"));
         }
         faults.into_result()?;
-        let request = FamilyRequest { kind: asked.kind, tool_length, phi1, phi2, tolerance: asked.tolerance };
-        Ok(Self::of(&resolved?, request))
+        let published = resolved?;
+        let own = published.machine.data().limits.table_clearance;
+        let clearance = asked.table_clearance.or(own).filter(|_| part);
+        let [table_clearance, tool_radius] = over_table(clearance, asked.tool_radius);
+        let request = FamilyRequest {
+            kind: asked.kind,
+            tool_length,
+            table_clearance,
+            tool_radius,
+            phi1,
+            phi2,
+            tolerance: asked.tolerance,
+        };
+        Ok(Self::of(&published, request))
     }
 
     /// A question that was checked before.
@@ -133,6 +146,8 @@ impl FamilyRequest {
                     machine: MachineRef::default(),
                     kind: self.kind,
                     tool_length,
+                    table_clearance: self.table_clearance,
+                    tool_radius: self.tool_radius.unwrap_or_default(),
                     phi1,
                     phi2,
                     tolerance: self.tolerance,

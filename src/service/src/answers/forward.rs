@@ -1,6 +1,6 @@
 //! `/fk`: where platform, tool and part are for given joints.
 
-use verne_solver::{forward, forward_working};
+use verne_solver::{Clearance, forward, forward_working};
 
 use super::near;
 use super::solutions::{Findings, Found, Presentation};
@@ -29,9 +29,12 @@ pub(crate) fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answ
             findings.add_one(forward_working(&published.machine, rho), complete);
         }
     }
+    let FkRequest { tool_length, table_clearance, tool_radius, .. } = *request;
     let presentation = Presentation {
         published: &published,
-        tool_length: request.tool_length,
+        tool_length,
+        clearance: table
+            .and_then(|_| Clearance::of(&published.machine, table_clearance, tool_length, tool_radius)),
         wanted: request.solutions,
         near: request.near,
         free: false,
@@ -48,6 +51,8 @@ fn checked_table(request: &FkRequest) -> Result<Option<Stand>, Error> {
     faults.angle("/joints/theta1", joints.theta1);
     faults.angle("/joints/theta2", joints.theta2);
     faults.tool_length(request.tool_length);
+    let lacking = joints.theta1.is_none().then_some("needs theta1 and theta2");
+    faults.clearance(request.table_clearance, request.tool_radius, lacking);
     if let Some(near) = &request.near {
         near::check(near, &mut faults);
     }

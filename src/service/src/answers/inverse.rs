@@ -1,7 +1,8 @@
 //! `/ik`: which joints bring the machine to a pose.
 
 use verne_solver::{
-    Machine, Point, Posture, part, part_every_working, platform, platform_working, tool, tool_every_working,
+    Clearance, Machine, Point, Posture, part, part_every_working, platform, platform_working, tool,
+    tool_every_working,
 };
 
 use super::near;
@@ -25,9 +26,12 @@ pub(crate) fn answer_ik(request: &IkRequest, machines: &Registry) -> Result<Answ
         Frame::Part => in_part(machine, request, point, &orientations),
         Frame::Platform | Frame::Tool => in_base(machine, request, point),
     };
+    let IkRequest { tool_length, table_clearance, tool_radius, .. } = *request;
+    let clearance = Clearance::of(machine, table_clearance, tool_length, tool_radius);
     let presentation = Presentation {
         published: &published,
-        tool_length: request.tool_length,
+        tool_length,
+        clearance: clearance.filter(|_| request.frame == Frame::Part),
         wanted: request.solutions,
         near: request.near,
         free: orientations.free,
@@ -44,6 +48,7 @@ fn checked_orientations(request: &IkRequest) -> Result<Orientations, Error> {
         faults.length(pointer, value);
     }
     faults.tool_length(request.tool_length);
+    faults.clearance(request.table_clearance, request.tool_radius, request.frame.without_tilt());
     if let Some(near) = &request.near {
         near::check(near, &mut faults);
     }

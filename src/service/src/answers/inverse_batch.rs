@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 use verne_solver::{
-    Machine, PartPose, Point, Posture, Postures, Refusal, part_every_working, part_working, platform_working,
-    tool_every_working, tool_working,
+    Clearance, Machine, PartPose, Point, Posture, Postures, Refusal, part_every_working, part_working,
+    platform_working, tool_every_working, tool_working,
 };
 
-use super::batch_rows::{CHUNK, ROW_BYTES, Shape, Verdict, check_batch, judge, refuse, report};
+use super::batch_rows::{CHUNK, ROW_BYTES, Shape, Shared, Verdict, check_batch, judge, refuse, report};
 use super::table::{Orientation, Stand};
 use crate::error::Error;
 use crate::registry::Registry;
@@ -20,36 +20,47 @@ use crate::wire::request::Frame;
 struct Question<'a> {
     machine: MachineRef,
     frame: Frame,
-    tool_length: f64,
+    shared: Shared,
     rows: Rows<'a>,
 }
 
 /// Reads a batch: at one go if every row is as it should be.
 fn read(body: &[u8]) -> Result<Question<'_>, Error> {
-    if let Some(IkBatchNumbers { machine, frame, tool_length, poses }) = parse_usual(body) {
-        return Ok(Question { machine, frame, tool_length, rows: Rows::Read(poses) });
+    if let Some(usual) = parse_usual(body) {
+        let IkBatchNumbers { machine, frame, tool_length, table_clearance, tool_radius, poses } = usual;
+        let shared = Shared { tool_length, table_clearance, tool_radius };
+        return Ok(Question { machine, frame, shared, rows: Rows::Read(poses) });
     }
-    let IkBatchRequest { machine, frame, tool_length, poses } = parse_body(body)?;
-    Ok(Question { machine, frame, tool_length, rows: Rows::Text(poses) })
+    let IkBatchRequest { machine, frame, tool_length, table_clearance, tool_radius, poses } =
+        parse_body(body)?;
+    let shared = Shared { tool_length, table_clearance, tool_radius };
+    Ok(Question { machine, frame, shared, rows: Rows::Text(poses) })
 }
 
 /// Answers a batch, from its body to the answer's; to be called on the worker threads.
 pub(crate) fn answer_ik_batch(body: &[u8], machines: &Registry, most_rows: usize) -> Result<Vec<u8>, Error> {
     let question = read(body)?;
-    check_batch(question.tool_length, question.rows.len(), most_rows)?;
+    check_batch(question.shared, question.frame.without_tilt(), question.rows.len(), most_rows)?;
     let published = machines.resolve(&question.machine)?;
+    let clearance = question.shared.clearance(&published.machine);
+    let clearance = clearance.filter(|_| question.frame == Frame::Part);
     let (joints, verdicts): (Vec<_>, Vec<_>) = (0..question.rows.len())
         .into_par_iter()
         .with_min_len(CHUNK)
-        .map(|row| answer_row(&published.machine, &question, row))
+        .map(|row| answer_row(&published.machine, &question, clearance.as_ref(), row))
         .unzip();
-    let answer =
-        IkBatchAnswer { machine: published.id.clone(), joints, report: report(verdicts.into_iter()) };
+    let report = report(verdicts.into_iter(), clearance.is_some());
+    let answer = IkBatchAnswer { machine: published.id.clone(), joints, report };
     write_json(&answer, ROW_BYTES * answer.joints.len())
 }
 
-fn answer_row(machine: &Machine, question: &Question<'_>, row: usize) -> (Option<Row>, Verdict) {
-    let &Question { frame, tool_length, .. } = question;
+fn answer_row(
+    machine: &Machine,
+    question: &Question<'_>,
+    clearance: Option<&Clearance>,
+    row: usize,
+) -> (Option<Row>, Verdict) {
+    let &Question { frame, shared: Shared { tool_length, .. }, .. } = question;
     let shape = match frame {
         Frame::Part => Shape { lengths: &[5], words: "[x, y, z, phi1, phi2]" },
         Frame::Platform | Frame::Tool => Shape { lengths: &[3], words: "[x, y, z]" },
@@ -68,7 +79,7 @@ fn answer_row(machine: &Machine, question: &Question<'_>, row: usize) -> (Option
         }
     };
     match target.working(machine) {
-        Ok(first) => target.chosen(machine, &first),
+        Ok(first) => target.chosen(machine, clearance, &first),
         Err(refusal) => (None, refuse(machine, refusal)),
     }
 }
@@ -91,10 +102,15 @@ impl Target {
 
     /// The first working posture if it keeps every limit, or if no other does; else the next that
     /// does, in the order of alpha.
-    fn chosen(&self, machine: &Machine, first: &Posture) -> (Option<Row>, Verdict) {
+    fn chosen(
+        &self,
+        machine: &Machine,
+        clearance: Option<&Clearance>,
+        first: &Posture,
+    ) -> (Option<Row>, Verdict) {
         let judged = |posture: &Posture| {
             let table = self.table(machine, posture.pose.alpha);
-            let verdict = judge(machine, posture, table.map(|table| table.angles));
+            let verdict = judge(machine, posture, table.map(|table| table.angles), clearance);
             (Some(joints(posture, table)), verdict)
         };
         let answer = judged(first);

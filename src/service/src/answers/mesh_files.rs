@@ -12,6 +12,7 @@ use crate::registry::Published;
 use crate::result_id::ResultId;
 use crate::wire::dexterity::SetName;
 use crate::wire::format::MeshFormat;
+use crate::wire::limit::Unchecked;
 use crate::wire::workspace::FrameName;
 
 /// The bend from which an edge is shown sharp, rad.
@@ -25,6 +26,7 @@ pub(crate) struct Described<'a> {
     kind: &'static str,
     frame: FrameName,
     request: Value,
+    not_checked: &'static [Unchecked],
     published: &'a Published,
     id: ResultId,
 }
@@ -37,6 +39,7 @@ impl<'a> Described<'a> {
             kind: kind.name(),
             frame: kind.frame(),
             request: json!(question.request),
+            not_checked: question.request.not_checked(),
             published: &question.published,
             id: question.id,
         }
@@ -48,6 +51,7 @@ impl<'a> Described<'a> {
             kind: set.name(),
             frame: FrameName::Part,
             request: json!(question.request),
+            not_checked: Unchecked::beside(question.request.table_clearance.is_some()),
             published: &question.published,
             id: question.id,
         }
@@ -63,6 +67,7 @@ impl<'a> Described<'a> {
             "frame": self.frame,
             "kind": self.kind,
             "request": self.request,
+            "not_checked": self.not_checked,
             "machine": {
                 "name": machine.name,
                 "hash": machine.hash,

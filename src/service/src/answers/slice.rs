@@ -33,7 +33,7 @@ pub(crate) fn answer_slice(
     let alphas = angles(alphas, inclination);
     let (request, z) = (Request::from(&question.request), z + 0.0);
     let cut = slice(&question.published.machine, &request, z, &alphas, observer).map_err(workspace_error)?;
-    let cut = SliceObject::new(question.id, question.request.kind.frame(), z, request.tolerance, cut);
+    let cut = SliceObject::new(question.id, &question.request, z, cut);
     let title =
         format!("{}: {} workspace at z = {z} mm", question.published.id.name, question.request.kind.name());
     match format {

@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 
 use verne_solver::{
-    Constraint, Element, Machine, Margin, Margins, PartPose, Posture, Postures, Refusal, TableAngles,
-    jacobian, part_pose, tool_point,
+    Clearance, Constraint, Element, Machine, Margin, Margins, PartPose, Posture, Postures, Refusal,
+    TableAngles, jacobian, part_pose, tool_point,
 };
 
 use super::near;
@@ -13,7 +13,7 @@ use crate::error::{Error, Fault};
 use crate::faults::too_far;
 use crate::registry::Published;
 use crate::wire::answer::{Answer, Free, ModeObject, PartObject, Reason, Solution};
-use crate::wire::limit::Limit;
+use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::margins::MarginsObject;
 use crate::wire::numbers::Exactly;
 use crate::wire::request::{Joints, Near, Wanted};
@@ -63,6 +63,8 @@ impl Findings {
 pub(super) struct Presentation<'a> {
     pub(super) published: &'a Published,
     pub(super) tool_length: f64,
+    /// The clearance over the table that is checked: only where the findings have the table in them.
+    pub(super) clearance: Option<Clearance>,
     pub(super) wanted: Wanted,
     pub(super) near: Option<Near>,
     pub(super) free: bool,
@@ -77,7 +79,9 @@ impl Presentation<'_> {
         let mut kept = Vec::with_capacity(findings.found.len());
         let mut violated = None;
         for (i, found) in findings.found.iter().enumerate() {
-            let margins = Margins::of(self.machine(), &found.posture, found.table.map(|table| table.angles));
+            let table = found.table.map(|table| table.angles);
+            let margins =
+                Margins::above_table(self.machine(), &found.posture, table, self.clearance.as_ref());
             if self.wanted == Wanted::Feasible && !margins.feasible() {
                 violated.get_or_insert_with(|| margins.worst(self.machine()));
             } else {
@@ -94,7 +98,9 @@ impl Presentation<'_> {
             if kept.is_empty() { self.why_nothing(violated, findings.refusal)? } else { (None, None) };
         let solutions = kept.into_iter().map(|(_, solution)| solution).collect();
         let free = if self.free { vec![Free::Phi2] } else { Vec::new() };
-        Ok(Answer { machine: self.published.id.clone(), solutions, free, reason, constraint })
+        let not_checked = Unchecked::beside(self.clearance.is_some());
+        let machine = self.published.id.clone();
+        Ok(Answer { machine, solutions, not_checked, free, reason, constraint })
     }
 
     fn machine(&self) -> &Machine {

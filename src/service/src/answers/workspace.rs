@@ -95,6 +95,7 @@ fn summarised(question: &WorkspaceQuestion, measure: &Measure, mesh: &Mesh) -> W
         vertices: mesh.positions().len(),
         triangles: mesh.triangles().len(),
         folded: measure.folded(),
+        not_checked: question.request.not_checked(),
         explanation: explained(measure, mesh),
         links: Links::of(question.id),
     }

@@ -58,6 +58,7 @@ fn colour(constraint: Constraint) -> [u8; 3] {
         Constraint::RodInterference => [204, 121, 167],
         Constraint::Tilt => [213, 94, 0],
         Constraint::Rotary => [240, 228, 66],
+        Constraint::TableClearance => [122, 72, 40],
         Constraint::LegLength => [120, 120, 120],
         Constraint::SerialSingularity => [70, 70, 70],
         Constraint::ParallelSingularity => [136, 34, 85],

@@ -42,12 +42,16 @@ impl WorkspaceQuestion {
     pub(crate) fn new(asked: &WorkspaceRequest, machines: &Registry) -> Result<Self, Error> {
         let mut faults = Faults::default();
         faults.tool_length(asked.tool_length);
+        faults.clearance(asked.table_clearance, asked.tool_radius, asked.kind.without_tilt());
         faults.angle("/phi1", Some(asked.phi1));
         faults.angle("/phi2", Some(asked.phi2));
         let resolved = machines.resolve(&asked.machine);
         check_tolerance(asked.tolerance, resolved.as_deref().ok(), &mut faults);
         faults.into_result()?;
-        Ok(Self::of(resolved?, CanonicalRequest::from(asked)))
+        let published = resolved?;
+        let table_clearance = asked.table_clearance.or(published.machine.data().limits.table_clearance);
+        let request = CanonicalRequest::from(&WorkspaceRequest { table_clearance, ..asked.clone() });
+        Ok(Self::of(published, request))
     }
 
     /// A question that was checked before.
@@ -58,7 +62,9 @@ impl WorkspaceQuestion {
             KindName::Part => 2.0,
         };
         let numbers = [Some(kind), request.tool_length, request.phi1, request.phi2, Some(request.tolerance)];
-        let numbers = numbers.map(Option::unwrap_or_default);
+        let numbers = numbers.into_iter().map(Option::unwrap_or_default);
+        // Questions without them keep the ids that they had before there were such fields.
+        let numbers = numbers.chain(request.table_clearance).chain(request.tool_radius);
         Self { id: ResultId::of(LAYOUT, &published, numbers), published, request }
     }
 
@@ -157,6 +163,8 @@ mod tests {
                     machine: MachineRef::default(),
                     kind,
                     tool_length: 300.0,
+                    table_clearance: None,
+                    tool_radius: 0.0,
                     phi1: 0.0,
                     phi2: 0.0,
                     tolerance,

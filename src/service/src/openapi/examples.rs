@@ -117,7 +117,7 @@ fn of_bodies(registry: &Registry) -> Vec<Example> {
         post(
             "/fk",
             json!({"machine": "verne", "joints": {"rho": [674, 685, 250], "theta1": 0, "theta2": 0},
-                   "tool_length": 50, "solutions": "working"}),
+                   "tool_length": 50, "table_clearance": 0, "solutions": "working"}),
             |body| {
                 parse_body(body).and_then(|request| answer_fk(&request, registry)).map(|answer| json!(answer))
             },
@@ -126,7 +126,7 @@ fn of_bodies(registry: &Registry) -> Vec<Example> {
             "/ik",
             json!({"machine": "verne", "frame": "part",
                    "pose": {"x": 100, "y": 50, "z": 150, "axis": [0.0, -0.5, 0.866_025_403_784_438_6]},
-                   "tool_length": 50, "solutions": "feasible"}),
+                   "tool_length": 50, "table_clearance": 0, "solutions": "feasible"}),
             |body| {
                 parse_body(body).and_then(|request| answer_ik(&request, registry)).map(|answer| json!(answer))
             },
@@ -146,7 +146,7 @@ fn of_bodies(registry: &Registry) -> Vec<Example> {
 }
 
 fn of_workspaces(machines: &Registry) -> Vec<Example> {
-    let asked = json!({"machine": "verne", "kind": "part", "tool_length": 50, "phi1": 30, "tolerance": 10});
+    let asked = json!({"machine": "verne", "kind": "part", "tool_length": 50, "table_clearance": 0, "phi1": 30, "tolerance": 10});
     let question = parse_body(asked.to_string().as_bytes())
         .and_then(|body: WorkspaceBody| body.single().ok_or(Error::Internal))
         .and_then(|request| WorkspaceQuestion::new(&request, machines));

@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 use verne_solver::{PartPose, PlatformPose, Point, Posture, Side, axis};
 
 use super::degrees::to_degrees;
-use super::limit::Limit;
+use super::limit::{Limit, Unchecked};
 use super::margins::{ConditioningObject, MarginsObject};
 use super::numbers::{Exactly, Triple};
 use super::request::Joints;
@@ -30,6 +30,9 @@ pub(crate) struct Answer {
     pub machine: MachineId,
     /// Working first, then by alpha, then by rho; or by distance from `near`.
     pub solutions: Vec<Solution>,
+    /// What was not checked.
+    #[schema(value_type = Vec<Unchecked>)]
+    pub not_checked: &'static [Unchecked],
     /// What the pose leaves open. `phi2`: the tool stands along the table's own axis, and these solutions are one
     /// member of a family, the one at theta2 = `near.theta2`, or 0.
     #[serde(skip_serializing_if = "Vec::is_empty")]

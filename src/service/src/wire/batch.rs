@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 
 use super::answer::MachineId;
 use super::capped::Capped;
-use super::limit::{ConstraintName, ElementName};
+use super::limit::{ConstraintName, ElementName, Unchecked};
 use super::machine_ref::MachineRef;
 use super::request::Frame;
 
@@ -27,6 +27,15 @@ pub(crate) struct IkBatchRequest<'a> {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm; only in frame `part`. Left out: the machine's own limit; without one the table is not checked.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_radius: f64,
     /// Rows `[x, y, z, phi1, phi2]` in frame `part`, `[x, y, z]` in the others. A row that cannot be read is
     /// answered as `invalid`.
     #[serde(borrow)]
@@ -45,6 +54,15 @@ pub(crate) struct FkBatchRequest<'a> {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm; every row then needs theta1. Left out: the machine's own limit; without one the table is not checked.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_radius: f64,
     /// Rows `[rho1, rho2, rho3]` or `[rho1, rho2, rho3, theta1, theta2]`. A row that cannot be read is answered as
     /// `invalid`.
     #[serde(borrow)]
@@ -66,6 +84,10 @@ pub(crate) struct IkBatchNumbers {
     pub frame: Frame,
     #[serde(default)]
     pub tool_length: f64,
+    #[serde(default)]
+    pub table_clearance: Option<f64>,
+    #[serde(default)]
+    pub tool_radius: f64,
     pub poses: Capped<Row>,
 }
 
@@ -77,6 +99,10 @@ pub(crate) struct FkBatchNumbers {
     pub machine: MachineRef,
     #[serde(default)]
     pub tool_length: f64,
+    #[serde(default)]
+    pub table_clearance: Option<f64>,
+    #[serde(default)]
+    pub tool_radius: f64,
     pub joints: Capped<Row>,
 }
 
@@ -145,6 +171,9 @@ pub(crate) struct RowReport {
     pub element: Vec<Option<ElementName>>,
     /// How many rows have each status.
     pub counts: Counts,
+    /// What was not checked, of at least one row.
+    #[schema(value_type = Vec<Unchecked>)]
+    pub not_checked: &'static [Unchecked],
     /// What is wrong with the invalid rows: the first hundred.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub errors: Vec<RowError>,

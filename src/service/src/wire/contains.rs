@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 use super::answer::MachineId;
 use super::batch::RowError;
 use super::capped::Capped;
-use super::limit::{ConstraintName, ElementName, Unit};
+use super::limit::{ConstraintName, ElementName, Unchecked, Unit};
 use super::machine_ref::MachineRef;
 use super::workspace::KindName;
 
@@ -27,6 +27,15 @@ pub(crate) struct ContainsRequest<'a> {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm; only kind `part` has it. Left out: the machine's own limit; without one the table is not checked.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_radius: f64,
     /// Inclination of the tool in the table frame, degrees; only `part` depends on it.
     #[serde(default)]
     #[schema(minimum = -36000, maximum = 36000, default = 0.0)]
@@ -59,6 +68,9 @@ pub(crate) struct ContainsAnswer {
     pub element: Vec<Option<ElementName>>,
     /// How many points there are of each sort.
     pub counts: ContainsCounts,
+    /// What was not checked.
+    #[schema(value_type = Vec<Unchecked>)]
+    pub not_checked: &'static [Unchecked],
     /// What is wrong with the points that cannot be read: the first hundred.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub errors: Vec<RowError>,

@@ -8,6 +8,7 @@ use verne_solver::workspace::dexterity::Grid;
 use super::answer::MachineId;
 use super::degrees::to_degrees;
 use super::format::MeshFormat;
+use super::limit::Unchecked;
 use super::machine_ref::MachineRef;
 use super::numbers::{Counts, Exactly, Triple};
 use super::object::object;
@@ -24,6 +25,15 @@ pub(crate) struct DexterityBody {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm. Left out: the machine's own limit; without one the table is not checked.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_radius: f64,
     /// The inclinations that matter.
     #[serde(deserialize_with = "object")]
     #[schema(inline)]
@@ -60,6 +70,14 @@ pub(crate) struct Inclinations {
 pub(crate) struct CanonicalDexterity {
     /// mm.
     pub tool_length: f64,
+    /// mm; where the table is checked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// mm; where the table is checked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub tool_radius: Option<f64>,
     /// The inclinations that matter, degrees.
     pub phi1: Inclinations,
     /// Degrees.
@@ -120,6 +138,9 @@ pub(crate) struct DexteritySummary {
     pub reachable: SetObject,
     /// What is reached with all of them.
     pub dexterous: SetObject,
+    /// What was not checked.
+    #[schema(value_type = Vec<Unchecked>)]
+    pub not_checked: &'static [Unchecked],
     /// Where the results are.
     pub links: DexterityLinks,
 }

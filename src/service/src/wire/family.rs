@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::answer::MachineId;
+use super::limit::Unchecked;
 use super::machine_ref::MachineRef;
 use super::span::Span;
 use super::workspace::{CanonicalRequest, KindName, WorkspaceRequest, default_tolerance};
@@ -23,6 +24,15 @@ pub(crate) struct WorkspaceBody {
     /// Distance from P to the tool's tip, mm, from 0 to 1e7; without effect on `platform`.
     #[serde(default)]
     pub tool_length: Span,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm; only kind `part` has it. Left out: the machine's own limit; without one the table is not checked.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_radius: f64,
     /// Inclination of the tool in the table frame, degrees; only `part` depends on it.
     #[serde(default)]
     pub phi1: Span,
@@ -44,8 +54,17 @@ impl WorkspaceBody {
         else {
             return None;
         };
-        let Self { machine, kind, tolerance, .. } = self.clone();
-        Some(WorkspaceRequest { machine, kind, tool_length, phi1, phi2, tolerance })
+        let Self { machine, kind, table_clearance, tool_radius, tolerance, .. } = self.clone();
+        Some(WorkspaceRequest {
+            machine,
+            kind,
+            tool_length,
+            table_clearance,
+            tool_radius,
+            phi1,
+            phi2,
+            tolerance,
+        })
     }
 }
 
@@ -56,6 +75,14 @@ pub(crate) struct FamilyRequest {
     pub kind: KindName,
     /// mm.
     pub tool_length: Vec<f64>,
+    /// mm; for `part`, where the table is checked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// mm; for `part`, where the table is checked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub tool_radius: Option<f64>,
     /// Degrees.
     pub phi1: Vec<f64>,
     /// Degrees.
@@ -75,6 +102,9 @@ pub(crate) struct FamilySummary {
     pub machine: MachineId,
     /// The workspaces, phi2 running fastest, then phi1; each is kept by itself.
     pub members: Vec<FamilyMember>,
+    /// What was not checked.
+    #[schema(value_type = Vec<Unchecked>)]
+    pub not_checked: &'static [Unchecked],
     /// Where the table is.
     pub links: FamilyLinks,
 }

@@ -34,6 +34,8 @@ pub(crate) enum ConstraintName {
     Tilt,
     /// theta2 within its range, degrees.
     Rotary,
+    /// Height of the tool's end and of the platform's joints over the table, mm.
+    TableClearance,
 }
 
 /// Unit of a margin; the last is for pure numbers.
@@ -59,10 +61,30 @@ pub(crate) struct Limit {
     pub value: f64,
     /// Unit of `value`.
     pub unit: Unit,
-    /// Where: `slider1.min`, `slider1.max`, `leg1`, `rod11`, `rods11-31`, `theta1.min`, `theta2.max` or
-    /// `platform`.
+    /// Where: `slider1.min`, `slider1.max`, `leg1`, `rod11`, `rods11-31`, `theta1.min`, `theta2.max`,
+    /// `platform`, `tool` (its end) or `joint11` (at the platform).
     #[schema(value_type = String, example = "slider2.max")]
     pub element: ElementName,
+}
+
+/// What no margin speaks of: `table`, whether tool and platform stay above the table; `part`, collisions with the
+/// part; `fixtures`, collisions with what holds it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Unchecked {
+    /// Whether tool and platform stay above the table.
+    Table,
+    /// Collisions with the part.
+    Part,
+    /// Collisions with what holds the part.
+    Fixtures,
+}
+
+impl Unchecked {
+    /// What is not checked of an answer, by whether the table was.
+    pub(crate) fn beside(table_checked: bool) -> &'static [Self] {
+        if table_checked { &[Self::Part, Self::Fixtures] } else { &[Self::Table, Self::Part, Self::Fixtures] }
+    }
 }
 
 impl From<Constraint> for ConstraintName {
@@ -78,6 +100,7 @@ impl From<Constraint> for ConstraintName {
             Constraint::RodInterference => Self::RodInterference,
             Constraint::Tilt => Self::Tilt,
             Constraint::Rotary => Self::Rotary,
+            Constraint::TableClearance => Self::TableClearance,
         }
     }
 }
@@ -95,6 +118,7 @@ impl fmt::Display for ConstraintName {
             Self::RodInterference => "rod_interference",
             Self::Tilt => "tilt",
             Self::Rotary => "rotary",
+            Self::TableClearance => "table_clearance",
         })
     }
 }
@@ -103,7 +127,11 @@ impl ConstraintName {
     /// The unit of its margins.
     pub(crate) fn unit(self) -> Unit {
         match self {
-            Self::Stroke | Self::LegLength | Self::RodCrossing | Self::RodInterference => Unit::Millimetre,
+            Self::Stroke
+            | Self::LegLength
+            | Self::RodCrossing
+            | Self::RodInterference
+            | Self::TableClearance => Unit::Millimetre,
             Self::SliderJoint | Self::PlatformJoint | Self::Tilt | Self::Rotary => Unit::Degree,
             Self::SerialSingularity | Self::ParallelSingularity => Unit::One,
         }
@@ -157,6 +185,8 @@ impl fmt::Display for ElementName {
                 write!(f, "{angle}.{}", end(high))
             }
             Element::Platform => f.write_str("platform"),
+            Element::Tool => f.write_str("tool"),
+            Element::Joint(rod) => write!(f, "joint{rod}"),
         }
     }
 }

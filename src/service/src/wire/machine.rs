@@ -118,6 +118,11 @@ pub struct LimitsObject {
     /// `[min, max]` of theta2, degrees.
     #[schema(inline)]
     pub rotary: Pair,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm. Left out: the table is not checked, unless a request says so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 0, maximum = 1e6)]
+    pub table_clearance: Option<f64>,
     /// Axes of the slider cones in the base frame, for rod 11, rod 12, leg II and leg III, from slider to
     /// platform, of any length. Left out: the rods' directions at home (x = y = alpha = 0).
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -145,6 +150,7 @@ impl From<&MachineObject> for MachineData {
                 parallel_margin: l.parallel_margin,
                 tilt: l.tilt.0.map(from_degrees),
                 rotary: l.rotary.0.map(from_degrees),
+                table_clearance: l.table_clearance,
                 slider_axes: l.slider_axes.map(|axes| axes.0.map(|axis| axis.0)),
                 platform_axes: l.platform_axes.map(|axes| axes.0.map(|axis| axis.0)),
             },
@@ -168,6 +174,7 @@ impl From<&MachineData> for MachineObject {
                 parallel_margin: l.parallel_margin,
                 tilt: Exactly(l.tilt.map(to_degrees)),
                 rotary: Exactly(l.rotary.map(to_degrees)),
+                table_clearance: l.table_clearance,
                 slider_axes: l.slider_axes.map(|axes| Exactly(axes.map(Exactly))),
                 platform_axes: l.platform_axes.map(|axes| Exactly(axes.map(Exactly))),
             },

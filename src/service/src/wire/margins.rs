@@ -42,6 +42,11 @@ pub(crate) struct MarginsObject {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(inline, nullable = false)]
     rotary: Option<Pair>,
+    /// Height over the table, less `table_clearance`, of what is lowest: the tool's end or a joint of the platform.
+    /// Only where a clearance is set and theta1 is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    table_clearance: Option<Limit>,
     /// The worst: the least margin as a fraction of its constraint's own range.
     worst: Limit,
 }
@@ -61,6 +66,7 @@ impl MarginsObject {
             rod_interference: margins.rod_interference,
             tilt: margins.tilt.map(range),
             rotary: margins.rotary.map(range),
+            table_clearance: margins.table_clearance.map(Limit::from),
             worst: margins.worst(machine).into(),
         }
     }

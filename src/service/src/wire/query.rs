@@ -40,6 +40,16 @@ pub(crate) struct FkQuery {
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm; needs theta1. Left out: the machine's own limit; without one the table is not checked.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = 0, maximum = 1e7, nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    #[serde(default)]
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    #[param(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_radius: f64,
     /// Which solutions to answer.
     #[serde(default)]
     #[arg(long, default_value = "working")]
@@ -98,6 +108,16 @@ pub(crate) struct IkQuery {
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm; only in frame `part`. Left out: the machine's own limit; without one the table is not checked.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = 0, maximum = 1e7, nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    #[serde(default)]
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    #[param(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_radius: f64,
     /// Which solutions to answer.
     #[serde(default)]
     #[arg(long, default_value = "working")]
@@ -121,6 +141,8 @@ impl FkQuery {
             machine: MachineRef::Name(self.machine),
             joints: Joints { rho: self.rho.first_three(), theta1: self.theta1, theta2: self.theta2 },
             tool_length: self.tool_length,
+            table_clearance: self.table_clearance,
+            tool_radius: self.tool_radius,
             solutions: self.solutions,
         })
     }
@@ -136,6 +158,8 @@ impl IkQuery {
             frame: self.frame,
             pose: TargetPose { x: self.x, y: self.y, z: self.z, phi1: self.phi1, phi2: self.phi2, axis },
             tool_length: self.tool_length,
+            table_clearance: self.table_clearance,
+            tool_radius: self.tool_radius,
             solutions: self.solutions,
         })
     }

@@ -22,6 +22,15 @@ pub(crate) struct FkRequest {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm; needs theta1. Left out: the machine's own limit; without one the table is not checked.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_radius: f64,
     /// Which solutions to answer.
     #[serde(default)]
     pub solutions: Wanted,
@@ -47,6 +56,15 @@ pub(crate) struct IkRequest {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm; only in frame `part`. Left out: the machine's own limit; without one the table is not checked.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_radius: f64,
     /// Which solutions to answer.
     #[serde(default)]
     pub solutions: Wanted,
@@ -110,6 +128,13 @@ pub(crate) enum Frame {
     /// The tool's tip and orientation in the table frame.
     #[default]
     Part,
+}
+
+impl Frame {
+    /// Why there is no theta1, where there is none.
+    pub(crate) fn without_tilt(self) -> Option<&'static str> {
+        (self != Self::Part).then_some("belongs to frame part")
+    }
 }
 
 /// Which solutions to answer: `working` (default), those in the machine's own mode, feasible or not: nearly always one,

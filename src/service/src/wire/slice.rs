@@ -5,8 +5,9 @@ use utoipa::ToSchema;
 use verne_solver::workspace::{Contour, Polygon, Slice};
 
 use super::degrees::to_degrees;
+use super::limit::Unchecked;
 use super::numbers::{Exactly, Pair};
-use super::workspace::FrameName;
+use super::workspace::{CanonicalRequest, FrameName};
 use crate::result_id::ResultId;
 
 /// A workspace cut at one height.
@@ -23,6 +24,9 @@ pub(crate) struct SliceObject {
     pub tolerance: f64,
     /// Area of all polygons, mm².
     pub area: f64,
+    /// What was not checked.
+    #[schema(value_type = Vec<Unchecked>)]
+    pub not_checked: &'static [Unchecked],
     /// The parts of the cut; none where the plane misses the workspace.
     pub polygons: Vec<PolygonObject>,
     /// Lines of constant alpha within the cut; only where they were asked for.
@@ -57,13 +61,14 @@ pub(crate) struct ContourObject {
 
 impl SliceObject {
     /// The solver's slice in the wire's units.
-    pub(crate) fn new(id: ResultId, frame: FrameName, z: f64, tolerance: f64, slice: Slice) -> Self {
+    pub(crate) fn new(id: ResultId, request: &CanonicalRequest, z: f64, slice: Slice) -> Self {
         Self {
             id: id.to_string(),
-            frame,
+            frame: request.kind.frame(),
             z,
-            tolerance,
+            tolerance: request.tolerance,
             area: slice.area(),
+            not_checked: request.not_checked(),
             polygons: slice.polygons.into_iter().map(PolygonObject::from).collect(),
             contours: slice.contours.into_iter().map(ContourObject::from).collect(),
         }

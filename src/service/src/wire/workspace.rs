@@ -6,6 +6,7 @@ use utoipa::ToSchema;
 use verne_solver::workspace::{Kind, Request};
 
 use super::degrees::from_degrees_of_turn;
+use super::limit::Unchecked;
 use super::machine_ref::MachineRef;
 
 /// Where can the machine go?
@@ -17,6 +18,10 @@ pub(crate) struct WorkspaceRequest {
     pub kind: KindName,
     /// Distance from P to the tool's tip, mm; without effect on `platform`.
     pub tool_length: f64,
+    /// Least height of the tool's end and of the platform's joints over the table, mm; only kind `part` has it.
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, mm; counts for `table_clearance` alone.
+    pub tool_radius: f64,
     /// Inclination of the tool in the table frame, degrees; only `part` depends on it.
     pub phi1: f64,
     /// Azimuth of the tool in the table frame, degrees; only `part` depends on it.
@@ -56,6 +61,11 @@ impl KindName {
         }
     }
 
+    /// Why there is no theta1, where there is none.
+    pub(crate) fn without_tilt(self) -> Option<&'static str> {
+        (self != Self::Part).then_some("belongs to kind part")
+    }
+
     /// The frame of its positions.
     pub(crate) fn frame(self) -> FrameName {
         match self {
@@ -85,6 +95,14 @@ pub(crate) struct CanonicalRequest {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub tool_length: Option<f64>,
+    /// mm; for `part`, where the table is checked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// mm; for `part`, where the table is checked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub tool_radius: Option<f64>,
     /// Degrees; for `part`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
@@ -97,17 +115,33 @@ pub(crate) struct CanonicalRequest {
     pub tolerance: f64,
 }
 
+/// A clearance over the table and a tool's radius as they are kept: the radius counts beside a clearance alone. -0 is 0.
+pub(crate) fn over_table(clearance: Option<f64>, tool_radius: f64) -> [Option<f64>; 2] {
+    [clearance, clearance.map(|_| tool_radius)].map(|length| length.map(|length| length + 0.0))
+}
+
 impl From<&WorkspaceRequest> for CanonicalRequest {
     fn from(asked: &WorkspaceRequest) -> Self {
         // -0 is 0.
         let (tool, part) = (asked.kind != KindName::Platform, asked.kind == KindName::Part);
+        let clearance = asked.table_clearance.filter(|_| part);
+        let [table_clearance, tool_radius] = over_table(clearance, asked.tool_radius);
         Self {
             kind: asked.kind,
             tool_length: tool.then_some(asked.tool_length + 0.0),
+            table_clearance,
+            tool_radius,
             phi1: part.then_some(asked.phi1 + 0.0),
             phi2: part.then_some(asked.phi2 + 0.0),
             tolerance: asked.tolerance,
         }
+    }
+}
+
+impl CanonicalRequest {
+    /// What is not checked.
+    pub(crate) fn not_checked(&self) -> &'static [Unchecked] {
+        Unchecked::beside(self.table_clearance.is_some())
     }
 }
 
@@ -120,6 +154,8 @@ impl From<&CanonicalRequest> for Request {
                 KindName::Part => Kind::Part,
             },
             tool_length: asked.tool_length.unwrap_or_default(),
+            table_clearance: asked.table_clearance,
+            tool_radius: asked.tool_radius.unwrap_or_default(),
             phi1: from_degrees_of_turn(asked.phi1.unwrap_or_default()),
             phi2: from_degrees_of_turn(asked.phi2.unwrap_or_default()),
             tolerance: asked.tolerance,

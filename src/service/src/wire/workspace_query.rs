@@ -32,6 +32,16 @@ pub(crate) struct WorkspaceQuery {
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
+    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
+    /// frame, mm; only kind `part` has it. Left out: the machine's own limit; without one the table is not checked.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = 0, maximum = 1e7, nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    #[serde(default)]
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    #[param(minimum = 0, maximum = 1e7, default = 0.0)]
+    pub tool_radius: f64,
     /// Inclination of the tool in the table frame, degrees; only `part` depends on it.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
@@ -56,9 +66,19 @@ pub(crate) struct WorkspaceQuery {
 impl WorkspaceQuery {
     /// The question as POST would put it.
     pub(crate) fn into_request(self) -> WorkspaceRequest {
-        let Self { machine, kind, tool_length, phi1, phi2, tolerance, format: _ } = self;
+        let Self {
+            machine,
+            kind,
+            tool_length,
+            table_clearance,
+            tool_radius,
+            phi1,
+            phi2,
+            tolerance,
+            format: _,
+        } = self;
         let machine = MachineRef::Name(machine);
-        WorkspaceRequest { machine, kind, tool_length, phi1, phi2, tolerance }
+        WorkspaceRequest { machine, kind, tool_length, table_clearance, tool_radius, phi1, phi2, tolerance }
     }
 }
 

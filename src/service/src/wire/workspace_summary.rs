@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::answer::MachineId;
+use super::limit::Unchecked;
 use super::numbers::Triple;
 use super::workspace::{CanonicalRequest, FrameName, KindName};
 use crate::result_id::ResultId;
@@ -41,6 +42,9 @@ pub(crate) struct WorkspaceSummary {
     /// solution exists that is not feasible, 20,000 points are looked at, and `volume_error` includes what may have
     /// been missed.
     pub folded: bool,
+    /// What was not checked.
+    #[schema(value_type = Vec<Unchecked>)]
+    pub not_checked: &'static [Unchecked],
     /// Why there is no volume, or why there are no triangles though the area is not zero; else absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, value_type = String)]

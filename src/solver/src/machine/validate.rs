@@ -126,6 +126,8 @@ fn limits(l: &Limits, faults: &mut Faults) {
         let degrees = range.map(f64::to_degrees);
         faults.range(&format!("limits/{field}"), degrees, 36_000.0, "degrees");
     }
+    let clearance = l.table_clearance.is_none_or(|least| (0.0..=LARGEST).contains(&least));
+    faults.check(clearance, "limits/table_clearance", "must be a length between 0 and 1e6 mm");
     for (field, axes) in [("slider_axes", l.slider_axes), ("platform_axes", l.platform_axes)] {
         for (i, axis) in axes.iter().flatten().enumerate() {
             faults.check(

@@ -5,6 +5,7 @@ use arrayvec::ArrayVec;
 use super::worst::Worst;
 use super::{Margins, between, cone, det, interference};
 use crate::angle::sin_cos_of_turn;
+use crate::clearance::Clearance;
 use crate::limit::Margin;
 use crate::machine::Machine;
 use crate::pose::{PlatformPose, TableAngles};
@@ -53,24 +54,28 @@ impl Together {
 
     /// [`Margins::worst`] of [`Margins::of`] for each posture, the same to the last bit: a stroke
     /// is usually the worst, and that it is can be seen without the margins of the others. The
-    /// table's angles, where it takes part, are those of alpha.
+    /// table's angles, where it takes part, are those of alpha; the clearance over the table is checked
+    /// where there is one.
     #[inline]
     pub(crate) fn worst(
         &self,
         machine: &Machine,
         table: impl Fn(f64) -> Option<TableAngles>,
+        clearance: Option<&Clearance>,
         mut found: impl FnMut(usize, Margin),
     ) {
         let (crossing, clear) = self.glances(machine);
         for (i, &place) in self.places.iter().enumerate() {
             let (pose, rho) = self.posture(i);
             let table = table(pose.alpha);
-            let margin = if clear[i] > 0.0 {
+            let worst = if clear[i] > 0.0 {
                 Worst::of_strokes(machine, crossing[i], rho, table)
             } else {
                 of_all(machine, &pose, rho, table)
             };
-            found(place, margin);
+            let above =
+                table.zip(clearance).map(|(table, clearance)| clearance.margin(machine, &pose, table));
+            found(place, worst.with_clearance(machine, above).margin);
         }
     }
 
@@ -92,8 +97,8 @@ impl Together {
 }
 
 #[cold]
-fn of_all(machine: &Machine, pose: &PlatformPose, rho: [f64; 3], table: Option<TableAngles>) -> Margin {
-    Margins::of_solution(machine, pose, rho, table).worst(machine)
+fn of_all(machine: &Machine, pose: &PlatformPose, rho: [f64; 3], table: Option<TableAngles>) -> Worst {
+    Worst::of(machine, &Margins::of_solution(machine, pose, rho, table))
 }
 
 /// The margin of crossed rods, and a number that is positive only if that or a stroke is certainly

@@ -3,7 +3,7 @@
 use crate::machine::MachineData;
 
 /// One over each constraint's own range: the stroke, the rod's length, the cone's half-angle, the
-/// value at home, the table's range.
+/// value at home, the table's range; for heights over the table, the longest stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Weights {
     pub(super) stroke: [f64; 3],
@@ -16,6 +16,7 @@ pub(crate) struct Weights {
     pub(super) rod_interference: f64,
     pub(super) tilt: f64,
     pub(super) rotary: f64,
+    pub(super) table_clearance: f64,
 }
 
 impl Weights {
@@ -34,6 +35,9 @@ impl Weights {
             rod_interference: 1.0 / home_distance,
             tilt: over(limits.tilt),
             rotary: over(limits.rotary),
+            // The sliders move the platform up and down by their strokes.
+            table_clearance: 1.0
+                / limits.stroke.map(|[low, high]| high - low).into_iter().fold(0.0, f64::max),
         }
     }
 }

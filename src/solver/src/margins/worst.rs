@@ -23,19 +23,19 @@ pub(super) fn least(margins: &[f64]) -> (usize, f64) {
 
 /// The margin that is worst so far, and its part of its constraint's range.
 pub(super) struct Worst {
-    margin: Margin,
+    pub(super) margin: Margin,
     part: f64,
 }
 
 impl Worst {
-    /// The worst of crossed rods, strokes and table.
+    /// The worst of crossed rods, strokes and the table's ranges.
     #[inline]
     pub(super) fn of_strokes(
         machine: &Machine,
         rod_crossing: f64,
         rho: [f64; 3],
         table: Option<TableAngles>,
-    ) -> Margin {
+    ) -> Self {
         let limits = machine.limits();
         let mut worst = Self::new(rod_crossing, machine.derived.weights.rod_crossing);
         worst.meet_strokes(machine, &[0, 1, 2].map(|i| between(limits.stroke[i], rho[i])));
@@ -43,7 +43,38 @@ impl Worst {
             let (tilt, rotary) = (between(limits.tilt, theta1), between(limits.rotary, theta2));
             worst.meet_table(machine, Some(tilt), Some(rotary));
         }
-        worst.margin
+        worst
+    }
+
+    /// The worst of all but the table's plane.
+    pub(super) fn of(machine: &Machine, margins: &Margins) -> Self {
+        let weights = &machine.derived.weights;
+        let mut worst = Self::new(margins.rod_crossing, weights.rod_crossing);
+        worst.meet_strokes(machine, &margins.stroke);
+        worst.meet_legs(machine, &margins.leg_length);
+        let families = [
+            (Constraint::SerialSingularity, &margins.serial_singularity, weights.serial_singularity),
+            (Constraint::SliderJoint, &margins.slider_joint, weights.slider_joint),
+            (Constraint::PlatformJoint, &margins.platform_joint, weights.platform_joint),
+        ];
+        for (constraint, margins, weight) in families {
+            worst.meet_rods(constraint, least(margins), weight);
+        }
+        let (det, gap) = (margins.parallel_singularity, margins.rod_interference);
+        worst.meet(Constraint::ParallelSingularity, Element::Platform, det, weights.parallel_singularity);
+        let [a, b] = margins.nearest_rods;
+        worst.meet(Constraint::RodInterference, Element::Rods(a, b), gap, weights.rod_interference);
+        worst.meet_table(machine, margins.tilt, margins.rotary);
+        worst
+    }
+
+    /// The worst with the margin of the table's plane, where it is checked.
+    #[inline]
+    pub(super) fn with_clearance(mut self, machine: &Machine, clearance: Option<Margin>) -> Self {
+        if let Some(Margin { constraint, element, value }) = clearance {
+            self.meet(constraint, element, value, machine.derived.weights.table_clearance);
+        }
+        self
     }
 
     /// Crossed rods first.
@@ -111,23 +142,7 @@ impl Margins {
 
     /// [`Self::worst`] and its fraction of its constraint's range, by which solutions compare.
     pub(crate) fn weighed(&self, machine: &Machine) -> (Margin, f64) {
-        let weights = &machine.derived.weights;
-        let mut worst = Worst::new(self.rod_crossing, weights.rod_crossing);
-        worst.meet_strokes(machine, &self.stroke);
-        worst.meet_legs(machine, &self.leg_length);
-        let families = [
-            (Constraint::SerialSingularity, &self.serial_singularity, weights.serial_singularity),
-            (Constraint::SliderJoint, &self.slider_joint, weights.slider_joint),
-            (Constraint::PlatformJoint, &self.platform_joint, weights.platform_joint),
-        ];
-        for (constraint, margins, weight) in families {
-            worst.meet_rods(constraint, least(margins), weight);
-        }
-        let (det, gap) = (self.parallel_singularity, self.rod_interference);
-        worst.meet(Constraint::ParallelSingularity, Element::Platform, det, weights.parallel_singularity);
-        let [a, b] = self.nearest_rods;
-        worst.meet(Constraint::RodInterference, Element::Rods(a, b), gap, weights.rod_interference);
-        worst.meet_table(machine, self.tilt, self.rotary);
+        let worst = Worst::of(machine, self).with_clearance(machine, self.table_clearance);
         (worst.margin, worst.part)
     }
 }

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::observer::{Observer, Pace, go_on};
 use super::request::{Kind, Request, WorkspaceError};
+use crate::clearance::Clearance;
 use crate::inverse::{part_every_working, part_working, platform_working, tool_every_working, tool_working};
 use crate::limit::{Margin, Refusal};
 use crate::machine::Machine;
@@ -36,6 +37,7 @@ pub fn contains(
 ) -> Result<Vec<Membership>, WorkspaceError> {
     request.check()?;
     let part = request.kind == Kind::Part;
+    let clearance = request.clearance(machine);
     let nothing = Membership { inside: false, margin: None };
     let mut members = Pace::new(observer).filled(&nothing, points.len())?;
     points.par_chunks(BATCH).zip(members.par_chunks_mut(BATCH)).try_for_each(|(points, members)| {
@@ -53,11 +55,12 @@ pub fn contains(
             solved.worst(
                 machine,
                 |alpha| part.then(|| table_angles(machine, alpha, request.phi1, request.phi2)),
+                clearance.as_ref(),
                 |i, margin| places[i] = Membership { inside: margin.value >= 0.0, margin: Some(margin) },
             );
             for (&point, place) in points.iter().zip(places) {
                 if !place.inside && request.kind != Kind::Platform {
-                    others(machine, request, point, place);
+                    others(machine, request, clearance.as_ref(), point, place);
                 }
             }
         }
@@ -83,7 +86,13 @@ fn solution(machine: &Machine, request: &Request, point: Point) -> Result<Postur
 
 /// Where the working mode has several solutions, a point belongs to the workspace if one of them
 /// keeps every limit. The margin is that of the solution whose worst margin is best.
-fn others(machine: &Machine, request: &Request, [x, y, z]: Point, place: &mut Membership) {
+fn others(
+    machine: &Machine,
+    request: &Request,
+    clearance: Option<&Clearance>,
+    [x, y, z]: Point,
+    place: &mut Membership,
+) {
     let Request { kind, tool_length, phi1, phi2, .. } = *request;
     let found = match kind {
         Kind::Part => part_every_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length),
@@ -95,7 +104,7 @@ fn others(machine: &Machine, request: &Request, [x, y, z]: Point, place: &mut Me
     }
     let weighed = found.iter().map(|posture| {
         let table = (kind == Kind::Part).then(|| table_angles(machine, posture.pose.alpha, phi1, phi2));
-        Margins::of(machine, posture, table).weighed(machine)
+        Margins::above_table(machine, posture, table, clearance).weighed(machine)
     });
     if let Some((margin, _)) = weighed.max_by(|(_, a), (_, b)| a.total_cmp(b)) {
         *place = Membership { inside: margin.value >= 0.0, margin: Some(margin) };

@@ -5,11 +5,13 @@
 //! U stays on a circle about that axis: with the radius of the part point, at an angle that says
 //! theta1. Where the circle lies in the tool's workspace (a plane region at this x, exactly known)
 //! the point is reached, with phi1 = alpha - theta1. All that follows are intervals of that angle,
-//! cut at zeros of the limits: nothing is sampled in phi1.
+//! cut at zeros of the limits: nothing is sampled in phi1. The height over the table of what is lowest
+//! depends on the part point and on phi1 alone, and excludes arcs of phi1 in closed form.
 
 mod angles;
 mod arc;
 mod crossings;
+mod floor;
 mod grid;
 mod merge;
 mod orientations;
@@ -35,6 +37,11 @@ use crate::machine::Machine;
 pub struct DexterityRequest {
     /// Tool length from P.
     pub tool_length: f64,
+    /// Least height of the tool's end and the platform's joints over the table's plane; `None`: the
+    /// machine's own, if it has one.
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, for the height over the table.
+    pub tool_radius: f64,
     /// Azimuth of the tool in the table frame.
     pub phi2: f64,
     /// Inclinations of the tool in the table frame, `[from, to]`, at most a revolution apart.
@@ -103,6 +110,8 @@ impl DexterityRequest {
         let turn = (0.0..=std::f64::consts::TAU).contains(&(to - from));
         let checks = [
             ("tool_length", self.tool_length.abs() <= DOMAIN),
+            ("table_clearance", self.table_clearance.is_none_or(|least| least.abs() <= DOMAIN)),
+            ("tool_radius", self.tool_radius.abs() <= DOMAIN),
             ("phi2", self.phi2.abs() <= DOMAIN),
             ("phi1", from.abs() <= DOMAIN && to.abs() <= DOMAIN && turn),
             ("cell", (FINEST_CELL..=DOMAIN).contains(&self.cell)),

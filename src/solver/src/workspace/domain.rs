@@ -1,5 +1,7 @@
 //! The plane domain: every limit as a function of (x, y), zero on the limit and positive inside.
 
+mod floor;
+
 use std::f64::consts::{PI, TAU};
 
 use super::column::Column;
@@ -13,9 +15,10 @@ use crate::margins::cone::Columns;
 use crate::margins::interference;
 use crate::rods::Rods;
 use crate::table::table_angles;
+use floor::Floor;
 
 /// Number of limits.
-pub(super) const LIMITS: usize = 26;
+pub(super) const LIMITS: usize = 27;
 /// First of the limits that stem from the rods' distances: of leg I's, of a parallelogram's, between
 /// legs.
 pub(super) const INTERFERENCE: usize = 15;
@@ -23,6 +26,10 @@ pub(super) const INTERFERENCE: usize = 15;
 pub(super) const STROKES: usize = 18;
 /// First of the two limits that stem from the table.
 pub(super) const TILT: usize = 24;
+/// The limit that stems from the table's plane.
+pub(super) const TABLE: usize = 26;
+/// Number of the table among what may bind a sheet: it comes after the sliders.
+pub(super) const BY_TABLE: u8 = 3;
 /// Pairs of sliders (i, j): `z_hi` of slider i over `z_lo` of slider j.
 pub(super) const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
 const RODS: [u8; 4] = [11, 12, 21, 31];
@@ -50,7 +57,9 @@ pub(super) struct Domain<'a> {
     pub(super) chords: [f64; 2],
     /// Middle and half of the tilting range, moved by phi1 so that it holds for alpha.
     tilt: Option<[f64; 2]>,
-    /// The rotary angle, which is constant, is out of its range.
+    /// The table's plane, where it is a limit.
+    floor: Option<Floor>,
+    /// The rotary angle, which is constant, is out of its range; or a slice lies below the floor.
     pub(super) empty: bool,
 }
 
@@ -62,13 +71,16 @@ impl<'a> Domain<'a> {
         let [low, high] = limits.tilt;
         let half = 0.5 * (high - low);
         let theta2 = table_angles(machine, 0.0, request.phi1, request.phi2).theta2;
+        let floor = Floor::new(machine, request);
+        let below = floor.zip(height).is_some_and(|(floor, height)| height < floor.least);
         Self {
             machine,
             image: Image::new(machine, request),
             height,
             chords: [chord(limits.slider_cone), chord(limits.platform_cone)],
             tilt: (part && half < PI).then_some([low + half + request.phi1, half]),
-            empty: part && !(limits.rotary[0]..=limits.rotary[1]).contains(&theta2),
+            floor,
+            empty: below || part && !(limits.rotary[0]..=limits.rotary[1]).contains(&theta2),
         }
     }
 
@@ -121,7 +133,8 @@ impl<'a> Domain<'a> {
                 interference::nearest_by_legs(g, rods)[limit - INTERFERENCE] - 2.0 * g.rod_radius
             }
             STROKES..TILT => self.stroke(limit - STROKES, column),
-            _ => self.tilt(limit - TILT, column),
+            TILT..TABLE => self.tilt(limit - TILT, column),
+            _ => self.above_table(column),
         }
     }
 
@@ -191,6 +204,9 @@ impl<'a> Domain<'a> {
 
     /// The binding constraint of a limit at a point on it, with the two rods that are nearest there.
     pub(super) fn binding_at(&self, limit: u8, at: [f64; 2]) -> Binding {
+        if usize::from(limit) == TABLE {
+            return self.floor_binding();
+        }
         let found = binding(limit);
         if found.constraint != Constraint::RodInterference {
             return found;
@@ -199,18 +215,20 @@ impl<'a> Domain<'a> {
         Binding { element: Element::Rods(a, b), ..found }
     }
 
-    /// One sheet's height at each slider's end of stroke.
+    /// One sheet's height at each slider's end of stroke, and at the table.
     #[inline]
-    pub(super) fn sheet(&self, column: &Column, upper: bool) -> [f64; 3] {
-        if upper { self.highs(column) } else { self.lows(column) }
+    pub(super) fn sheet(&self, column: &Column, upper: bool) -> [f64; 4] {
+        let [a, b, c] = if upper { self.highs(column) } else { self.lows(column) };
+        [a, b, c, self.table_bound(column, upper)]
     }
 
-    /// The slider whose end of stroke is the sheet; the first of equal ones.
+    /// The slider whose end of stroke is the sheet, or the table; the first of equal ones.
     #[inline]
-    pub(super) fn binding_slider([a, b, c]: [f64; 3], upper: bool) -> usize {
+    pub(super) fn binding_slider([a, b, c, table]: [f64; 4], upper: bool) -> usize {
         let before = |a: f64, b: f64| if upper { a < b } else { a > b };
         let (first, height) = if before(b, a) { (1, b) } else { (0, a) };
-        if before(c, height) { 2 } else { first }
+        let (first, height) = if before(c, height) { (2, c) } else { (first, height) };
+        if before(table, height) { usize::from(BY_TABLE) } else { first }
     }
 
     /// `z_lo` and `z_hi`, or twice the height at which a slice meets the column.
@@ -219,6 +237,12 @@ impl<'a> Domain<'a> {
         if let Some(height) = self.height {
             return [self.image.z_at(column, height); 2];
         }
+        self.above_floor(column, self.stroke_ends(column))
+    }
+
+    /// The ends that the strokes leave of a column.
+    #[inline]
+    fn stroke_ends(&self, column: &Column) -> [f64; 2] {
         let ([a, b, c], [d, e, f]) = (self.lows(column), self.highs(column));
         [a.max(b).max(c), d.min(e).min(f)]
     }

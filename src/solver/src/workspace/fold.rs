@@ -104,6 +104,7 @@ fn others(machine: &Machine, request: &Request, known: Point, [x, y, z]: Point) 
         Kind::Part => part_every_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length),
         _ => tool_every_working(machine, [x, y, z], tool_length),
     };
+    let clearance = request.clearance(machine);
     let same = SAME * machine.derived.scale;
     let others = found.iter().flatten().filter(|posture| {
         let pose = &posture.pose;
@@ -111,7 +112,7 @@ fn others(machine: &Machine, request: &Request, known: Point, [x, y, z]: Point) 
     });
     let says = others.map(|posture| {
         let table = (kind == Kind::Part).then(|| table_angles(machine, posture.pose.alpha, phi1, phi2));
-        let margins = Margins::of(machine, posture, table);
+        let margins = Margins::above_table(machine, posture, table, clearance.as_ref());
         let in_range = margins.tilt.iter().chain(&margins.rotary).flatten().all(|margin| *margin >= 0.0);
         match (margins.feasible(), in_range) {
             (true, _) => Others::Feasible,

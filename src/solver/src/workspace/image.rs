@@ -7,8 +7,8 @@ use crate::pose::Point;
 
 /// Least |cos theta1| at which a plane Z = const of the table frame cuts a column at one point.
 const UPRIGHT: f64 = 1e-12;
-/// Where a plane that is parallel to a column meets it, mm: beyond every stroke.
-const NOWHERE: f64 = 1e15;
+/// Where a plane that does not cut a column meets it, mm: beyond every stroke.
+pub(super) const NOWHERE: f64 = 1e15;
 
 /// Each map is linear in z on a column, and so is its Jacobian determinant.
 #[derive(Clone, Copy, Debug)]
@@ -70,6 +70,15 @@ impl Image {
                 let over = table.dt - height - length * phi1[0] + column.y * s1;
                 if c1.abs() > UPRIGHT { table.da + over / c1 } else { NOWHERE.copysign(over * c1) }
             }
+        }
+    }
+
+    /// Whether a column's points with less z are the higher ones over the table.
+    #[inline]
+    pub(super) fn upright(&self, column: &Column) -> bool {
+        match self {
+            Self::Platform | Self::Tool { .. } => true,
+            Self::Part { phi1, .. } => tilt(column, *phi1)[0] >= 0.0,
         }
     }
 

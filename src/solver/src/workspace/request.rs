@@ -2,7 +2,9 @@
 
 use std::fmt;
 
+use crate::clearance::Clearance;
 use crate::limit::DOMAIN;
+use crate::machine::Machine;
 
 /// Whose positions the workspace is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,6 +29,12 @@ pub struct Request {
     pub phi1: f64,
     /// Azimuth of the tool in the table frame; only [`Kind::Part`] depends on it.
     pub phi2: f64,
+    /// Least height of the tool's end and the platform's joints over the table's plane; `None`: the
+    /// machine's own, if it has one. Only [`Kind::Part`] depends on it: the height depends on theta1,
+    /// which the other kinds leave open.
+    pub table_clearance: Option<f64>,
+    /// Radius of the tool's end, for the height over the table.
+    pub tool_radius: f64,
     /// Greatest distance between a mesh or a slice and the true surface, both ways.
     pub tolerance: f64,
 }
@@ -81,8 +89,20 @@ impl fmt::Display for WorkspaceError {
 impl std::error::Error for WorkspaceError {}
 
 impl Request {
+    /// The clearance over the table that is checked.
+    pub(super) fn clearance(&self, machine: &Machine) -> Option<Clearance> {
+        let part = self.kind == Kind::Part;
+        Clearance::of(machine, self.table_clearance, self.tool_length, self.tool_radius).filter(|_| part)
+    }
+
     pub(super) fn check(&self) -> Result<(), WorkspaceError> {
-        let numbers = [("tool_length", self.tool_length), ("phi1", self.phi1), ("phi2", self.phi2)];
+        let numbers = [
+            ("tool_length", self.tool_length),
+            ("phi1", self.phi1),
+            ("phi2", self.phi2),
+            ("table_clearance", self.table_clearance.unwrap_or_default()),
+            ("tool_radius", self.tool_radius),
+        ];
         for (field, number) in numbers {
             if number.is_nan() || number.abs() > DOMAIN {
                 return Err(WorkspaceError::OutOfDomain { field });

@@ -5,7 +5,7 @@ mod tidy;
 mod twins;
 
 use super::cover::{Cover, Purpose};
-use super::domain::{Binding, Domain, stroke_binding};
+use super::domain::{Binding, Domain};
 use super::observer::{Observer, Pace, go_on};
 use super::plane::{ATTEMPTS, Plane, Rim};
 use super::request::{Request, WorkspaceError};
@@ -158,8 +158,8 @@ impl Surface {
         for triangle in &plane.triangles {
             pace.step()?;
             let [a, b, c] = triangle.corners.map(|corner| sheets[corner as usize]);
-            surface.add([a[0], c[0], b[0]], stroke_binding(triangle.sliders[0], false));
-            surface.add([a[1], b[1], c[1]], stroke_binding(triangle.sliders[1], true));
+            surface.add([a[0], c[0], b[0]], domain.sheet_binding(triangle.sliders[0], false));
+            surface.add([a[1], b[1], c[1]], domain.sheet_binding(triangle.sliders[1], true));
         }
         for rim in &plane.rims {
             pace.step()?;

@@ -13,7 +13,14 @@ use crate::topology::Topology;
 use crate::watched::Looks;
 
 fn asked(from: f64, to: f64, cell: f64) -> DexterityRequest {
-    DexterityRequest { tool_length: 80.0, phi2: 0.3, phi1: [from, to], cell }
+    DexterityRequest {
+        tool_length: 80.0,
+        table_clearance: None,
+        tool_radius: 0.0,
+        phi2: 0.3,
+        phi1: [from, to],
+        cell,
+    }
 }
 
 fn computed(machine: &Machine, request: &DexterityRequest) -> Dexterity {
@@ -43,10 +50,18 @@ fn surface(region: &Region) -> Surface {
 fn of_one_inclination_is_the_workspace() {
     let mut machines = vec![changed(|data| data.limits.tilt = [-0.2, 0.6])];
     machines.extend(others().into_iter().map(|(_, machine)| machine).skip(3));
-    for machine in machines {
-        let request = asked(0.25, 0.25, 60.0);
-        let workspace =
-            Request { kind: Kind::Part, tool_length: 80.0, phi1: 0.25, phi2: 0.3, tolerance: 1.0 };
+    let machines = machines.into_iter().flat_map(|machine| [(machine.clone(), None), (machine, Some(120.0))]);
+    for (machine, table_clearance) in machines {
+        let request = DexterityRequest { table_clearance, tool_radius: 40.0, ..asked(0.25, 0.25, 60.0) };
+        let workspace = Request {
+            kind: Kind::Part,
+            tool_length: 80.0,
+            phi1: 0.25,
+            phi2: 0.3,
+            table_clearance,
+            tool_radius: 40.0,
+            tolerance: 1.0,
+        };
         let answer = measure(&machine, &workspace, &Unobserved).unwrap();
         let [exact, bound] = value(answer.volume);
         let found = computed(&machine, &request);
@@ -74,12 +89,13 @@ fn nodes(grid: &Grid) -> Vec<[f64; 3]> {
 #[test]
 fn nodes_have_their_own_orientations() {
     let machine = Machine::verne();
-    let request = asked(-1.2, 1.0, 70.0);
+    let request =
+        DexterityRequest { table_clearance: Some(10.0), tool_radius: 30.0, ..asked(-1.2, 1.0, 70.0) };
     let found = computed(&machine, &request);
     let nodes = nodes(&found.grid);
     assert_eq!(found.offsets.len(), nodes.len() + 1);
     for (n, point) in nodes.iter().enumerate().step_by(7) {
-        let alone = orientations(&machine, *point, request.phi2, request.tool_length, request.phi1).unwrap();
+        let alone = orientations(&machine, *point, &request).unwrap();
         let [from, to] = [0, 1].map(|end| found.offsets[n + end] as usize);
         let intervals = &found.intervals[from..to];
         assert_eq!(alone.len(), intervals.len(), "{point:?}");
@@ -102,8 +118,21 @@ fn regions_nest() {
 
 #[test]
 fn surfaces_are_closed_and_of_the_right_volume() {
-    for machine in [Machine::verne(), changed(|data| data.limits.stroke = [[100.0, 400.0]; 3])] {
-        let found = computed(&machine, &asked(-0.2, 0.3, 50.0));
+    let short = changed(|data| data.limits.stroke = [[100.0, 400.0]; 3]);
+    let above = |from, to, least, tool_length| DexterityRequest {
+        table_clearance: Some(least),
+        tool_radius: 60.0,
+        tool_length,
+        ..asked(from, to, 35.0)
+    };
+    for (machine, request) in [
+        (Machine::verne(), asked(-0.2, 0.3, 50.0)),
+        (short.clone(), asked(-0.2, 0.3, 50.0)),
+        (Machine::verne(), above(-0.7, 0.4, 60.0, 80.0)),
+        (Machine::verne(), above(0.3, 1.3, 0.0, 30.0)),
+        (short, above(-0.4, 0.1, 400.0, 80.0)),
+    ] {
+        let found = computed(&machine, &request);
         for region in [&found.reachable, &found.dexterous] {
             let mesh = surface(region);
             let topology = Topology::of(&mesh);

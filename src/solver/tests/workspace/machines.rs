@@ -4,7 +4,13 @@ use verne_solver::workspace::{Kind, Request};
 use verne_solver::{Machine, MachineData};
 
 pub(crate) fn request(kind: Kind, tool_length: f64, phi1: f64, tolerance: f64) -> Request {
-    Request { kind, tool_length, phi1: phi1.to_radians(), phi2: 0.0, tolerance }
+    let phi1 = phi1.to_radians();
+    Request { kind, tool_length, phi1, phi2: 0.0, table_clearance: None, tool_radius: 0.0, tolerance }
+}
+
+/// The same with the table as a limit.
+pub(crate) fn above(least: f64, tool_radius: f64, request: Request) -> Request {
+    Request { table_clearance: Some(least), tool_radius, ..request }
 }
 
 pub(crate) fn changed(change: impl FnOnce(&mut MachineData)) -> Machine {

@@ -2,11 +2,11 @@
 
 use verne_solver::workspace::{Kind, Request, Unobserved, contains};
 use verne_solver::{
-    Constraint, Machine, Margin, Margins, PartPose, Posture, part_every_working, part_working,
+    Clearance, Constraint, Machine, Margin, Margins, PartPose, Posture, part_every_working, part_working,
     platform_working, table_angles, tool_every_working,
 };
 
-use crate::machines::{Random, changed, others, random, request};
+use crate::machines::{Random, above, changed, others, random, request};
 
 #[test]
 fn is_solution_and_margins() {
@@ -63,7 +63,8 @@ fn worst_of_all(machine: &Machine, request: &Request, [x, y, z]: [f64; 3]) -> Ve
     let worst = |posture: &Posture| {
         let table = (request.kind == Kind::Part)
             .then(|| table_angles(machine, posture.pose.alpha, phi1, request.phi2));
-        Margins::of(machine, posture, table).worst(machine)
+        let clearance = Clearance::of(machine, request.table_clearance, tool_length, request.tool_radius);
+        Margins::above_table(machine, posture, table, clearance.as_ref()).worst(machine)
     };
     found.iter().flatten().map(worst).collect()
 }
@@ -84,6 +85,7 @@ fn names_the_worst_of_all_margins() {
             request(Kind::Platform, 0.0, 0.0, 1.0),
             request(Kind::Tool, 150.0, 0.0, 1.0),
             Request { phi2: 0.4, ..request(Kind::Part, 50.0, 35.0, 1.0) },
+            above(60.0, 30.0, Request { phi2: 0.4, ..request(Kind::Part, 50.0, 35.0, 1.0) }),
         ] {
             let [low, high] = if question.kind == Kind::Part { [-400.0, 1_000.0] } else { [700.0, 1_800.0] };
             let points: Vec<[f64; 3]> = (0..1_200)
@@ -117,6 +119,7 @@ fn names_the_worst_of_all_margins() {
         Constraint::PlatformJoint,
         Constraint::RodInterference,
         Constraint::Tilt,
+        Constraint::TableClearance,
     ];
     assert!(all.iter().all(|constraint| named.contains(constraint)), "{named:?}");
 }

@@ -56,7 +56,14 @@ fn every_look_can_end_every_computation() {
     ended("measure", |looks| measure(&machine, &question, looks).map(drop));
     let points = vec![[0.0, 0.0, 300.0]; 5_000];
     ended("contains", |looks| contains(&machine, &question, &points, looks).map(drop));
-    let request = DexterityRequest { tool_length: 80.0, phi2: 0.3, phi1: [0.1, 0.1], cell: 150.0 };
+    let request = DexterityRequest {
+        tool_length: 80.0,
+        table_clearance: None,
+        tool_radius: 0.0,
+        phi2: 0.3,
+        phi1: [0.1, 0.1],
+        cell: 150.0,
+    };
     ended("dexterity", |looks| dexterity(&machine, &request, looks).map(drop));
 }
 

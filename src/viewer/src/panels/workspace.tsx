@@ -2,7 +2,16 @@
 
 import type { WorkspaceKind, WorkspaceSummary } from "../api/client";
 import { again, cancelComputation } from "../state/computation";
-import { change, changeWorkspace, computing, tool, wanted, workspace, workspaceNote } from "../state/store";
+import {
+  change,
+  changeWorkspace,
+  computing,
+  overTable,
+  tool,
+  wanted,
+  workspace,
+  workspaceNote,
+} from "../state/store";
 import { cubicMetres, number, squareMetres } from "../words/numbers";
 import { Downloads } from "./downloads";
 import { Choice, NumberField, SlideField } from "./fields";
@@ -59,6 +68,11 @@ export function WorkspacePanel() {
         step={5}
         commit={(tool) => change({ tool })}
       />
+      {asked.kind === "part" ? (
+        <TableFields />
+      ) : (
+        <p class="hint">The table is not checked here: its tilt is left open.</p>
+      )}
       <div class="row three">
         {asked.kind === "part" && (
           <>
@@ -98,6 +112,34 @@ export function WorkspacePanel() {
       {found && found.triangles > 0 && <Legend />}
       {found && found.triangles > 0 && <Downloads found={found} />}
     </section>
+  );
+}
+
+/** The table as a limit: it holds for the margins as well. */
+function TableFields() {
+  const { table_clearance: least, tool_radius: radius } = overTable.value;
+  return (
+    <div class="row three">
+      <NumberField
+        label="Least height of tool and platform over the table"
+        symbol="Over table"
+        unit="mm"
+        value={least}
+        step={5}
+        min={0}
+        max={1e6}
+        commit={(clearance) => change({ clearance })}
+      />
+      <NumberField
+        label="Radius of the tool’s end"
+        symbol="Radius"
+        unit="mm"
+        value={radius}
+        min={0}
+        max={1e6}
+        commit={(radius) => change({ radius })}
+      />
+    </div>
   );
 }
 

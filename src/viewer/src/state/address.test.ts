@@ -15,6 +15,8 @@ test("a view comes back from its address", async () => {
     joints: { rho: [674, 685.125, 250], theta1: -12.5, theta2: 30 },
     mode: { x: -298.038, y: 370.105, z: 1142.842, alpha: 131.984 },
     tool: 80.5,
+    radius: 12.5,
+    clearance: 0,
     drag: "tool",
     ghosts: "assembly",
     workspace: { shown: false, solid: true, kind: "tool", phi1: 20, phi2: -45, tolerance: 0.1 },
@@ -25,6 +27,7 @@ test("a view comes back from its address", async () => {
 });
 
 test("a broken address shows the first view", async () => {
-  const broken = "#joints=1,2&tool=-4&ghosts=all&workspace=moon&section=&camera=a,b,c,d,e,f&own=!!";
+  const broken =
+    "#joints=1,2&tool=-4&radius=x&clearance=-1&ghosts=all&workspace=moon&section=&camera=a,b,c,d,e,f&own=!!";
   expect(await fromAddress(broken)).toEqual(INITIAL);
 });

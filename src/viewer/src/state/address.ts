@@ -16,6 +16,8 @@ export async function toAddress(view: View): Promise<string> {
     ["joints", view.joints && numbers([...view.joints.rho, view.joints.theta1, view.joints.theta2], 3)],
     ["mode", view.mode && numbers([view.mode.x, view.mode.y, view.mode.z, view.mode.alpha], 3)],
     ["tool", view.tool === INITIAL.tool ? null : String(view.tool)],
+    ["radius", view.radius === INITIAL.radius ? null : String(view.radius)],
+    ["clearance", view.clearance === null ? null : String(view.clearance)],
     ["drag", view.drag === INITIAL.drag ? null : view.drag],
     ["ghosts", view.ghosts === INITIAL.ghosts ? null : view.ghosts],
     ["workspace", !ws.shown ? "hidden" : ws.kind === base.kind ? null : ws.kind],
@@ -43,6 +45,8 @@ export async function fromAddress(hash: string): Promise<View> {
     joints: asJoints(list("joints", 5)),
     mode: asPose(list("mode", 4)),
     tool: positive(list("tool", 1)?.[0], INITIAL.tool),
+    radius: positive(list("radius", 1)?.[0], INITIAL.radius),
+    clearance: positive(list("clearance", 1)?.[0], INITIAL.clearance),
     drag: oneOf(said.get("drag"), ["part", "tool"] as const, INITIAL.drag),
     ghosts: oneOf(said.get("ghosts"), GHOSTS, INITIAL.ghosts),
     workspace: {
@@ -86,7 +90,7 @@ function asCamera(list: number[] | null): Camera | null {
   return { eye: [a, b, c], target: [d, e, f] };
 }
 
-function positive(value: number | undefined, otherwise: number): number {
+function positive<T>(value: number | undefined, otherwise: T): number | T {
   return value !== undefined && value >= 0 ? value : otherwise;
 }
 

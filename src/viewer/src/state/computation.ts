@@ -8,6 +8,7 @@ import { slice as fetchSlice, workspace as compute } from "../api/workspace";
 import {
   computing,
   machine,
+  overTable,
   section,
   slice,
   slowDrawing,
@@ -32,7 +33,7 @@ const question = computed(() => {
   const { kind, phi1, phi2, tolerance } = wanted.value;
   const request: WorkspaceRequest = { machine: known.ref, kind, tolerance };
   if (kind !== "platform") request.tool_length = tool.value;
-  if (kind === "part") Object.assign(request, { phi1, phi2 });
+  if (kind === "part") Object.assign(request, { phi1, phi2, ...overTable.value });
   return JSON.stringify(request);
 });
 

@@ -10,6 +10,7 @@ import {
   failure,
   ghosts,
   machine,
+  overTable,
   position,
   view,
   type Complaint,
@@ -66,7 +67,7 @@ async function byPose(target: Target & { by: "part" | "tool" }): Promise<Positio
   const answer = unwrap(
     await client.POST("/ik", {
       body: {
-        ...question(),
+        ...(target.by === "part" ? question() : withoutTable()),
         frame: target.by,
         pose: target.pose,
         solutions: mode ? "all" : "working",
@@ -87,7 +88,13 @@ async function byPose(target: Target & { by: "part" | "tool" }): Promise<Positio
   }
   const joints = asJoints(solution.joints, here);
   if (target.by === "part") return { joints, solution };
-  return byJoints({ by: "joints", joints, mode: mode && solution.platform });
+  const found = await byJoints({ by: "joints", joints, mode: mode && solution.platform });
+  const above = found?.solution.margins.table_clearance;
+  if (!mode && above && above.value < 0) {
+    refuse({ sentence: `Not allowed: ${broken(above)}.`, wanted });
+    return null;
+  }
+  return found;
 }
 
 async function show(found: Position): Promise<void> {
@@ -123,7 +130,8 @@ async function others({ joints, solution }: Position): Promise<Position[]> {
 }
 
 async function inverse(frame: "platform" | "part", pose: TargetPose, here: Joints): Promise<Position[]> {
-  const body = { ...question(), frame, pose, solutions: "all" as const };
+  const asked = frame === "part" ? question() : withoutTable();
+  const body = { ...asked, frame, pose, solutions: "all" as const };
   const answer = unwrap(await client.POST("/ik", { body }));
   return answer.solutions.map((solution) => ({ joints: asJoints(solution.joints, here), solution }));
 }
@@ -135,6 +143,11 @@ async function forward(joints: Joints, mode: PlatformPose | null): Promise<Answe
 }
 
 function question() {
+  return { ...withoutTable(), ...overTable.value };
+}
+
+/** Where the table's tilt is left open, the height over it cannot be asked for. */
+function withoutTable() {
   return { machine: machine.value?.ref ?? view.value.machine, tool_length: view.value.tool };
 }
 

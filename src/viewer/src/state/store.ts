@@ -46,6 +46,11 @@ export const view = signal<View>(INITIAL);
 /** Parts of the view: who needs one is not woken by the others. */
 export const wanted = computed(() => view.value.workspace);
 export const tool = computed(() => view.value.tool);
+/** The tool's radius and the height over the table that is asked for, as requests have them. */
+export const overTable = computed(() => ({
+  table_clearance: view.value.clearance ?? machine.value?.definition.limits.table_clearance ?? 0,
+  tool_radius: view.value.radius,
+}));
 export const section = computed(() => view.value.section);
 export const drag = computed(() => view.value.drag);
 export const ghostKind = computed(() => view.value.ghosts);

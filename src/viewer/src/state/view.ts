@@ -16,6 +16,10 @@ export interface View {
   mode: PlatformPose | null;
   /** mm from P to the tip. */
   tool: number;
+  /** Radius of the tool's end, mm. */
+  radius: number;
+  /** Least height of tool and platform over the table, mm. Null: the machine's own, or 0. */
+  clearance: number | null;
   /** What the tool keeps when it is dragged: its angles on the part, or the table's. */
   drag: "part" | "tool";
   ghosts: Ghosts;
@@ -52,6 +56,8 @@ export const INITIAL: View = {
   joints: null,
   mode: null,
   tool: 50,
+  radius: 0,
+  clearance: null,
   drag: "part",
   ghosts: "none",
   workspace: { shown: true, solid: false, kind: "part", phi1: 0, phi2: 0, tolerance: 1 },

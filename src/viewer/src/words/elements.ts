@@ -27,6 +27,8 @@ export function boundary(constraint: Constraint, element: string): string {
       return `table tilted to its ${element.endsWith("max") ? "greatest" : "least"} angle`;
     case "rotary":
       return `table turned to its ${element.endsWith("max") ? "greatest" : "least"} angle`;
+    case "table_clearance":
+      return `${lowest(element)} as near to the table as allowed`;
     case "stroke":
       return `stroke of ${element}`;
   }
@@ -38,6 +40,11 @@ export function end(which: string | undefined): "upper" | "lower" {
 
 export function leg(element: string): string {
   return element.replace(/^leg(\d)$/, "leg $1");
+}
+
+/** What is lowest over the table: `tool` or `joint12`. */
+export function lowest(element: string): string {
+  return element === "tool" ? "the tool’s end" : element.replace(/^joint(\d+)$/, "platform joint $1");
 }
 
 /** A parallelogram's two rods are parallel: the service names the first for both. */

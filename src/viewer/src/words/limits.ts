@@ -1,7 +1,7 @@
 /** Why the machine cannot be where it is wanted. */
 
 import type { Answer, Limit } from "../api/client";
-import { end, leg, rods } from "./elements";
+import { end, leg, lowest, rods } from "./elements";
 import { degrees, mm, number } from "./numbers";
 
 /** An answer without a solution; null where there is one. */
@@ -39,5 +39,7 @@ export function broken({ constraint, element, value }: Limit): string {
       return `the table tilted ${degrees(over)} too far`;
     case "rotary":
       return `the table turned ${degrees(over)} too far`;
+    case "table_clearance":
+      return `${lowest(element)} ${mm(over)} too low over the table`;
   }
 }

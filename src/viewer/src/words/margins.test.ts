@@ -43,10 +43,23 @@ test("the first bar is what the service calls the worst", () => {
   });
 });
 
+test("the height over the table is a margin, measured by the longest stroke", () => {
+  const at = (value: number, element: string) => ({
+    ...AT_HOME,
+    table_clearance: { constraint: "table_clearance", value, unit: "mm", element } as const,
+  });
+  const low = bars(at(-327.25, "tool"), VERNE, HOME)[0];
+  expect(low?.sentence).toBe("the tool’s end 327.3\u00a0mm too low over the table");
+  expect(low?.part).toBeCloseTo(-327.25 / 750, 12);
+  const high = bars(at(45, "joint12"), VERNE, HOME).find((bar) => bar.constraint === "table_clearance");
+  expect(high?.sentence).toBe("platform joint 12 can come 45.0\u00a0mm nearer to the table");
+});
+
 test("a question without an answer says why", () => {
   const machine = { name: "verne", hash: "" };
   const constraint = { constraint: "stroke", value: -395.6, unit: "mm", element: "slider2.max" } as const;
-  expect(refusal({ machine, solutions: [], reason: "infeasible", constraint })).toBe(
-    "Out of reach: slider 2 395.6\u00a0mm beyond its lower end.",
-  );
+  const not_checked = ["part", "fixtures"] as const;
+  expect(
+    refusal({ machine, solutions: [], not_checked: [...not_checked], reason: "infeasible", constraint }),
+  ).toBe("Out of reach: slider 2 395.6\u00a0mm beyond its lower end.");
 });

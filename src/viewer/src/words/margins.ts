@@ -3,7 +3,7 @@
 import type { Limit, Machine, Margins } from "../api/client";
 import { broken } from "./limits";
 import { degrees, mm, number } from "./numbers";
-import { end, rods } from "./elements";
+import { end, lowest, rods } from "./elements";
 
 export interface Bar extends Limit {
   /** The margin as a part of its constraint's own range: what makes lengths and angles comparable. */
@@ -65,6 +65,11 @@ export function bars(margins: Margins, machine: Machine, home: Home): Bar[] {
   add("rod_interference", "mm", touching, margins.rod_interference, home.rodDistance);
   if (margins.tilt) nearest(margins.tilt, limits.tilt, "theta1", "tilt", "deg");
   if (margins.rotary) nearest(margins.rotary, limits.rotary, "theta2", "rotary", "deg");
+  if (margins.table_clearance) {
+    const { constraint, unit, element, value } = margins.table_clearance;
+    const longest = Math.max(...limits.stroke.map(([low = 0, high = 0]) => high - low));
+    add(constraint, unit, element, value, longest);
+  }
   return found.sort((a, b) => a.part - b.part);
 }
 
@@ -93,5 +98,7 @@ function kept({ constraint, element, value }: Limit): string {
       return `the table can tilt ${degrees(value)} further`;
     case "rotary":
       return `the table can turn ${degrees(value)} further`;
+    case "table_clearance":
+      return `${lowest(element)} can come ${mm(value)} nearer to the table`;
   }
 }

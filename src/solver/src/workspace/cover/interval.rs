@@ -141,6 +141,20 @@ pub(super) struct Jet {
 }
 
 impl Jet {
+    /// The greater of two functions, and whether that may be the one here and the other there.
+    pub(super) fn greater(self, other: Self) -> (Self, bool) {
+        let (a, b) = (self.value, other.value);
+        if a.low >= b.high {
+            (self, false)
+        } else if b.low >= a.high {
+            (other, false)
+        } else {
+            let value = Interval::new(a.low.max(b.low), a.high.max(b.high));
+            let slopes = [0, 1].map(|axis| self.slopes[axis].hull(other.slopes[axis]));
+            (Self { value, slopes }, true)
+        }
+    }
+
     /// x or y itself.
     pub(super) fn coordinate(value: Interval, axis: usize) -> Self {
         let mut slopes = [Interval::ZERO; 2];

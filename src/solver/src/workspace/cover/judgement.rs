@@ -1,6 +1,6 @@
 //! What the bounds of all limits tell of one box.
 
-use super::super::domain::{Domain, INTERFERENCE, LIMITS, TILT};
+use super::super::domain::{Domain, INTERFERENCE, LIMITS, TABLE, TILT};
 use super::ranges::Ranges;
 use super::rectangle::Rectangle;
 
@@ -69,7 +69,7 @@ fn unit(domain: &Domain<'_>, limit: usize) -> f64 {
     let scale = domain.machine.derived.scale;
     match limit {
         4 | 5 => scale * scale,
-        INTERFERENCE..TILT => scale,
+        INTERFERENCE..TILT | TABLE => scale,
         _ => 1.0,
     }
 }
@@ -80,7 +80,8 @@ pub(super) fn all_limits(domain: &Domain<'_>) -> u32 {
     let all = (1 << LIMITS) - 1;
     let parallelogram = 1 << (INTERFERENCE + 1);
     let rods = if domain.machine.geometry().rod_radius > 0.0 { 0 } else { 0b111 << INTERFERENCE };
-    all & !(1 | parallelogram | rods)
+    let table = if domain.floored() { 0 } else { 1 << TABLE };
+    all & !(1 | parallelogram | rods | table)
 }
 
 /// The rectangle that the legs reach, as far as a parallelogram's rods keep apart: their distance

@@ -3,8 +3,10 @@
 //! Leg I decides alpha, see [`First`]; everything else follows from sums, products and roots of
 //! functions over the box.
 
+use std::ops::Neg;
+
 use super::super::column::Column;
-use super::super::domain::{Domain, INTERFERENCE, PAIRS, STROKES, TILT};
+use super::super::domain::{Domain, INTERFERENCE, PAIRS, STROKES, TABLE, TILT};
 use super::super::image::Image;
 use super::first::{FLAT, First};
 use super::interval::{Interval, Jet};
@@ -108,6 +110,7 @@ impl<'a> Ranges<'a> {
             INTERFERENCE => (self.leg_one_apart(), false),
             // A parallelogram's own rods depend on x alone: the cover lies where they keep apart.
             OTHER_RODS..STROKES => separation(self, 2.0 * self.domain.machine.geometry().rod_radius),
+            TABLE => self.above_table(),
             _ => {
                 let value = self.domain.with_rods(limit, &self.column, &self.rods);
                 (self.plainly(limit).centred_at(value, self.offsets), false)
@@ -128,7 +131,7 @@ impl<'a> Ranges<'a> {
             7..=10 => self.cone(limit - 7, false),
             11..INTERFERENCE => self.cone(limit - 11, true),
             STROKES..TILT => self.stroke(limit - STROKES),
-            _ => self.tilt(limit - TILT),
+            _ => self.tilt(limit - TILT).0,
         }
     }
 
@@ -223,17 +226,38 @@ impl<'a> Ranges<'a> {
         }
     }
 
-    fn tilt(&self, end: usize) -> Jet {
+    fn tilt(&self, end: usize) -> (Jet, bool) {
         let piece = |[sign, offset]: [f64; 2]| self.alpha.times(sign).plus(offset);
         let [a, b] = self.domain.tilt_pieces(end).map(piece);
-        let value = Interval::new(a.value.low.max(b.value.low), a.value.high.max(b.value.high));
-        if a.value.low >= b.value.high {
-            a
-        } else if b.value.low >= a.value.high {
-            b
-        } else {
-            Jet { value, slopes: [0, 1].map(|axis| a.slopes[axis].hull(b.slopes[axis])) }
-        }
+        a.greater(b)
+    }
+
+    /// Height over the floor of the higher of the two ends that the strokes leave of a column; and
+    /// whether which end that is, or which slider ends the column, may change in the box.
+    fn above_table(&self) -> (Jet, bool) {
+        let unbounded = Jet { value: Interval::ALL, slopes: [Interval::ALL; 2] };
+        let Some(level) = self.domain.floor_level() else { return (unbounded, true) };
+        let Image::Part { length, table, phi1: [cp, sp], .. } = self.domain.image else {
+            return (unbounded, true);
+        };
+        let cosine = self.c.times(cp) + self.s.times(sp);
+        let sine = self.s.times(cp) - self.c.times(sp);
+        let lift = (self.y * sine).plus(table.dt - length * cp - level);
+        let (f, stroke) = (self.sliders(), &self.domain.machine.limits().stroke);
+        let mut kinked = false;
+        let mut greatest = |of: [Jet; 3]| {
+            of.into_iter().reduce(|a, b| {
+                let (greater, either) = a.greater(b);
+                kinked |= either;
+                greater
+            })
+        };
+        let low = greatest([0, 1, 2].map(|i| f[i].plus(stroke[i][0])));
+        let high = greatest([0, 1, 2].map(|i| -f[i].plus(stroke[i][1]))).map(Neg::neg);
+        let (Some(low), Some(high)) = (low, high) else { return (unbounded, true) };
+        let height = |z: Jet| lift - z.plus(-table.da) * cosine;
+        let (jet, either) = height(low).greater(height(high));
+        (jet.centred_at(self.domain.above_table(&self.column), self.offsets), kinked || either)
     }
 
     /// A bound of a column's volume over its area: its greatest height times the greatest Jacobian

@@ -60,8 +60,15 @@ fn bounds_hold() {
         let spread = numbers.between(0.1, 1.4);
         let Some(machine) = numbers.machine(spread) else { continue };
         let kind = [Kind::Platform, Kind::Part][usize::from(numbers.between(0.0, 1.0) < 0.5)];
-        let request =
-            Request { kind, tool_length: 50.0, phi1: numbers.between(-3.0, 3.0), phi2: 0.0, tolerance: 1.0 };
+        let request = Request {
+            kind,
+            tool_length: 50.0,
+            phi1: numbers.between(-3.0, 3.0),
+            phi2: 0.0,
+            table_clearance: (numbers.between(0.0, 1.0) < 0.5).then(|| numbers.between(-500.0, 500.0)),
+            tool_radius: 5.0,
+            tolerance: 1.0,
+        };
         let height = (numbers.between(0.0, 1.0) < 0.3).then(|| numbers.between(-500.0, 2_000.0));
         let domain = Domain::new(&machine, &request, height);
         let Some([low, high]) = parallelograms_apart(&domain) else { continue };

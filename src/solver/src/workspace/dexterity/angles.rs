@@ -6,11 +6,16 @@
 //! min(beta - tilt_min, beta - alpha + to), all of which rise with beta: over an interval of beta
 //! these psi are one interval. A point at psi has all of phi1 on the arc if it has both its ends,
 //! `to` at the lesser beta, where theta1 is least, and `from` at the greater.
+//!
+//! The phi1 that an interval of beta serves at a psi are themselves one interval; the table's plane is kept
+//! by some of them where it is kept by the one with the least depth, and by all where it is by the one
+//! with the greatest.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::super::path::{Limits, intervals};
 use super::arc::{Arc, Circle, arcs, looks, turns};
+use super::floor::Floor;
 use super::section::{Piece, Setting};
 
 /// The angles, rad, of what is reachable and of what is dexterous.
@@ -37,7 +42,21 @@ fn tilts(setting: &Setting<'_>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
 fn reachable(arc: &Arc<'_>, [from, to]: [f64; 2], [low, high]: [f64; 2], found: &mut Vec<[f64; 2]>) {
     let lead = |beta: f64| beta - arc.circle.alpha(beta);
     for [start, end] in inclined(arc.circle, arc.ends, [low + from, high + to]) {
-        found.push([f64::max(start - high, lead(start) + from), f64::min(end - low, lead(end) + to)]);
+        let psi = [f64::max(start - high, lead(start) + from), f64::min(end - low, lead(end) + to)];
+        let Some(floor) = &arc.circle.setting.floor else {
+            found.push(psi);
+            continue;
+        };
+        if psi[0] < psi[1] {
+            let served = |psi: f64| {
+                [
+                    f64::max(from, psi - lead(end.min(psi + high))),
+                    f64::min(to, psi - lead(start.max(psi + low))),
+                ]
+            };
+            let over = Over { floor, radius: arc.circle.radius, served };
+            found.extend(intervals(&over, psi, looks(psi)).into_iter().map(|cuts| cuts.map(|cut| cut.t)));
+        }
     }
 }
 
@@ -50,8 +69,10 @@ fn dexterous(arc: &Arc<'_>, [from, to]: [f64; 2], [low, high]: [f64; 2], found: 
         let first = [lead(a) + to, lead(b) + to];
         for [a, b] in &lasts {
             let both = [first[0].max(lead(*a) + from), first[1].min(lead(*b) + from)];
-            if both[0] < both[1] {
-                found.push(both);
+            match &arc.circle.setting.floor {
+                _ if both[0] >= both[1] => {}
+                Some(floor) => floor.overlap(arc.circle.radius, [from, to], both, found),
+                None => found.push(both),
             }
         }
     }
@@ -65,6 +86,23 @@ fn inclined(circle: Circle<'_>, ends: [f64; 2], [least, greatest]: [f64; 2]) -> 
     }
     let limits = Inclination { circle, least, greatest };
     intervals(&limits, ends, looks(ends)).into_iter().map(|cuts| cuts.map(|cut| cut.t)).collect()
+}
+
+/// By how much the table's plane is kept at a psi by the best of the phi1 served there, mm.
+struct Over<'a, F> {
+    floor: &'a Floor<'a>,
+    radius: f64,
+    served: F,
+}
+
+impl<F: Fn(f64) -> [f64; 2]> Limits<1> for Over<'_, F> {
+    fn all(&self, psi: f64) -> [f64; 1] {
+        [self.one(0, psi)]
+    }
+
+    fn one(&self, _: usize, psi: f64) -> f64 {
+        self.floor.height(self.radius, psi) - self.floor.lowest((self.served)(psi))
+    }
 }
 
 struct Inclination<'a> {

@@ -94,7 +94,13 @@ fn extent(
         go_on(observer)?;
         let x = low[0] + step * f64::from(number);
         for piece in setting.section(x) {
-            let [v1, z] = flat_extent(setting, &piece, phi1);
+            let [v1, mut z] = flat_extent(setting, &piece, phi1);
+            if let Some(floor) = &setting.floor {
+                z[0] = z[0].max(floor.lowest(phi1));
+                if z[0] > z[1] {
+                    continue;
+                }
+            }
             let [a, b] = found.unwrap_or([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]]);
             found = Some([
                 // What begins between two sections is less than their distance away.

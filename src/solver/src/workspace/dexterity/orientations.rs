@@ -21,7 +21,7 @@ pub struct Interval {
     pub bindings: [Option<Binding>; 2],
 }
 
-/// The intervals of phi1 within `range` for which the working mode reaches the part point with
+/// The intervals of phi1 within the request's range for which the working mode reaches the part point with
 /// every limit kept, ascending; ends to 1e-9 rad. Intervals less than that apart are one.
 ///
 /// They are found as arcs of a circle (see the module) on which each stroke's limit is looked at
@@ -31,20 +31,17 @@ pub struct Interval {
 pub fn orientations(
     machine: &Machine,
     point: Point,
-    phi2: f64,
-    tool_length: f64,
-    range: [f64; 2],
+    request: &DexterityRequest,
 ) -> Result<Vec<Interval>, WorkspaceError> {
-    let request = DexterityRequest { tool_length, phi2, phi1: range, cell: 1.0 };
     request.check()?;
     if !point.iter().all(|coordinate| coordinate.abs() <= DOMAIN) {
         return Err(WorkspaceError::OutOfDomain { field: "point" });
     }
-    let setting = Setting::new(machine, &request);
+    let setting = Setting::new(machine, request);
     let [x, y, z] = point;
-    let (s, c) = phi2.sin_cos();
+    let (s, c) = request.phi2.sin_cos();
     let section = setting.section(x * c + y * s);
-    Ok(at(&setting, &section, [y * c - x * s, z], range))
+    Ok(at(&setting, &section, [y * c - x * s, z], request.phi1))
 }
 
 /// The intervals at a section's point (V1, Z).
@@ -64,7 +61,11 @@ pub(super) fn at(
             });
         }
     }
-    joined(found)
+    let found = joined(found);
+    match &setting.floor {
+        Some(floor) => floor.cut(z, found),
+        None => found,
+    }
 }
 
 /// The parts of an arc on which the table's tilt is within its range.

@@ -7,6 +7,8 @@ use super::super::domain::{Binding, Domain};
 use super::super::path::{Cut, Limits, Path, intervals};
 use super::super::request::{Kind, Request};
 use super::DexterityRequest;
+use super::floor::Floor;
+use crate::clearance::Clearance;
 use crate::machine::Machine;
 
 /// Segments of a line x = const on which its part in the plane domain is looked for.
@@ -31,6 +33,8 @@ pub(super) struct Setting<'a> {
     pub(super) tilt: Option<[f64; 2]>,
     /// The rotary angle is out of its range.
     pub(super) empty: bool,
+    /// The table's plane, where it is a limit.
+    pub(super) floor: Option<Floor<'a>>,
 }
 
 /// A part of the domain's line x = const on which eta goes one way with y.
@@ -66,12 +70,22 @@ pub(super) const ALPHA: usize = 3;
 
 impl<'a> Setting<'a> {
     pub(super) fn new(machine: &'a Machine, request: &DexterityRequest) -> Self {
-        let DexterityRequest { tool_length, phi2, .. } = *request;
-        let question = |kind| Request { kind, tool_length, phi1: 0.0, phi2, tolerance: NO_TOLERANCE };
+        let DexterityRequest { tool_length, table_clearance, tool_radius, phi2, .. } = *request;
+        let question = |kind| Request {
+            kind,
+            tool_length,
+            phi1: 0.0,
+            phi2,
+            table_clearance: None,
+            tool_radius: 0.0,
+            tolerance: NO_TOLERANCE,
+        };
         // The table's limits are those of the part's domain; here they depend on more than a column.
         let part = Domain::new(machine, &question(Kind::Part), None);
         let domain = Domain::new(machine, &question(Kind::Tool), None);
-        Self { machine, domain, length: tool_length, tilt: part.tilted(), empty: part.empty }
+        let clearance = Clearance::of(machine, table_clearance, tool_length, tool_radius);
+        let floor = clearance.map(|clearance| Floor { machine, clearance });
+        Self { machine, domain, length: tool_length, tilt: part.tilted(), empty: part.empty, floor }
     }
 
     /// The pieces at x, ascending in y.

@@ -13,7 +13,7 @@ use super::super::root;
 use super::bend;
 use super::patch::Patch;
 use super::refine::Refinement;
-use super::site::{CREASES, CURVES, Site, value};
+use super::site::{CREASES, CURVES, FLOOR, Site, value};
 
 /// Resolution of a point on an edge, as a part of the edge.
 const RESOLUTION: f64 = 1e-12;
@@ -71,6 +71,10 @@ impl<'a> Leaf<'a> {
         if self.pieces.is_empty() {
             return Ok(());
         }
+        if self.domain.floored() {
+            self.cut(FLOOR, true)?;
+            self.cut(FLOOR + 1, true)?;
+        }
         if !self.domain.flat() {
             for crease in [0, 2] {
                 self.cut(CREASES + crease, true)?;
@@ -81,12 +85,17 @@ impl<'a> Leaf<'a> {
     }
 
     fn cut(&mut self, curve: usize, keep: bool) -> Result<(), WorkspaceError> {
-        // The second crease of a sheet ends at the first, where slider 1 takes over.
-        let behind = (curve > CREASES && (curve - CREASES) % 2 == 1).then(|| curve - 1);
+        // A sheet's creases end where the table takes over, and the second one at the first, where
+        // slider 1 does.
+        let crease = (CREASES..FLOOR).contains(&curve).then(|| curve - CREASES);
+        let before = [
+            crease.map(|crease| FLOOR + crease / 2),
+            crease.filter(|crease| crease % 2 == 1).map(|_| curve - 1),
+        ];
         let mut pieces = Vec::with_capacity(self.pieces.len());
         for piece in std::mem::take(&mut self.pieces) {
             let piece = if keep { self.with_divisions(&piece) } else { piece };
-            let elsewhere = behind.is_some_and(|first| self.side(first, &piece) >= 0.0);
+            let elsewhere = before.into_iter().flatten().any(|other| self.side(other, &piece) >= 0.0);
             let negative = |site: &usize| self.sites[*site].values[curve] < 0.0;
             if elsewhere || !piece.iter().any(negative) {
                 pieces.push(piece);

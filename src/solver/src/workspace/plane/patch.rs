@@ -52,8 +52,8 @@ pub(in super::super) struct Vertex {
     pub(in super::super) pinched: bool,
 }
 
-/// A triangle of the plane, counter-clockwise, and the sliders that bind the lower and the upper
-/// sheet on it.
+/// A triangle of the plane, counter-clockwise, and the sliders, or the table, that bind the lower and
+/// the upper sheet on it.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct Triangle {
     pub(in super::super) corners: [u32; 3],

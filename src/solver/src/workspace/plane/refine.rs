@@ -14,7 +14,7 @@ use super::super::root;
 use super::bend;
 use super::leaf::Leaf;
 use super::patch::Patch;
-use super::site::{CREASES, Site, value};
+use super::site::{CREASES, CURVES, FLOOR, Site, value};
 use crate::pose::Point;
 
 /// Part of the tolerance that an edge's midpoint may be off; inside a triangle whose edges are all
@@ -157,17 +157,22 @@ impl Refinement<'_> {
     /// Of the edge alone, whichever way round it is given.
     fn edge(&self, a: &Site, middle: &Site, b: &Site) -> Edge {
         let (a, b) = if b.precedes(a) { (b, a) } else { (a, b) };
-        let (mut doubtful, mut changes) = (0_u32, false);
-        for limit in 0..LIMITS {
-            match shape(a.values[limit], middle.values[limit], b.values[limit]) {
-                Shape::Outside => return if self.hides([a, b], true) { Edge::Halved } else { Edge::Kept },
-                Shape::Simple => changes |= (a.values[limit] < 0.0) != (b.values[limit] < 0.0),
-                Shape::Doubtful => doubtful |= 1 << limit,
+        let (mut doubtful, mut changes) = (0_u64, false);
+        for curve in (0..LIMITS).chain(FLOOR..CURVES) {
+            match shape(a.values[curve], middle.values[curve], b.values[curve]) {
+                Shape::Outside if curve < LIMITS => {
+                    return if self.hides([a, b], true) { Edge::Halved } else { Edge::Kept };
+                }
+                Shape::Outside => {}
+                Shape::Simple => {
+                    changes |= curve < LIMITS && (a.values[curve] < 0.0) != (b.values[curve] < 0.0)
+                }
+                Shape::Doubtful => doubtful |= 1 << curve,
             }
         }
         let length = length(a, b) / self.tolerance;
-        let crossed = |limit: usize| doubtful & (1 << limit) != 0 && self.crossed(limit, [a, middle, b]);
-        let halved = length > SHORTEST[0] && ((0..LIMITS).any(crossed) || self.hides([a, b], false))
+        let crossed = |curve: usize| doubtful & (1 << curve) != 0 && self.crossed(curve, [a, middle, b]);
+        let halved = length > SHORTEST[0] && ((0..CURVES).any(crossed) || self.hides([a, b], false))
             || length > SHORTEST[1]
                 && !self.domain.flat()
                 && (self.curved([a, middle, b])
@@ -185,12 +190,12 @@ impl Refinement<'_> {
 
     /// Whether a limit's curve may cross an edge twice, or close on itself beside it, by more than
     /// can be neglected. Its depth beyond the edge is the parabola's over the limit's gradient.
-    fn crossed(&self, limit: usize, [a, middle, b]: [&Site; 3]) -> bool {
-        let values = [a, middle, b].map(|site| site.values[limit]);
+    fn crossed(&self, curve: usize, [a, middle, b]: [&Site; 3]) -> bool {
+        let values = [a, middle, b].map(|site| site.values[curve]);
         let depth = 0.5 * control(values).abs();
         let (length, [ax, ay], [bx, by], [x, y]) = (length(a, b), a.at(), b.at(), middle.at());
         let beside = [x - STEP * (by - ay), y + STEP * (bx - ax)];
-        let across = (self.domain.value(limit, &self.domain.column(beside)) - values[1]) / STEP;
+        let across = (value(self.domain, curve, &self.domain.column(beside)) - values[1]) / STEP;
         let gradient = across.hypot(values[2] - values[0]) / length;
         depth > SHALLOW * self.tolerance * gradient
     }
@@ -224,7 +229,8 @@ impl Refinement<'_> {
     }
 
     /// Whether a sheet leaves the edge by more than is allowed. A sheet is judged by every slider
-    /// that binds it on the edge: at a crease the edge will be cut.
+    /// that binds it on the edge: at a crease the edge will be cut. Where the table binds it, it is
+    /// plane.
     fn curved(&self, sites: [&Site; 3]) -> bool {
         let columns = sites.map(|site| &site.column);
         let rates = columns[1].angle_rates(self.domain.machine);

@@ -1,13 +1,15 @@
 //! A point of the plane with everything known about it.
 
 use super::super::column::Column;
-use super::super::domain::{Domain, LIMITS, STROKES, TILT};
+use super::super::domain::{Domain, LIMITS, STROKES, TABLE, TILT};
 use crate::pose::Point;
 
 /// Curves that may cut the plane: the limits, then the creases of the two sheets.
-pub(super) const CURVES: usize = LIMITS + 4;
+pub(super) const CURVES: usize = LIMITS + 6;
 /// First of the creases, two for each sheet: slider 1 against the others, then 2 against 3.
 pub(super) const CREASES: usize = LIMITS;
+/// First of the two creases between a sheet's sliders and the table.
+pub(super) const FLOOR: usize = CREASES + 4;
 
 /// A point, its column and the value of every curve's function there.
 #[derive(Clone, Debug)]
@@ -33,13 +35,13 @@ impl Site {
     }
 
     /// The curves on which the point lies, a bit each.
-    pub(super) fn on(&self) -> u32 {
+    pub(super) fn on(&self) -> u64 {
         (0..CURVES).filter(|&curve| self.values[curve] == 0.0).fold(0, |on, curve| on | 1 << curve)
     }
 
     /// Whether the sheets meet here.
     pub(super) fn pinched(&self) -> bool {
-        self.values[STROKES..TILT].contains(&0.0)
+        self.values[STROKES..TILT].contains(&0.0) || self.values[TABLE] == 0.0
     }
 
     /// The lower and the upper end of the column, as positions of the image.
@@ -53,7 +55,7 @@ impl Site {
     pub(super) fn ends_on(domain: &Domain<'_>, at: [f64; 2], curve: usize) -> [Point; 2] {
         let column = domain.column(at);
         let [low, high] = domain.ends(&column);
-        let meet = (STROKES..TILT).contains(&curve);
+        let meet = (STROKES..TILT).contains(&curve) || curve == TABLE;
         let [low, high] = if meet { [0.5 * (low + high); 2] } else { [low, high] };
         [domain.image.point(&column, low), domain.image.point(&column, high)]
     }
@@ -71,11 +73,12 @@ pub(super) fn value(domain: &Domain<'_>, curve: usize, column: &Column) -> f64 {
 }
 
 /// The lower sheet is slider 1's where the first is positive, else slider 2's where the second is;
-/// the upper sheet likewise.
-fn creases(domain: &Domain<'_>, column: &Column) -> [f64; 4] {
+/// the upper sheet likewise. Where one of the last two is positive, the table binds the sheet instead.
+fn creases(domain: &Domain<'_>, column: &Column) -> [f64; 6] {
     if domain.flat() {
-        return [1.0; 4];
+        return [1.0, 1.0, 1.0, 1.0, -1.0, -1.0];
     }
     let ([a, b, c], [d, e, f]) = (domain.lows(column), domain.highs(column));
-    [a - b.max(c), b - c, e.min(f) - d, f - e]
+    let [lower, upper] = domain.floor_creases(column);
+    [a - b.max(c), b - c, e.min(f) - d, f - e, lower, upper]
 }

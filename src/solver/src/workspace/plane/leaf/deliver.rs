@@ -1,11 +1,11 @@
 //! A leaf's pieces as triangles and sides of the plane.
 
-use super::super::super::domain::LIMITS;
+use super::super::super::domain::{BY_TABLE, LIMITS};
 use super::super::super::observer::Pace;
 use super::super::super::request::WorkspaceError;
 use super::super::ears;
 use super::super::patch::{Patch, Rim, Set, Triangle};
-use super::super::site::{CREASES, Site};
+use super::super::site::{CREASES, FLOOR, Site};
 use super::{Leaf, Piece};
 
 impl Leaf<'_> {
@@ -61,10 +61,12 @@ impl Leaf<'_> {
             .collect()
     }
 
-    /// The sliders that bind the sheets on a piece.
+    /// The sliders that bind the sheets on a piece, or the table.
     fn sliders(&self, piece: &[usize]) -> [u8; 2] {
-        [CREASES, CREASES + 2].map(|first| {
-            if self.side(first, piece) > 0.0 {
+        [(CREASES, FLOOR), (CREASES + 2, FLOOR + 1)].map(|(first, table)| {
+            if self.side(table, piece) > 0.0 {
+                BY_TABLE
+            } else if self.side(first, piece) > 0.0 {
                 0
             } else if self.side(first + 1, piece) > 0.0 {
                 1

@@ -1,0 +1,66 @@
+//! The table as a limit: the tool's end and the platform's joints stay above its plane.
+//!
+//! The plane is Z = 0 of the part frame. By Eqs (7) and (26) a point (x, y, z) of the base frame is at
+//! the height
+//!
+//! ```text
+//! Z = dt + y sin theta1 - (z - da) cos theta1
+//! ```
+//!
+//! over it. A platform joint at (X, Y, 0) of the platform frame is therefore Y sin phi1 lower than P,
+//! where phi1 = a - theta1, and P is `tool_length` cos phi1 higher than the tool centre point. The tool's
+//! end is a circle perpendicular to its axis; its lowest point is `tool_radius` |sin phi1| lower than the
+//! centre. All these differences depend on phi1 alone: for a fixed orientation of the tool, the limit
+//! is one plane Z = const for the tool centre point.
+
+use crate::angle::sin_cos;
+use crate::limit::{Constraint, Element, Margin};
+use crate::machine::Machine;
+use crate::pose::{PlatformPose, TableAngles};
+use crate::table::part_pose;
+
+/// A tool, and the height over the table's plane that its end and the platform's joints keep. Lengths
+/// in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearance {
+    /// The least height.
+    pub least: f64,
+    /// Length of the tool, from P to the centre of its end.
+    pub tool_length: f64,
+    /// Radius of the tool's end.
+    pub tool_radius: f64,
+}
+
+impl Clearance {
+    /// The clearance that a question asks for, or else the machine's; `None` where neither has one.
+    pub fn of(machine: &Machine, asked: Option<f64>, tool_length: f64, tool_radius: f64) -> Option<Self> {
+        let least = asked.or(machine.limits().table_clearance)?;
+        Some(Self { least, tool_length, tool_radius })
+    }
+
+    /// The margin of what is lowest.
+    #[inline]
+    pub(crate) fn margin(&self, machine: &Machine, pose: &PlatformPose, table: TableAngles) -> Margin {
+        let tool = part_pose(machine, pose, table, self.tool_length);
+        let (depth, element) = self.depth(machine, tool.phi1);
+        Margin { constraint: Constraint::TableClearance, element, value: tool.z - depth - self.least }
+    }
+
+    /// How far the lowest of tool and joints is below the tool centre point at an inclination, mm, and
+    /// which it is. The two joints of a parallelogram are equally high; the first stands for both.
+    #[inline]
+    pub(crate) fn depth(&self, machine: &Machine, phi1: f64) -> (f64, Element) {
+        let g = machine.geometry();
+        let (s, c) = sin_cos(phi1);
+        let to_platform = self.tool_length * c;
+        let joints = [(11, g.R1 * s), (12, -g.R1 * s), (21, -g.R2 * s), (31, g.R2 * s)];
+        let mut lowest = (self.tool_radius * s.abs(), Element::Tool);
+        for (rod, below_platform) in joints {
+            let depth = below_platform - to_platform;
+            if depth > lowest.0 {
+                lowest = (depth, Element::Joint(rod));
+            }
+        }
+        lowest
+    }
+}
