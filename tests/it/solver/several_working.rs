@@ -91,7 +91,15 @@ fn a_point_is_inside_if_any_of_them_is_feasible() {
             Margins::of(&machine, posture, Some(table)).feasible()
         });
         let feasible: Vec<bool> = feasible.collect();
-        let request = Request { kind: Kind::Part, tool_length, phi1, phi2, tolerance: 1.0 };
+        let request = Request {
+            kind: Kind::Part,
+            tool_length,
+            table_clearance: None,
+            tool_radius: 0.0,
+            phi1,
+            phi2,
+            tolerance: 1.0,
+        };
         let member = contains(&machine, &request, &[[x, y, z]], &Unobserved).unwrap()[0];
         assert_eq!(member.inside, feasible.contains(&true), "{target:?} {feasible:?} {member:?}");
         assert!(member.margin.is_none_or(|margin| (margin.value >= 0.0) == member.inside), "{member:?}");

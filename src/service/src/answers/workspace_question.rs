@@ -185,6 +185,8 @@ mod tests {
             machine: MachineRef::default(),
             kind: KindName::Platform,
             tool_length: 0.0,
+            table_clearance: None,
+            tool_radius: 0.0,
             phi1: 0.0,
             phi2: 0.0,
             tolerance: 1.0,

@@ -137,8 +137,15 @@ mod tests {
 
     fn round(points: u32) -> Vec<Site> {
         let machine = Machine::verne();
-        let request =
-            Request { kind: Kind::Platform, tool_length: 0.0, phi1: 0.0, phi2: 0.0, tolerance: 1.0 };
+        let request = Request {
+            kind: Kind::Platform,
+            tool_length: 0.0,
+            table_clearance: None,
+            tool_radius: 0.0,
+            phi1: 0.0,
+            phi2: 0.0,
+            tolerance: 1.0,
+        };
         let domain = Domain::new(&machine, &request, None);
         let at = |n: u32| (TAU * f64::from(n) / f64::from(points)).sin_cos();
         (0..points)

@@ -165,7 +165,7 @@ impl Refinement<'_> {
                 }
                 Shape::Outside => {}
                 Shape::Simple => {
-                    changes |= curve < LIMITS && (a.values[curve] < 0.0) != (b.values[curve] < 0.0)
+                    changes |= curve < LIMITS && (a.values[curve] < 0.0) != (b.values[curve] < 0.0);
                 }
                 Shape::Doubtful => doubtful |= 1 << curve,
             }
