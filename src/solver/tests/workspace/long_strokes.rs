@@ -55,7 +55,7 @@ fn the_expected_number_is_within_a_factor_of_the_made_one() {
         let Some((machine, question)) = any(&mut numbers) else { continue };
         let expected = expected_triangles(&machine, &question, &Unobserved).unwrap();
         let made = surface(&machine, &question, &Unobserved).unwrap().triangles.len() as f64;
-        let close = made / 1.5 - 100.0..=2.0 * made + 100.0;
+        let close = made / 1.5 - 100.0..=6.0 * made + 100.0;
         assert!(close.contains(&expected), "{expected} of {made}: {:?} {question:?}", machine.data());
         checked += 1;
     }
