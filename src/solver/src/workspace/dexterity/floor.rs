@@ -162,6 +162,10 @@ mod tests {
         let part = Interval { ends: [-0.5, 2.0], bindings: [None; 2] };
         let left = without(&part, 0.0, 1.0, binding);
         assert_eq!(left, [Interval { ends: [1.0, 2.0], bindings: [Some(binding), None] }]);
-        assert!(without(&part, PI, 2.9, binding).is_empty());
+        assert!(without(&part, 0.75, 1.3, binding).is_empty());
+        let gap = without(&part, PI, 2.9, binding);
+        assert_eq!(gap.len(), 1);
+        let [from, to] = gap[0].ends;
+        assert!((from + (PI - 2.9)).abs() < 1e-12 && (to - (PI - 2.9)).abs() < 1e-12);
     }
 }
