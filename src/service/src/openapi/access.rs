@@ -46,7 +46,8 @@ fn ask_for_key(operation: &mut Operation, role: Role, load: Load) {
     let either = [SecurityRequirement::new(BEARER, [""; 0]), SecurityRequirement::default()];
     operation.security = Some(either.into());
     let responses = &mut operation.responses.responses;
-    document(responses, &[Code::Unauthorized]);
+    // Requests with unknown keys count against the address that sends them.
+    document(responses, &[Code::Unauthorized, Code::TooManyRequests]);
     if load != Load::Watch {
         document(responses, LIMITS);
     }
