@@ -25,10 +25,11 @@ use crate::config::{self, ServeConfig};
 use crate::telemetry::TelemetryConfig;
 use crate::worker;
 
-/// Kinematics and workspaces of the VERNE five-axis hybrid machine's architecture, over HTTP and here.
+/// Kinematics and workspaces of the VERNE five-axis hybrid machine's architecture, over HTTP and on the command line.
 ///
-/// Without a command: serve. Lengths in mm, angles in degrees; z points down. The built-in machine `verne` has
-/// invented dimensions that reproduce the counts printed in arXiv:0707.3507; they are not Fatronik's.
+/// Without a command, verne serves over HTTP. Lengths are in mm and angles in degrees; z points down. The built-in
+/// machine `verne` has invented dimensions that reproduce the solution counts printed in arXiv:0707.3507; they are not
+/// Fatronik's dimensions.
 #[derive(Debug, Parser)]
 #[command(name = "verne", version, args_conflicts_with_subcommands = true)]
 pub struct Cli {
@@ -45,15 +46,15 @@ pub struct Cli {
 enum Command {
     /// Serve over HTTP.
     Serve(Box<ServeConfig>),
-    /// Run the jobs that wait at a broker (--broker), and keep their results in a store that all reach (--store).
+    /// Run jobs from a broker (--broker) and write their results to a shared store (--store).
     Worker(WorkerConfig),
-    /// Ask a service whether it is ready: ends with 0 where it is, with 1 otherwise.
+    /// Check whether a service is ready. The exit status is 0 if it is ready, otherwise 1.
     Health(HealthCommand),
-    /// Keys for the file of --keys.
+    /// Create API keys for the --keys file.
     Key(KeyCommand),
-    /// A directory that is to be the store of --store.
+    /// Prepare a directory for --store.
     Store(StoreCommand),
-    /// A workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
+    /// Compute a workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
     Workspace(WorkspaceCommand),
     #[command(flatten)]
     Ask(Question),

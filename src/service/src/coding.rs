@@ -54,7 +54,7 @@ impl Coding {
                 if decoder.into_inner().is_empty() {
                     Ok(decoded)
                 } else {
-                    Err(self.lost("bytes follow its end"))
+                    Err(self.lost("extra bytes follow the end of the compressed data"))
                 }
             }
             Self::Brotli => self.read(&mut brotli::Decompressor::new(encoded, PIECE), limit, hold),

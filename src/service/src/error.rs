@@ -12,7 +12,7 @@ use crate::access::Role;
 pub(crate) struct Fault {
     /// JSON Pointer into the body; `/query/<name>` for a query parameter.
     pub pointer: String,
-    /// What is wrong, and what would be accepted.
+    /// The error, and the accepted values.
     pub detail: String,
 }
 
@@ -118,7 +118,7 @@ pub(crate) enum Error {
     RangeNotSatisfiable(u64),
     /// Nothing lives at this path.
     NoSuchPath,
-    /// The answer took longer than the time allowed.
+    /// The request exceeded its time limit.
     TimedOut,
     /// The path is right, the method is not.
     MethodNotAllowed,
@@ -128,106 +128,103 @@ pub(crate) enum Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unauthorized => {
-                write!(f, "Send a key that is known here: the header Authorization: Bearer KEY.")
+        let text = match self {
+            Self::Unauthorized => "Send a valid API key in the header Authorization: Bearer KEY.",
+            Self::Forbidden(role) => return write!(f, "This request needs an API key with the role {role}."),
+            Self::OtherOrigin => {
+                "A web page of another origin cannot start or cancel jobs or send POST requests. The operator can \
+                 allow the origin with --cors-origin."
             }
-            Self::Forbidden(role) => write!(f, "This takes a key whose role is {role}."),
-            Self::OtherOrigin => write!(
-                f,
-                "A page of another origin may not start work here. The operator of the service can allow its origin: \
-                 --cors-origin."
-            ),
-            Self::HostNotAllowed(host) => write!(
-                f,
-                "The service does not answer to the name {host:?} in Host. The operator of the service can allow it: \
-                 --allowed-host {host}."
-            ),
-            Self::BadHead(reason) => write!(f, "{reason}"),
-            Self::UriTooLong(limit) => write!(f, "The address has more than the {limit} bytes allowed here."),
-            Self::HeadersTooLarge => {
-                write!(f, "The request's head has more than the 32 KiB or the 100 headers allowed here.")
+            Self::HostNotAllowed(host) => {
+                return write!(
+                    f,
+                    "The service rejects the host name {host:?}. The operator can allow it: --allowed-host {host}."
+                );
             }
+            Self::BadHead(reason) => reason,
+            Self::UriTooLong(limit) => {
+                return write!(f, "The request URI is longer than the limit of {limit} bytes.");
+            }
+            Self::HeadersTooLarge => "The request head exceeds the limit of 32 KiB or 100 headers.",
             Self::TooManyRequests(seconds) => {
-                write!(f, "More requests came than this client may send; the next in {seconds} s.")
+                return write!(f, "The client exceeded its request rate; retry in {seconds} s.");
             }
-            Self::Overloaded => write!(f, "As many requests are worked on as may be; try again in a second."),
-            Self::Syntax(reason) => write!(f, "The body is not JSON: {reason}."),
+            Self::Overloaded => "The server is at its request limit (total or per client); retry in 1 s.",
+            Self::Syntax(reason) => return write!(f, "The body is not JSON: {reason}."),
             Self::Fields(faults) => match faults.as_slice() {
-                [] => write!(f, "A field cannot be used."),
-                [only] => write!(f, "{only}."),
-                [first, rest @ ..] => write!(f, "{first}; `errors` lists {} more.", rest.len()),
+                [] => "A field is invalid.",
+                [only] => return write!(f, "{only}."),
+                [first, rest @ ..] => return write!(f, "{first}; `errors` lists {} more.", rest.len()),
             },
-            Self::NotJson(None) => {
-                write!(f, "Send the body with Content-Type: application/json, as curl --json does.")
-            }
+            Self::NotJson(None) => "Send the body with Content-Type: application/json, as curl --json does.",
             Self::NotJson(Some(found)) => {
-                write!(
+                return write!(
                     f,
                     "Send the body with Content-Type: application/json, as curl --json does, not {found}."
-                )
+                );
             }
             Self::UnknownCoding(found) => {
-                write!(
+                return write!(
                     f,
-                    "The body cannot be decoded from {found}; send it plain, or with Content-Encoding: gzip or br."
-                )
+                    "The service cannot decode {found}; send the body uncompressed, or with Content-Encoding: gzip or \
+                     br."
+                );
             }
             Self::BodyTooLarge(limit) => {
-                write!(f, "The body, once decoded, has more than the {limit} bytes allowed here.")
+                return write!(f, "The decoded body is larger than the limit of {limit} bytes.");
             }
-            Self::BodyLost(reason) => write!(f, "The body could not be read: {reason}."),
+            Self::BodyLost(reason) => return write!(f, "The service cannot read the body: {reason}."),
             Self::TooManyRows { rows, limit } => {
-                write!(f, "The batch has {rows} rows; at most {limit} are answered at once.")
+                return write!(f, "The batch has {rows} rows; the limit is {limit}.");
             }
             Self::NoSuchMachine(name) => {
-                write!(f, "No machine is published as {name:?}; GET /machines lists them.")
+                return write!(f, "No machine has the name {name:?}; GET /machines lists the machines.");
             }
             Self::NoSuchWorkspace(id) => {
-                write!(
+                return write!(
                     f,
-                    "No workspace is kept as {id:?} (any more): ask /workspace again, the id will be the same."
-                )
+                    "No stored result has the id {id:?}. If the service evicted it, repeat the request that computed \
+                     it; the id stays the same."
+                );
             }
             Self::NoMesh(id) => {
-                write!(f, "{id:?} is a table of workspaces: each of its members has a mesh and slices.")
+                return write!(
+                    f,
+                    "{id:?} is a table of workspaces. Each workspace in it has its own mesh and slices."
+                );
             }
-            Self::NoSlice(id) => write!(f, "{id:?} is no single workspace: there is nothing to cut."),
-            Self::NoCells(id) => write!(f, "{id:?} is no dexterity map: it has no grid of points."),
+            Self::NoSlice(id) => return write!(f, "{id:?} is not a single workspace, so it has no slices."),
+            Self::NoCells(id) => {
+                return write!(f, "{id:?} is not a dexterity map, so it has no grid.");
+            }
             Self::NoSuchJob(id) => {
-                write!(f, "No job is known as {id:?} (any more); GET /jobs lists them.")
+                return write!(
+                    f,
+                    "No job has the id {id:?}, or the service has removed its record; GET /jobs lists the jobs."
+                );
             }
-            Self::QueueFull(seconds) => write!(f, "The queue is full; try again in {seconds} s."),
-            Self::Stopping => {
-                write!(f, "The service is stopping; what was asked for goes on when it is started again.")
-            }
-            Self::JobsUnavailable => {
-                write!(f, "The records of jobs cannot be written now; the service's log says why.")
-            }
-            Self::DiskFailing => write!(f, "The disk takes no results now; the service's log says why."),
-            Self::Cancelled => write!(f, "The computation was cancelled."),
-            Self::JobCancelled => {
-                write!(f, "The job was cancelled while it was waited for; asked again, it starts anew.")
-            }
-            Self::JobTooLong => write!(f, "The computation took longer than the time allowed for a job."),
-            Self::OtherVersion => {
-                write!(f, "Another version of the service was asked this; ask again, the id will be another.")
-            }
-            Self::NoRoom => write!(f, "The result is larger than all the room there is for results."),
-            Self::NoEncoding => write!(f, "Accept-Encoding leaves none of br, gzip, zstd and identity."),
+            Self::QueueFull(seconds) => return write!(f, "The job queue is full; retry in {seconds} s."),
+            Self::Stopping => "The service is stopping. Its jobs continue after the next start.",
+            Self::JobsUnavailable => "The service cannot access its job records. Its log states the reason.",
+            Self::DiskFailing => "The service cannot store results. Its log states the reason.",
+            Self::Cancelled => "The computation was cancelled.",
+            Self::JobCancelled => "The job was cancelled during the wait. Repeat the request to restart it.",
+            Self::JobTooLong => "The job exceeded its time limit.",
+            Self::OtherVersion => "Another version created the job. Repeat the request for a new id.",
+            Self::NoRoom => "The result is larger than the whole storage for results.",
+            Self::NoEncoding => "Accept-Encoding allows none of br, gzip, zstd and identity.",
             Self::NotAcceptable(media) => {
-                write!(f, "Accept names nothing that can be had here: {}.", media.join(", "))
+                return write!(f, "Accept allows none of the available media types: {}.", media.join(", "));
             }
             Self::RangeNotSatisfiable(length) => {
-                write!(f, "The range starts beyond the end: there are {length} bytes.")
+                return write!(f, "The range starts beyond the end: the content has {length} bytes.");
             }
-            Self::NoSuchPath => write!(f, "Nothing lives at this path; GET /openapi.json lists what does."),
-            Self::TimedOut => write!(f, "The answer took longer than the time allowed."),
-            Self::MethodNotAllowed => {
-                write!(f, "This path takes other methods; the header Allow names them.")
-            }
-            Self::Internal => write!(f, "A defect of the service; its log holds this x-request-id."),
-        }
+            Self::NoSuchPath => "No operation has this path; GET /openapi.json lists the paths.",
+            Self::TimedOut => "The request exceeded its time limit.",
+            Self::MethodNotAllowed => "The path does not support the method; Allow lists the methods.",
+            Self::Internal => "The service has a defect; its log states this x-request-id.",
+        };
+        f.write_str(text)
     }
 }
 
@@ -246,7 +243,7 @@ impl From<SubmitError> for Error {
 impl From<Unavailable> for Error {
     fn from(unavailable: Unavailable) -> Self {
         // The reason may name paths of this machine: it is for the log.
-        tracing::error!(%unavailable, "jobs");
+        tracing::error!(%unavailable, "cannot read or write job records");
         Self::JobsUnavailable
     }
 }

@@ -88,9 +88,9 @@ impl fmt::Debug for Jobs {
 impl Collector for Jobs {
     fn encode(&self, mut encoder: DescriptorEncoder<'_>) -> fmt::Result {
         let counts = self.0.counts();
-        gauge(&mut encoder, "jobs_queued", "Jobs that wait for their turn", number(counts.queued))?;
-        gauge(&mut encoder, "jobs_running", "Jobs that are being computed", number(counts.running))?;
-        counter(&mut encoder, "jobs_started", "Runs of jobs and of their parts", counts.started)?;
+        gauge(&mut encoder, "jobs_queued", "Jobs in the queue", number(counts.queued))?;
+        gauge(&mut encoder, "jobs_running", "Jobs that are running", number(counts.running))?;
+        counter(&mut encoder, "jobs_started", "Runs of jobs and of their subtasks", counts.started)?;
         counter(&mut encoder, "jobs_succeeded", "Jobs that have a result", counts.succeeded)?;
         counter(&mut encoder, "jobs_failed", "Jobs that failed", counts.failed)?;
         counter(&mut encoder, "jobs_cancelled", "Jobs that were cancelled", counts.cancelled)
@@ -121,10 +121,10 @@ impl Collector for Results {
         counter(&mut encoder, "results_memory_hits", "Results found in memory", stats.memory_hits)?;
         counter(&mut encoder, "results_disk_hits", "Results found on disk", stats.disk_hits)?;
         counter(&mut encoder, "results_misses", "Results not found", stats.misses)?;
-        counter(&mut encoder, "results_evictions", "Results that made room on disk", stats.evictions)?;
+        counter(&mut encoder, "results_evictions", "Results evicted from disk", stats.evictions)?;
         counter(&mut encoder, "results_damaged", "Results found damaged on disk", stats.damaged)?;
-        counter(&mut encoder, "results_read_failures", "Reads that the disk refused", stats.read_failures)?;
-        counter(&mut encoder, "results_write_failures", "Writes that the disk refused", stats.write_failures)
+        counter(&mut encoder, "results_read_failures", "Failed reads from disk", stats.read_failures)?;
+        counter(&mut encoder, "results_write_failures", "Failed writes to disk", stats.write_failures)
     }
 }
 

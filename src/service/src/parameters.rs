@@ -65,9 +65,9 @@ fn check_query(query: &str, known: &[String], method: &Method) -> Result<(), Err
         return Ok(());
     }
     let expected = match known {
-        [] if method == Method::POST => "POST has its fields in the body here".to_owned(),
+        [] if method == Method::POST => "POST takes its fields in the body".to_owned(),
         [] => "this operation has no query parameters".to_owned(),
-        known => format!("this operation has {}", known.join(", ")),
+        known => format!("the parameters of this operation are {}", known.join(", ")),
     };
     let fault = |name| Fault::new(format!("/query/{name}"), format!("`{name}` is unknown: {expected}"));
     Err(Error::Fields(unknown.into_iter().map(fault).collect()))

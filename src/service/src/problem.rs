@@ -19,33 +19,33 @@ const PAUSE: u64 = 5;
 /// Media type of every failure.
 pub(crate) const PROBLEM_JSON: &str = "application/problem+json";
 
-/// A failure, as RFC 9457 writes it.
+/// A problem document (RFC 9457).
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct Problem {
-    /// Always `about:blank`: `code` tells failures apart.
+    /// Always `about:blank`. `code` identifies the problem.
     #[serde(rename = "type")]
     #[schema(example = "about:blank")]
     kind: &'static str,
-    /// The status in words.
+    /// The name of the HTTP status.
     title: String,
     /// The HTTP status.
     status: u16,
-    /// Stable name of the failure, for programs.
+    /// Stable name of the problem, for programs.
     code: &'static str,
-    /// What happened, for people.
+    /// Description of the problem, for people.
     detail: String,
-    /// The fields that cannot be used.
+    /// The invalid fields.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<FieldProblem>,
 }
 
-/// One bad field.
+/// One invalid field.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = FieldProblem)]
 struct FieldProblem {
     /// JSON Pointer into the body, such as `/machine/limits/stroke/0`; `/query/<name>` for a query parameter.
     pointer: String,
-    /// What is wrong, and what would be accepted.
+    /// The error, and the accepted values.
     detail: String,
 }
 

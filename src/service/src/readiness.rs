@@ -37,7 +37,7 @@ impl Readiness {
             failing.push(Part::Store);
         }
         if let Err(unavailable) = self.jobs.reachable().await {
-            tracing::error!(%unavailable, "jobs");
+            tracing::error!(%unavailable, "cannot reach the job records");
             if !self.jobs.is_shared() {
                 return Err(Error::JobsUnavailable);
             }

@@ -31,7 +31,7 @@ impl Refusals {
     fn end(&self, status: u16) {
         let untold = std::mem::take(&mut *self.count()).saturating_sub(LINES);
         if untold > 0 {
-            tracing::info!(status, requests = untold, "more requests were refused in the last minute");
+            tracing::info!(status, requests = untold, "rejected more requests in the last minute");
         }
     }
 

@@ -62,7 +62,7 @@ impl Results {
     /// Whether more can be kept.
     pub(crate) async fn healthy(&self) -> Result<(), Error> {
         self.store.healthy().await.map_err(|reason| {
-            tracing::error!(reason, "results cannot be kept");
+            tracing::error!(reason, "cannot store results");
             Error::DiskFailing
         })
     }

@@ -108,7 +108,7 @@ impl Server {
         }
         drop(self.listeners);
         if tokio::time::timeout(limit, open.closed()).await.is_err() {
-            tracing::info!("connections that are still open are cut");
+            tracing::info!("closing the connections that are still open");
         }
         cut.cancel();
         drop(reloading.await);
@@ -127,7 +127,7 @@ impl Listeners {
                 Ok(accepted) => return Some(accepted),
                 Err(error) if is_of_one_connection(&error) => {}
                 Err(error) => {
-                    tracing::error!(%error, "no connection can be accepted now");
+                    tracing::error!(%error, "cannot accept connections now");
                     stopping.run_until_cancelled(tokio::time::sleep(BREATH)).await?;
                 }
             }

@@ -12,7 +12,7 @@ pub(crate) async fn told_to_stop() {
         () = interrupted => {}
         () = terminated() => {}
     }
-    tracing::info!("stopping: requests under way are finished, jobs go back to the queue");
+    tracing::info!("stopping: the service finishes its requests and returns its jobs to the queue");
 }
 
 #[cfg(unix)]
@@ -39,7 +39,7 @@ pub(crate) fn outlive_hangups(has_keys: bool) -> impl Future<Output = ()> {
         if let Ok(mut hangups) = hangups {
             while hangups.recv().await.is_some() {
                 if !has_keys {
-                    tracing::info!("SIGHUP: without --keys there is nothing to read again");
+                    tracing::info!("SIGHUP: without --keys there is nothing to reload");
                 }
             }
         }

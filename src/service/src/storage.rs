@@ -49,13 +49,13 @@ impl fmt::Display for StorageError {
             Self::Results(error) => write!(f, "data: {error}"),
             Self::Store(error) => write!(f, "store: {error}"),
             Self::Jobs(error @ embedded::OpenError::Threads(_)) => write!(f, "job_threads: {error}"),
-            Self::Jobs(error) => write!(f, "data: jobs cannot be kept: {error}"),
-            Self::Lost => write!(f, "jobs cannot be kept: opening them failed"),
-            Self::NoStore => write!(f, "store: with a broker a store is needed that all processes reach"),
-            Self::NoBroker => write!(f, "broker: jobs come from a broker; none is named"),
+            Self::Jobs(error) => write!(f, "data: cannot store jobs: {error}"),
+            Self::Lost => write!(f, "cannot store jobs: opening the records failed"),
+            Self::NoStore => write!(f, "store: a broker needs a result store that all processes share"),
+            Self::NoBroker => write!(f, "broker: a worker needs a broker"),
             Self::Broker(error) => write!(f, "{}: {error}", shared::key(error)),
             Self::BrokerMissing(waited) => {
-                write!(f, "broker: it did not answer for {} s", waited.as_secs())
+                write!(f, "broker: no answer for {} s", waited.as_secs())
             }
         }
     }
@@ -88,7 +88,7 @@ impl Storage {
         let store = shared::open_store(&config.store, config.cache_bytes).await?;
         if config.memory_only {
             if let Some(directory) = &config.data {
-                tracing::warn!(data = %directory.display(), "not used: memory_only is set");
+                tracing::warn!(data = %directory.display(), "the data directory is not used: memory_only is set");
             }
             return Self::open_in(config, None, store).await;
         }
@@ -96,12 +96,16 @@ impl Storage {
             return Self::open_in(config, Some(directory), store).await;
         }
         let Some(directory) = dirs::data_dir().map(|data| data.join("verne")) else {
-            tracing::warn!("there is no directory for data: jobs and results end with this process");
+            tracing::warn!("found no data directory: jobs and results are lost when this process ends");
             return Self::open_in(config, None, store).await;
         };
         match Self::open_in(config, Some(&directory), store.clone()).await {
             Err(error) => {
-                tracing::warn!(%error, "jobs and results end with this process; --data names another directory");
+                tracing::warn!(
+                    %error,
+                    "cannot use the default data directory: jobs and results are lost when this process ends; set \
+                     --data to another directory"
+                );
                 Self::open_in(config, None, store).await
             }
             opened => opened,
@@ -129,10 +133,16 @@ impl Storage {
         let tasks = Tasks::new(results.clone(), computations.clone(), Handle::current());
         let jobs = open_jobs(config, below("jobs"), tasks).await?;
         if let Some(damaged) = jobs.set_aside() {
-            tracing::error!(path = %damaged.display(), "the records of jobs were damaged: set aside, begun anew");
+            tracing::error!(
+                path = %damaged.display(),
+                "the job records were damaged: moved them aside and started new ones"
+            );
         }
         if let Some(directory) = directory {
-            tracing::info!("jobs, and results unless they have a store, are kept in {}", directory.display());
+            tracing::info!(
+                "jobs, and results without a store of their own, are stored in {}",
+                directory.display()
+            );
         }
         let jobs = Arc::new(jobs);
         let runs = Some(Arc::clone(&jobs));

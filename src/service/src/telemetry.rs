@@ -19,10 +19,10 @@ use tracing_subscriber::{EnvFilter, Layer};
 /// How the log is written, and where traces go.
 #[derive(Clone, Debug, Default, Args)]
 pub struct TelemetryConfig {
-    /// How the log is written to standard error; `RUST_LOG` says how much of it.
+    /// Format of the log on standard error. `RUST_LOG` sets its level.
     #[arg(long, env = "VERNE_LOG_FORMAT", value_enum, default_value_t)]
     pub log_format: LogFormat,
-    /// Collector of traces, by OTLP over HTTP: <http://HOST:4318>. By default there are none.
+    /// Trace collector that accepts OTLP over HTTP: <http://HOST:4318>. By default the process sends no traces.
     #[arg(long, env = "VERNE_OTLP", value_name = "URL", hide_env_values = true)]
     pub otlp: Option<String>,
 }
@@ -30,10 +30,10 @@ pub struct TelemetryConfig {
 /// A form of the log.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum LogFormat {
-    /// Lines for people.
+    /// Lines of text.
     #[default]
     Text,
-    /// An object a line, for programs.
+    /// One JSON object per line.
     Json,
 }
 
@@ -71,7 +71,7 @@ fn exporting_to(url: &str) -> Result<SdkTracerProvider, String> {
 impl Drop for Telemetry {
     fn drop(&mut self) {
         if let Some(Err(error)) = self.0.take().map(|provider| provider.shutdown()) {
-            tracing::warn!(%error, "the last traces are lost");
+            tracing::warn!(%error, "cannot send the last traces");
         }
     }
 }

@@ -28,9 +28,8 @@ static FILES: LazyLock<HashMap<Cow<'static, str>, Fixed>> = LazyLock::new(|| {
     Files::iter().filter_map(|path| Some((path.clone(), fixed(Files::get(&path)?)))).collect()
 });
 
-const NO_VIEWER: &str = "This verne was built without its viewer, which needs Node.js 20.19 or later with npm: install them \
-                         and run `touch src/service/build.rs && cargo build --release`; the API is complete, see \
-                         /docs.\n";
+const NO_VIEWER: &str = "This binary was built without the viewer. The viewer needs Node.js 20.19 or later with npm: \
+    install them and run `touch src/service/build.rs && cargo build --release`. The API is complete; see /docs.\n";
 
 /// The page and the files it loads.
 pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {

@@ -51,7 +51,7 @@ pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
     let (threads, slots) = config.threads_and_slots();
     let worker = Worker::start(&jobs, Threads { threads, slots }, tasks)
         .map_err(|error| StartError::Storage(StorageError::Broker(error)))?;
-    tracing::info!(threads, slots, "jobs are taken");
+    tracing::info!(threads, slots, "accepting jobs");
 
     let stopping = CancellationToken::new();
     let mut metrics = Metrics::of(Arc::clone(&jobs) as Arc<dyn Backend>, results.store(), &computations);
@@ -63,7 +63,7 @@ pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
         Some(address) => {
             let listener = TcpListener::bind(address).await;
             let listener = listener.map_err(|error| StartError::Listen(Listen::Address(address), error))?;
-            tracing::info!("probes and metrics on http://{address}");
+            tracing::info!("serving probes and metrics on http://{address}");
             warn_of_probes(address.ip());
             Some(serve(listener, &Terms::of_probes(), probed, stopping.clone(), limit)?)
         }

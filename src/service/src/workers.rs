@@ -15,7 +15,7 @@ pub(crate) fn spare_a_core() {
     let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let threads = rayon::ThreadPoolBuilder::new().num_threads(cores.saturating_sub(1).max(cores.min(2)));
     if let Err(error) = threads.build_global() {
-        tracing::warn!(%error, "the worker threads are as many as cores");
+        tracing::warn!(%error, "cannot limit the worker threads; there is one per core");
     }
 }
 

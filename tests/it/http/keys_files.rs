@@ -32,7 +32,7 @@ async fn what_is_wrong_is_named() {
         (format!("{second}rate_burst = 5"), "key 1 (cut): rate_burst: needs a rate"),
         (format!("{second}rate = 5\nrate_burst = 0"), "key 1 (cut): rate_burst: "),
         (format!("{second}extra = 1"), "key 1 (cut): extra: unknown field `extra`"),
-        (format!("{second}\n{second}"), "key 2 (cut): the hash of an earlier entry"),
+        (format!("{second}\n{second}"), "key 2 (cut): its hash is that of an earlier entry"),
     ] {
         let refusal = refusal(&text).await;
         assert!(refusal.starts_with(place), "{text}\n{refusal}");

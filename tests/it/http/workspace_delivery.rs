@@ -155,7 +155,7 @@ async fn an_unknown_id_says_how_to_get_it() {
     for path in ["", "/mesh", "/mesh?format=stl", "/slice?z=3"] {
         let reply = get(&format!("/workspace/{id}{path}")).await;
         reply.assert_problem(404, "workspace_not_found");
-        assert!(reply.json["detail"].as_str().unwrap().contains("ask /workspace again"));
+        assert!(reply.json["detail"].as_str().unwrap().contains("repeat the request"));
     }
     get("/workspace/contains").await.assert_problem(405, "method_not_allowed");
     let accept = get_from(&service().await, &format!("/workspace/{id}"), &[(ACCEPT, "image/png")]).await;

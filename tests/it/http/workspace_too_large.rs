@@ -22,7 +22,7 @@ async fn what_would_be_too_large_is_refused_before_it_is_computed() {
             detail.starts_with("would make about 3") || detail.starts_with("would make about 4"),
             "{detail}"
         );
-        assert!(detail.ends_with("000 triangles; at most 3000 are made"), "{detail}");
+        assert!(detail.ends_with("000 triangles; the limit is 3000"), "{detail}");
     }
     get_from(&service, "/workspace?tolerance=0.1", &[]).await.assert_bad_field("/query/tolerance");
     assert_eq!(get_from(&service, "/jobs", &[]).await.json["jobs"], json!([]));
@@ -42,5 +42,5 @@ async fn millions_are_refused_by_default() {
     let millions: f64 = detail.split(' ').nth(3).unwrap().parse().unwrap();
     // The mesh has 6.2 million.
     assert!((5.0..8.0).contains(&millions), "{detail}");
-    assert!(detail.ends_with(" million triangles; at most 5 million are made"), "{detail}");
+    assert!(detail.ends_with(" million triangles; the limit is 5 million"), "{detail}");
 }

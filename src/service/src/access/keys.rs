@@ -22,7 +22,7 @@ impl Keys {
     pub(super) async fn open(path: PathBuf, rate: Option<Rate>) -> Result<Arc<Self>, BadKeys> {
         let table = watch::Sender::new(read(path.clone(), rate).await?);
         let keys = Arc::new(Self { path, rate, table });
-        tracing::info!(keys = keys.table.borrow().len(), "keys are asked for");
+        tracing::info!(keys = keys.table.borrow().len(), "requests need an API key");
         #[cfg(unix)]
         drop(tokio::spawn(reread(Arc::downgrade(&keys))));
         Ok(keys)
@@ -74,8 +74,10 @@ async fn reread(keys: Weak<Keys>) {
     while hangups.recv().await.is_some() {
         let Some(keys) = keys.upgrade() else { return };
         match keys.reload().await {
-            Ok(()) => tracing::info!(keys = keys.table.borrow().len(), "keys were read again"),
-            Err(error) => tracing::error!(%error, "keys stay as they were"),
+            Ok(()) => tracing::info!(keys = keys.table.borrow().len(), "reloaded the API keys"),
+            Err(error) => {
+                tracing::error!(%error, "cannot reload the API keys; the previous ones stay in use");
+            }
         }
     }
 }

@@ -55,7 +55,7 @@ impl std::error::Error for BadKeys {}
 impl BadKeys {
     /// The thread that read it was lost.
     pub(super) fn lost(path: &Path) -> Self {
-        Self { path: path.to_owned(), place: None, reason: "reading it failed".to_owned() }
+        Self { path: path.to_owned(), place: None, reason: "the read failed".to_owned() }
     }
 }
 
@@ -105,12 +105,12 @@ pub(super) fn read(path: &Path, default: Option<Rate>) -> Result<Table, BadKeys>
             bad(Some(place), error.inner().message().to_owned())
         })?;
         if entry.rate.is_none() && entry.rate_burst.is_some() {
-            return Err(bad(Some(format!("{place}: rate_burst")), "needs a rate beside it".to_owned()));
+            return Err(bad(Some(format!("{place}: rate_burst")), "needs a rate".to_owned()));
         }
         let bucket = entry.rate(default).map(Bucket::new);
         let holder = Arc::new(Holder { name: entry.name, role: entry.role, bucket });
         if keys.insert(entry.hash, holder).is_some() {
-            return Err(bad(Some(place), "the hash of an earlier entry".to_owned()));
+            return Err(bad(Some(place), "its hash is that of an earlier entry".to_owned()));
         }
     }
     if keys.is_empty() { Err(bad(None, "has no entry [[key]]".to_owned())) } else { Ok(keys) }
@@ -132,7 +132,7 @@ pub(crate) fn is_name(name: &str) -> bool {
 
 fn name<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
     let name = String::deserialize(deserializer)?;
-    let wanted = format!("must be 1 to {NAME_LENGTH} letters, digits or .-_, a letter first");
+    let wanted = format!("must be 1 to {NAME_LENGTH} letters, digits or .-_, beginning with a letter");
     if is_name(&name) { Ok(name) } else { Err(D::Error::custom(wanted)) }
 }
 

@@ -7,11 +7,11 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Role {
-    /// Questions that are answered at once, machines, kept results, the key's own jobs, metrics.
+    /// May send requests that need no job, and read machines, stored results, its own jobs and metrics.
     Read,
-    /// What begins jobs, and the end of the key's own.
+    /// May also start jobs and cancel its own jobs.
     Compute,
-    /// The jobs of all.
+    /// May also read and cancel the jobs of all clients.
     Admin,
 }
 

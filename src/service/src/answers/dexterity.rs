@@ -58,7 +58,7 @@ pub(crate) fn merge_dexterity(
 pub(super) fn too_many_points(points: impl std::fmt::Display) -> Error {
     Error::Fields(vec![Fault::new(
         "/cell",
-        format!("makes a grid of {points} points; at most {POINTS} are computed"),
+        format!("makes a grid of {points} points; the limit is {POINTS}"),
     )])
 }
 

@@ -75,7 +75,7 @@ impl FamilyQuestion {
         check_tolerance(asked.tolerance, resolved.as_deref().ok(), &mut faults);
         let count = tool_length.len().saturating_mul(phi1.len()).saturating_mul(phi2.len());
         if count > MEMBERS {
-            faults.add("", format!("makes {count} workspaces; at most {MEMBERS} are computed at once"));
+            faults.add("", format!("makes {count} workspaces; the limit is {MEMBERS}"));
         }
         faults.into_result()?;
         let published = resolved?;

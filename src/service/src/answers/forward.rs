@@ -60,11 +60,11 @@ fn checked_table(request: &FkRequest) -> Result<Option<Stand>, Error> {
         (Some(theta1), Some(theta2)) => Some(Stand::given([theta1, theta2])),
         (None, None) => None,
         (Some(_), None) => {
-            faults.add("/joints/theta2", "is required beside theta1");
+            faults.add("/joints/theta2", "is required with theta1");
             None
         }
         (None, Some(_)) => {
-            faults.add("/joints/theta1", "is required beside theta2");
+            faults.add("/joints/theta1", "is required with theta2");
             None
         }
     };

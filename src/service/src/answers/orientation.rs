@@ -44,7 +44,7 @@ pub(super) fn orientations(pose: &TargetPose, near: Option<&Near>, faults: &mut 
         }
         (None, phi2, Some(axis)) => along_axis(axis.0, phi2, near, faults),
         (Some(_), _, Some(_)) => {
-            faults.add("/pose/axis", "stands in place of phi1 and phi2: give it or them");
+            faults.add("/pose/axis", "replaces phi1 and phi2: give either axis, or phi1 and phi2");
             Orientations::default()
         }
     }
@@ -58,8 +58,10 @@ fn along_axis(axis: [f64; 3], phi2: Option<f64>, near: Option<&Near>, faults: &m
         }
         (Some(Preimages::Two(both)), None) => Orientations { each: both.into(), free: false },
         (Some(Preimages::Two(_)), Some(_)) => {
-            faults
-                .add("/pose/phi2", "is settled by this axis: phi2 goes with axis only along the table's own");
+            faults.add(
+                "/pose/phi2",
+                "is determined by this axis: give phi2 with axis only for the table's own axis",
+            );
             Orientations::default()
         }
         (Some(Preimages::Free { phi1 }), Some(phi2)) => Orientations::one(phi1, from_degrees(phi2)),
@@ -75,6 +77,6 @@ pub(super) fn no_orientation(pose: &TargetPose, faults: &mut Faults) {
         ("/pose/axis", pose.axis.is_some()),
     ];
     for (pointer, _) in given.into_iter().filter(|(_, given)| *given) {
-        faults.add(pointer, "belongs to frame part: in platform and tool the orientation follows");
+        faults.add(pointer, "is allowed only in frame part: in other frames the orientation follows");
     }
 }

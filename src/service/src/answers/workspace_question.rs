@@ -81,8 +81,7 @@ pub(super) fn check_triangles(triangles: f64, most: u64) -> Result<(), Error> {
     if triangles <= most {
         return Ok(());
     }
-    let detail =
-        format!("would make about {} triangles; at most {} are made", rounded(triangles), rounded(most));
+    let detail = format!("would make about {} triangles; the limit is {}", rounded(triangles), rounded(most));
     Err(Error::Fields(vec![Fault::new("/tolerance", detail)]))
 }
 
@@ -127,16 +126,16 @@ pub(crate) fn workspace_error(error: WorkspaceError) -> Error {
             Error::Fields(vec![Fault::new(format!("/{field}"), "is out of range")])
         }
         WorkspaceError::TooFine => {
-            Error::Fields(vec![Fault::new("/tolerance", "asks for more vertices than can be numbered")])
+            Error::Fields(vec![Fault::new("/tolerance", "would need more vertices than a mesh can index")])
         }
         WorkspaceError::TooManyTriangles { most } => {
-            let detail = format!("makes more triangles than the {most} that are made at most");
+            let detail = format!("makes more triangles than the limit of {most}");
             Error::Fields(vec![Fault::new("/tolerance", detail)])
         }
         WorkspaceError::TooManyNodes { nodes } => too_many_points(nodes),
         WorkspaceError::Open => Error::Fields(vec![Fault::new(
             "/tolerance",
-            "gives a surface that cannot be closed on this machine; a finer or coarser one may do",
+            "gives a surface that the service cannot close for this machine; try a finer or coarser tolerance",
         )]),
         WorkspaceError::Disagreement => Error::Internal,
         WorkspaceError::Cancelled => Error::Cancelled,
@@ -193,7 +192,7 @@ mod tests {
         };
         let question = WorkspaceQuestion::new(&request, &Registry::default()).unwrap();
         let refused = compute_workspace(&question, 1_000, &Unobserved).map(drop).unwrap_err();
-        let detail = "makes more triangles than the 1000 that are made at most";
+        let detail = "makes more triangles than the limit of 1000";
         assert_eq!(refused, Error::Fields(vec![Fault::new("/tolerance", detail)]));
     }
 

@@ -15,7 +15,7 @@ const PATIENCE: Duration = Duration::from_secs(3);
 /// A probe on the command line.
 #[derive(Debug, Args)]
 pub(super) struct HealthCommand {
-    /// What to ask, by http or https; the certificate is not checked. Ready is what answers 200.
+    /// URL to request, with http or https. The certificate is not checked. A service that answers 200 is ready.
     #[arg(long, env = "VERNE_HEALTH_URL", default_value = "http://127.0.0.1:8080/readyz")]
     url: Uri,
 }

@@ -15,13 +15,14 @@ pub(super) struct KeyCommand {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Print the entry of a fresh key, for the file of --keys, and on standard error the key. The entry has only its
-    /// hash: the key is shown this once.
+    /// Create an API key. Standard output gets its entry for the --keys file, standard error gets the key. The entry
+    /// contains only the hash of the key, so verne shows the key only once.
     New {
-        /// Whose it is: 1 to 64 letters, digits or .-_, a letter first. Two keys of one name are one client.
+        /// Name of the client: 1 to 64 letters, digits or .-_, beginning with a letter. Two keys with the same name are
+        /// one client.
         #[arg(long, value_parser = name)]
         name: String,
-        /// What it is good for.
+        /// Role of the key.
         #[arg(long, value_enum)]
         role: Role,
     },
@@ -41,5 +42,9 @@ impl KeyCommand {
 }
 
 fn name(text: &str) -> Result<String, &'static str> {
-    if is_name(text) { Ok(text.to_owned()) } else { Err("1 to 64 letters, digits or .-_, a letter first") }
+    if is_name(text) {
+        Ok(text.to_owned())
+    } else {
+        Err("must be 1 to 64 letters, digits or .-_, letter first")
+    }
 }

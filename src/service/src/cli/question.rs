@@ -19,10 +19,10 @@ use crate::wire::request::{FkRequest, IkRequest};
 /// A question on the command line.
 #[derive(Debug, Subcommand)]
 pub(super) enum Question {
-    /// Forward kinematics: what GET /fk answers.
+    /// Solve the forward kinematics, like GET /fk.
     #[command(name = "fk")]
     Forward(FkQuery),
-    /// Inverse kinematics: what GET /ik answers.
+    /// Solve the inverse kinematics, like GET /ik.
     #[command(name = "ik")]
     Inverse(IkQuery),
     /// Print the OpenAPI document.
@@ -78,14 +78,16 @@ pub(super) fn machine(name: &str) -> Result<MachineRef, String> {
 
 /// An error in the words of the command line.
 pub(super) fn in_flags(error: Error) -> String {
-    let Error::Fields(faults) = point_into_query(error) else { return "a defect of this program".to_owned() };
+    let Error::Fields(faults) = point_into_query(error) else {
+        return "internal error of this program".to_owned();
+    };
     let flags = faults.into_iter().map(|Fault { pointer, detail }| {
         let path = pointer.trim_start_matches("/query/");
         let (flag, inside) = path.split_once('/').unwrap_or((path, ""));
         let separator = if inside.is_empty() { "" } else { " " };
         Fault::new(format!("--{}{separator}{inside}", flag.replace('_', "-")), detail)
     });
-    format!("this cannot be asked{}", listed(Error::Fields(flags.collect())))
+    format!("the request is invalid{}", listed(Error::Fields(flags.collect())))
 }
 
 fn listed(error: Error) -> String {

@@ -5,7 +5,7 @@ use std::io::Write;
 use clap::{Args, Subcommand};
 use verne_store::Store;
 
-/// A store of results that several processes share.
+/// Prepare a directory for --store.
 #[derive(Debug, Args)]
 pub(super) struct StoreCommand {
     #[command(subcommand)]
@@ -14,10 +14,11 @@ pub(super) struct StoreCommand {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Prepare a directory as a store: make it, and the file `verne-store` in it. Needed once, while it is mounted.
-    /// Without that file --store refuses the directory: it is a mount point whose file system is not mounted.
+    /// Prepare a directory as a result store: create the directory and the file `verne-store` in it. Run this once,
+    /// while the file system is mounted. --store rejects a directory without this file, because its file system may not
+    /// be mounted.
     Init {
-        /// The directory: file:///SHARED/DIRECTORY. A store on S3 needs no preparation.
+        /// The directory, as file:///SHARED/DIRECTORY. A store on S3 needs no preparation.
         #[arg(value_name = "URL")]
         url: String,
     },
@@ -28,11 +29,8 @@ impl StoreCommand {
     pub(super) fn run(&self, out: &mut impl Write) -> Result<(), String> {
         let Command::Init { url } = &self.command;
         let made = Store::init_shared(url).map_err(|error| error.to_string())?;
-        let told = if made {
-            "is now a store of results"
-        } else {
-            "is a store of results already; nothing was changed"
-        };
+        let told =
+            if made { "is now a result store" } else { "is already a result store; nothing was changed" };
         writeln!(out, "{url} {told}").map_err(|error| format!("cannot write the answer: {error}"))
     }
 }

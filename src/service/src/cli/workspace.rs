@@ -22,14 +22,15 @@ use crate::wire::workspace_query::WorkspaceQuery;
 pub(super) struct WorkspaceCommand {
     #[command(flatten)]
     query: WorkspaceQuery,
-    /// Write the mesh to this file: .glb, .stl, .ply or .json; with --slice .json, .svg or .dxf. Without it, print
-    /// what HTTP would answer.
+    /// Write the mesh to this file: .glb, .stl, .ply or .json; with --slice: .json, .svg or .dxf. Without it, verne
+    /// prints the JSON that the HTTP service would answer.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Cut the workspace at this height in its frame, mm.
+    /// Height of the slice in the frame of the workspace, mm.
     #[arg(long, value_name = "Z", allow_hyphen_values = true)]
     slice: Option<f64>,
-    /// Lines of constant alpha in the slice: true for every five degrees, or angles in degrees, separated by commas.
+    /// Lines of constant alpha in the slice: true for a line every five degrees, or angles in degrees, separated by
+    /// commas.
     #[arg(long, requires = "slice", default_value = "false", value_parser = str::parse::<Alphas>)]
     #[arg(allow_hyphen_values = true)]
     alpha: Alphas,

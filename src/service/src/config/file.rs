@@ -103,8 +103,8 @@ fn scalar(value: &Value) -> Result<String, String> {
     match value {
         Value::String(text) => Ok(text.clone()),
         Value::Integer(_) | Value::Float(_) | Value::Boolean(_) | Value::Datetime(_) => Ok(value.to_string()),
-        Value::Array(_) => Err("takes one value, no array".to_owned()),
-        Value::Table(_) => Err("takes a value, no table".to_owned()),
+        Value::Array(_) => Err("must be one value, not an array".to_owned()),
+        Value::Table(_) => Err("must be a value, not a table".to_owned()),
     }
 }
 

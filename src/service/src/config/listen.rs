@@ -41,7 +41,7 @@ impl Listen {
             // Another program's: its clients would be answered by us, and ours by it.
             Err(error) if error.kind() == io::ErrorKind::AddrInUse => Err(error),
             Err(error) => {
-                tracing::debug!(%error, "there is no ::1 here");
+                tracing::debug!(%error, "this machine has no ::1");
                 Ok(vec![first])
             }
         }
@@ -53,7 +53,7 @@ impl FromStr for Listen {
 
     fn from_str(text: &str) -> Result<Self, String> {
         if let Some(port) = text.strip_prefix(LOOPBACK).and_then(|rest| rest.strip_prefix(':')) {
-            let port = port.parse().map_err(|_| format!("{port:?} is no port"))?;
+            let port = port.parse().map_err(|_| format!("{port:?} is not a valid port"))?;
             return Ok(Self::Loopback(port));
         }
         text.parse().map(Self::Address).map_err(|_| {

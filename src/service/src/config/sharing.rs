@@ -7,30 +7,30 @@ use clap::{Args, value_parser};
 /// Where jobs wait that any process may take.
 #[derive(Clone, Debug, Default, Args)]
 pub struct BrokerConfig {
-    /// Broker of jobs, NATS with `JetStream`: nats://HOST:4222 or tls://HOST:4222, several of a cluster with commas between.
-    /// `verne serve` puts jobs there, and each `verne worker` takes some to run. Needs --store.
+    /// Job broker, NATS with `JetStream`: nats://HOST:4222 or tls://HOST:4222. Separate the servers of a cluster with
+    /// commas. `verne serve` submits jobs to the broker, and each `verne worker` runs jobs from it. Needs --store.
     #[arg(long, env = "VERNE_BROKER", value_name = "URL", hide_env_values = true)]
     pub broker: Option<String>,
-    /// Begins the names of what is kept at the broker; the same in all processes of one service.
+    /// Prefix of the names of the service's data at the broker. All processes of one service need the same prefix.
     #[arg(long, env = "VERNE_BROKER_NAME", default_value = "verne", value_name = "NAME")]
     pub broker_name: String,
-    /// How many brokers of the cluster keep each record; the same in all processes.
+    /// Number of brokers of the cluster that store each record. All processes of one service need the same number.
     #[arg(long, env = "VERNE_BROKER_REPLICAS", default_value_t = 1, value_name = "BROKERS",
         value_parser = value_parser!(u8).range(1..=5))]
     pub broker_replicas: u8,
-    /// File of credentials for the broker: a JWT and its seed.
+    /// Credentials file for the broker: a JWT and its seed.
     #[arg(long, env = "VERNE_BROKER_CREDENTIALS", value_name = "FILE")]
     pub broker_credentials: Option<PathBuf>,
-    /// File with the seed of an nkey for the broker.
+    /// File with an nkey seed for the broker.
     #[arg(long, env = "VERNE_BROKER_NKEY", value_name = "FILE")]
     pub broker_nkey: Option<PathBuf>,
-    /// Certificates, in PEM, of who may have signed the broker's, in place of the system's.
+    /// PEM file of the certificate authorities for the broker's certificate. It replaces the system's list.
     #[arg(long, env = "VERNE_BROKER_CA", value_name = "FILE")]
     pub broker_ca: Option<PathBuf>,
-    /// Certificate, in PEM, that is shown to the broker; with --broker-key.
+    /// PEM file with the client certificate for the broker. Needs --broker-key.
     #[arg(long, env = "VERNE_BROKER_CERTIFICATE", value_name = "FILE")]
     pub broker_certificate: Option<PathBuf>,
-    /// Key of that certificate, in PEM.
+    /// PEM file with the private key of the client certificate.
     #[arg(long, env = "VERNE_BROKER_KEY", value_name = "FILE")]
     pub broker_key: Option<PathBuf>,
 }
@@ -38,9 +38,9 @@ pub struct BrokerConfig {
 /// Where results are kept that any process may read.
 #[derive(Clone, Debug, Default, Args)]
 pub struct StoreConfig {
-    /// Store of results that all processes reach: s3://BUCKET/PREFIX (endpoint, region and credentials from `AWS_*`) or
-    /// file:///SHARED/DIRECTORY, which `verne store init` has prepared. The service removes no sound result from it, only
-    /// damaged ones and what it writes as a trial.
+    /// Result store that all processes share: s3://BUCKET/PREFIX (endpoint, region and credentials come from the
+    /// `AWS_*` variables) or file:///SHARED/DIRECTORY, which `verne store init` prepares. The service removes no intact
+    /// result from it; it removes only damaged results and its own test objects.
     #[arg(long, env = "VERNE_STORE", value_name = "URL")]
     pub store: Option<String>,
 }

@@ -24,20 +24,20 @@ pub struct WorkerConfig {
     /// Where results go.
     #[command(flatten)]
     pub store: StoreConfig,
-    /// Cores that jobs keep busy; by default all.
+    /// Number of cores for jobs. Default: all.
     #[arg(long, env = "VERNE_JOB_THREADS", value_name = "CORES")]
     pub job_threads: Option<NonZeroUsize>,
-    /// Jobs that run at once, among which the cores are dealt out; by default one a core. A small job may run beside them.
+    /// Number of jobs that run at once and share the cores. Default: one per core. A small job may run in addition.
     #[arg(long, env = "VERNE_SLOTS", value_name = "JOBS")]
     pub slots: Option<NonZeroUsize>,
-    /// Address at which /livez, /readyz and /metrics are answered; by default nowhere.
+    /// Address and port for /livez, /readyz and /metrics. By default the worker does not listen.
     #[arg(long, env = "VERNE_LISTEN")]
     pub listen: Option<SocketAddr>,
-    /// Most bytes of results that are kept in memory.
+    /// Maximum size of the results in memory, in bytes.
     #[arg(long, env = "VERNE_CACHE_BYTES", default_value_t = 256 * 1024 * 1024,
         value_parser = value_parser!(u64).range(1..))]
     pub cache_bytes: u64,
-    /// Seconds that jobs have to come to a stop when the worker is told to; then they go back to the queue.
+    /// Seconds that jobs may take to stop after the worker receives a stop signal. They then return to the queue.
     #[arg(long, env = "VERNE_DRAIN", default_value_t = 10, value_name = "SECONDS",
         value_parser = value_parser!(u64).range(0..=LONGEST))]
     pub drain: u64,

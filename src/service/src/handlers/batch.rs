@@ -17,10 +17,10 @@ fn json(body: Bytes) -> JsonBytes {
     ([(CONTENT_TYPE, "application/json")], body)
 }
 
-/// Forward kinematics of many rows
+/// Forward kinematics of a batch
 ///
-/// The working mode of each row, in order. A row that cannot be read, has no solution or breaks a limit says so in
-/// its own place and spoils no other.
+/// Computes the working solution of each row, in order. If a row is malformed, has no solution or breaks a limit, the
+/// answer states this at the index of the row. The other rows are not affected.
 #[utoipa::path(
     post, path = "/fk/batch", operation_id = "fk_batch", tag = "kinematics",
     request_body(content = FkBatchRequest, description = "The rows of joints."),
@@ -31,10 +31,10 @@ pub(crate) async fn fk_batch(State(state): State<Shared>, batch: Batch) -> Resul
     answer.await.map(json)
 }
 
-/// Inverse kinematics of many rows
+/// Inverse kinematics of a batch
 ///
-/// The working mode of each row, in order. A row that cannot be read, has no solution or breaks a limit says so in
-/// its own place and spoils no other.
+/// Computes the working solution of each row, in order. If a row is malformed, has no solution or breaks a limit, the
+/// answer states this at the index of the row. The other rows are not affected.
 #[utoipa::path(
     post, path = "/ik/batch", operation_id = "ik_batch", tag = "kinematics",
     request_body(content = IkBatchRequest, description = "The rows of poses."),

@@ -11,10 +11,11 @@ use crate::openapi::problems::BatchProblems;
 use crate::state::Shared;
 use crate::wire::contains::{ContainsAnswer, ContainsRequest};
 
-/// Which points belong to a workspace
+/// Test whether points belong to a workspace
 ///
-/// By the inverse solution and its margins, not by a mesh: exact, also next to the boundary. Columns in the order of
-/// the points; one that cannot be read says so in its own place and spoils no other.
+/// Uses the inverse solution and its margins instead of a mesh, so the answer is exact even next to the boundary. The
+/// columns have the order of the points. If a point is malformed, the answer states this at the index of the point. The
+/// other points are not affected.
 #[utoipa::path(
     post, path = "/workspace/contains", operation_id = "workspace_contains", tag = "workspace",
     request_body(content = ContainsRequest, description = "The points."),

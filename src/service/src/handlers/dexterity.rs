@@ -18,17 +18,19 @@ use crate::state::Shared;
 use crate::wire::dexterity::{DexterityBody, DexterityCells, DexteritySummary};
 use crate::wire::job::JobObject;
 
-/// With which inclinations points of the part are reached
+/// Dexterity map: the inclinations that reach each point of the part
 ///
-/// For each point of a grid over the part frame, the exact intervals of phi1 within the asked range that keep every
-/// limit; volumes and watertight meshes of what is reachable (with some inclination) and dexterous (with all of them). A
-/// long job by nature: `Prefer: respond-async` answers its address at once.
+/// Computes the exact intervals of phi1, within the requested range, that keep every limit, for each point of a grid
+/// over the part frame. It also computes volumes and watertight meshes of the reachable points (at least one
+/// inclination) and of the dexterous points (all inclinations). The job takes long; with `Prefer: respond-async` the
+/// service returns its address immediately.
 #[utoipa::path(
     post, path = "/workspace/dexterity", operation_id = "dexterity", tag = "workspace",
-    request_body(content = DexterityBody, description = "Which inclinations of which tool, on how fine a grid."),
+    request_body(content = DexterityBody, description = "The inclinations, the tool and the grid."),
     responses(
-        (status = 200, description = "The map in figures.", body = DexteritySummary),
-        (status = 202, description = "The job that computes it, at the path in Location.", body = JobObject),
+        (status = 200, description = "The summary of the map.", body = DexteritySummary),
+        (status = 202, description = "The job that computes the result. The header Location has its path.", body =
+            JobObject),
         DexterityProblems
     )
 )]
@@ -47,13 +49,14 @@ pub(crate) async fn post_dexterity(
 
 /// The points of a dexterity map
 ///
-/// Each point's intervals of phi1. Strong ETags, conditional requests and byte ranges.
+/// Returns the intervals of phi1 at each point. The service supports strong ETags, conditional requests and byte
+/// ranges.
 #[utoipa::path(
     get, path = "/workspace/{id}/cells", operation_id = "dexterity_cells", tag = "workspace",
-    params(("id" = String, Path, description = "The id that /workspace/dexterity answered.")),
+    params(("id" = String, Path, description = "The id from an answer of /workspace/dexterity.")),
     responses(
         (status = 200, description = "The points.", body = DexterityCells),
-        (status = 202, description = "The points have made room for others: the job that computes them again.",
+        (status = 202, description = "The service evicted the points. This job computes them again.",
             body = JobObject),
         CellsProblems
     )

@@ -39,8 +39,9 @@ const SILENCE: Duration = Duration::from_secs(15);
 
 /// Jobs
 ///
-/// What is being computed and what was, newest first; of a key that is no administrator's, what it has asked for. Finished jobs are forgotten after a while; their results are
-/// kept apart from them.
+/// Lists queued, running and finished jobs, newest first. A key with the role admin sees all jobs; any other key sees
+/// the jobs that it requested. The service removes the records of finished jobs after a while; it stores their results
+/// separately.
 #[utoipa::path(
     get, path = "/jobs", operation_id = "jobs", tag = "jobs", params(JobsQuery),
     responses((status = 200, description = "A page of jobs.", body = JobList), JobsProblems)
@@ -65,10 +66,10 @@ pub(crate) async fn get_jobs(
 
 /// A job
 ///
-/// Where a computation stands. Its id is that of its result.
+/// Returns the state of a job. The job has the same id as its result.
 #[utoipa::path(
     get, path = "/jobs/{id}", operation_id = "job", tag = "jobs",
-    params(("id" = String, Path, description = "The id that /workspace answered.")),
+    params(("id" = String, Path, description = "The id from an answer of /workspace.")),
     responses((status = 200, description = "The job.", body = JobObject), JobProblems)
 )]
 pub(crate) async fn get_job(
@@ -80,19 +81,20 @@ pub(crate) async fn get_job(
     Ok(([LIVE], Json(JobObject::new(&job, &state.base)?)))
 }
 
-/// A job's changes
+/// Events of a job
 ///
-/// Server-sent events: the job as GET /jobs/{id} answers it, now and at each change, progress at most some ten times a
-/// second. The stream ends with the job; its last event is an `end` with the job as it ended. A browser's EventSource
-/// connects again all the same: with the id of that event it is answered 204, which ends it.
+/// Sends server-sent events: the job as GET /jobs/{id} returns it, immediately and after each change. The service sends
+/// progress at most about ten times per second. The stream ends when the job ends; its last event is `end`, with the
+/// final job. A browser's EventSource then reconnects with the id of this event; the service answers 204, and the
+/// browser stops.
 #[utoipa::path(
     get, path = "/jobs/{id}/events", operation_id = "job_events", tag = "jobs",
     params(
-        ("id" = String, Path, description = "The id that /workspace answered."),
-        ("Last-Event-ID" = Option<String>, Header, nullable = false, description = "The `id` of the last event that was received.")
+        ("id" = String, Path, description = "The id from an answer of /workspace."),
+        ("Last-Event-ID" = Option<String>, Header, nullable = false, description = "The `id` of the last received event.")
     ),
     responses(
-        (status = 200, description = "Events whose data is a job.", content((JobEvent = "text/event-stream"))),
+        (status = 200, description = "Events with the job as data.", content((JobEvent = "text/event-stream"))),
         (status = 204, description = "The job has ended, and Last-Event-ID is the id of its last event."),
         JobProblems
     )
@@ -137,12 +139,12 @@ fn event_id(job: &Job) -> String {
 
 /// Cancel a job
 ///
-/// Whoever waits for it; but where several keys have asked for it, only the caller's interest ends: the job goes on for
-/// the others and is no longer among the caller's, unless the key is an administrator's. A running computation stops within a second; one that is finished stays as it is. The answer is
-/// the job as it stands then.
+/// Cancels the job. If other API keys requested it too, only your request is withdrawn: the job continues for them, and
+/// your list of jobs no longer has it. A key with the role admin cancels the job for all. A running computation stops
+/// within a second; a finished job stays unchanged. The answer is the resulting state of the job.
 #[utoipa::path(
     delete, path = "/jobs/{id}", operation_id = "job_cancel", tag = "jobs",
-    params(("id" = String, Path, description = "The id that /workspace answered.")),
+    params(("id" = String, Path, description = "The id from an answer of /workspace.")),
     responses((status = 200, description = "The job.", body = JobObject), JobProblems)
 )]
 pub(crate) async fn delete_job(

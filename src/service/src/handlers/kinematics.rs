@@ -29,11 +29,12 @@ fn write(answer: &Answer) -> Result<Vec<u8>, Error> {
 
 /// Forward kinematics
 ///
-/// Where platform, tool and part are for given slider positions: every assembly mode, the working one, or only what
-/// breaks no limit. theta1 and theta2 add the pose in the table frame.
+/// Computes the poses of the platform and the tool for given slider positions. The answer has every assembly mode, the
+/// working modes, or only the feasible ones. theta1 and theta2 add the pose in the part frame.
 #[utoipa::path(
     get, path = "/fk", operation_id = "fk", tag = "kinematics", params(FkQuery),
-    responses((status = 200, description = "The solutions, or why there are none.", body = Answer), QueryProblems)
+    responses((status = 200, description = "The solutions, or the reason why there is none.", body = Answer),
+        QueryProblems)
 )]
 pub(crate) async fn get_fk(
     State(state): State<Shared>,
@@ -44,13 +45,14 @@ pub(crate) async fn get_fk(
     Ok(([JSON, CACHEABLE], text))
 }
 
-/// Forward kinematics, with a machine of one's own
+/// Forward kinematics with a custom machine
 ///
-/// The question of GET /fk as JSON; `machine` may be a whole machine.
+/// Takes the parameters of GET /fk as JSON. `machine` may be a complete machine object.
 #[utoipa::path(
     post, path = "/fk", operation_id = "fk_post", tag = "kinematics",
-    request_body(content = FkRequest, description = "The joints, and what is wanted."),
-    responses((status = 200, description = "The solutions, or why there are none.", body = Answer), BodyProblems)
+    request_body(content = FkRequest, description = "The joints and the options."),
+    responses((status = 200, description = "The solutions, or the reason why there is none.", body = Answer),
+        BodyProblems)
 )]
 pub(crate) async fn post_fk(
     State(state): State<Shared>,
@@ -62,11 +64,12 @@ pub(crate) async fn post_fk(
 
 /// Inverse kinematics
 ///
-/// Which joints bring platform, tool or part to a pose: every solution (up to sixteen for the platform, up to 24 for
-/// the part), the working one, or only what breaks no limit.
+/// Computes the joints for a pose of the platform or the tool. The answer has every solution (up to 16 for the
+/// platform, up to 24 for the part), the working ones, or only the feasible ones.
 #[utoipa::path(
     get, path = "/ik", operation_id = "ik", tag = "kinematics", params(IkQuery),
-    responses((status = 200, description = "The solutions, or why there are none.", body = Answer), QueryProblems)
+    responses((status = 200, description = "The solutions, or the reason why there is none.", body = Answer),
+        QueryProblems)
 )]
 pub(crate) async fn get_ik(
     State(state): State<Shared>,
@@ -77,13 +80,14 @@ pub(crate) async fn get_ik(
     Ok(([JSON, CACHEABLE], text))
 }
 
-/// Inverse kinematics, with a machine of one's own
+/// Inverse kinematics with a custom machine
 ///
-/// The question of GET /ik as JSON; `machine` may be a whole machine.
+/// Takes the parameters of GET /ik as JSON. `machine` may be a complete machine object.
 #[utoipa::path(
     post, path = "/ik", operation_id = "ik_post", tag = "kinematics",
-    request_body(content = IkRequest, description = "The pose, and what is wanted."),
-    responses((status = 200, description = "The solutions, or why there are none.", body = Answer), BodyProblems)
+    request_body(content = IkRequest, description = "The pose and the options."),
+    responses((status = 200, description = "The solutions, or the reason why there is none.", body = Answer),
+        BodyProblems)
 )]
 pub(crate) async fn post_ik(
     State(state): State<Shared>,

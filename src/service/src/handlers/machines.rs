@@ -31,10 +31,10 @@ pub(crate) fn show(machines: &Registry, name: &str) -> Result<MachineAnswer, Err
 
 /// Published machines
 ///
-/// The names that requests may use, with where each machine's numbers come from.
+/// Lists the machine names that requests may use, with the source of the numbers of each machine.
 #[utoipa::path(
     get, path = "/machines", operation_id = "machines", tag = "machines",
-    responses((status = 200, description = "The machines, by name.", body = MachineList), ServiceProblems)
+    responses((status = 200, description = "The machines, sorted by name.", body = MachineList), ServiceProblems)
 )]
 pub(crate) async fn get_machines(State(state): State<Shared>) -> Json<MachineList> {
     Json(list(&state.machines))
@@ -42,10 +42,10 @@ pub(crate) async fn get_machines(State(state): State<Shared>) -> Json<MachineLis
 
 /// One machine
 ///
-/// All numbers of a published machine; `definition` is what a request or `verne --machine FILE` takes.
+/// Returns all numbers of a published machine. Requests and `verne --machine FILE` accept `definition`.
 #[utoipa::path(
     get, path = "/machines/{name}", operation_id = "machine", tag = "machines",
-    params(("name" = String, Path, description = "Its name.")),
+    params(("name" = String, Path, description = "Name of the machine.")),
     responses((status = 200, description = "The machine.", body = MachineAnswer), MachineProblems)
 )]
 pub(crate) async fn get_machine(
@@ -58,8 +58,8 @@ pub(crate) async fn get_machine(
 
 /// JSON Schema of the machine object
 ///
-/// For editors and for checking a machine before it is sent. That the numbers make a machine, the service alone can
-/// tell.
+/// Editors can use the schema, and clients can validate a machine before they send it. Only the service can check
+/// whether the numbers define a valid machine.
 #[utoipa::path(
     get, path = "/machines/schema", operation_id = "machine_schema", tag = "machines",
     responses((status = 200, description = "The schema.", body = Object), ServiceProblems)

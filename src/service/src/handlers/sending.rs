@@ -35,7 +35,7 @@ fn surface(question: &Question, set: Option<SetName>) -> Result<(&'static str, D
     match (question, set) {
         (Question::Workspace(workspace), None) => Ok((MESH, Described::workspace(workspace))),
         (Question::Workspace(_), Some(_)) => {
-            let detail = "is for dexterity maps: a workspace has one mesh";
+            let detail = "is allowed only for dexterity maps: a workspace has one mesh";
             Err(Error::Fields(vec![Fault::new("/query/set", detail)]))
         }
         (Question::Family(_) | Question::Piece(_), _) => Err(Error::NoMesh(question.id().to_string())),

@@ -32,7 +32,7 @@ const SERVER: &str = "\"url\": \"/\"";
 
 /// This document
 ///
-/// OpenAPI 3.1, generated from the handlers. `/docs` shows it to people.
+/// OpenAPI 3.1, generated from the handlers. `/docs` displays it in a browser.
 #[utoipa::path(
     get, path = "/openapi.json", operation_id = "openapi", tag = "service",
     responses((status = 200, description = "The document.", body = Object), ServiceProblems)
@@ -43,10 +43,10 @@ pub(crate) async fn get_openapi(State(state): State<Shared>, headers: HeaderMap)
 
 /// Liveness
 ///
-/// The process answers.
+/// The process is running.
 #[utoipa::path(
     get, path = "/livez", operation_id = "livez", tag = "service",
-    responses((status = 200, description = "It lives.", body = Health), ServiceProblems)
+    responses((status = 200, description = "The process is running.", body = Health), ServiceProblems)
 )]
 pub(crate) async fn get_livez() -> Json<Health> {
     Json(Health { status: Status::Ok, failing: Vec::new() })
@@ -54,12 +54,12 @@ pub(crate) async fn get_livez() -> Json<Health> {
 
 /// Readiness
 ///
-/// Questions are answered, jobs are taken and results are kept. Not while the service is stopping, nor while its disk
-/// takes nothing. A broker or a store that many processes share and that does not answer is named; the questions that need
-/// neither are answered all the same.
+/// The service is ready if it answers requests, accepts jobs and stores results. It is not ready while it is stopping
+/// or while its disk rejects writes. If a shared broker or result store does not respond, the answer names it and the
+/// status stays 200; requests that need neither still work.
 #[utoipa::path(
     get, path = "/readyz", operation_id = "readyz", tag = "service",
-    responses((status = 200, description = "It is ready.", body = Health), ReadyProblems)
+    responses((status = 200, description = "The service is ready.", body = Health), ReadyProblems)
 )]
 pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Health>, Error> {
     state.readiness.told().await
@@ -67,7 +67,7 @@ pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Healt
 
 /// Metrics
 ///
-/// In the text format of Prometheus: requests, what is taken of every bound, jobs and results.
+/// Returns metrics in the text format of Prometheus: requests, use of every limit, jobs and results.
 #[utoipa::path(
     get, path = "/metrics", operation_id = "metrics", tag = "service",
     responses((status = 200, description = "The metrics.", content((Text = "application/openmetrics-text"))),

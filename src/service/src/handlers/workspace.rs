@@ -25,19 +25,20 @@ const FOR_A_WHILE: &str = "public, max-age=300";
 
 /// A workspace
 ///
-/// Volume, area and bounds of the positions that the working mode reaches within every limit; or, by `format` or
-/// Accept (`model/gltf-binary`, `model/stl`, `model/ply`), its surface as a watertight mesh, coloured by what limits
-/// it. `format=json` is the mesh as JSON, Accept: application/json the summary. What takes longer than the wait is
-/// answered with the job that computes it; the header `Prefer: wait=N` sets the wait, `Prefer: respond-async` skips it
-/// (RFC 7240).
+/// Computes volume, area and bounds of the positions that the working mode reaches within every limit. `format` or
+/// Accept (`model/gltf-binary`, `model/stl`, `model/ply`) selects the surface instead, as a watertight mesh coloured by
+/// the active limit. `format=json` selects the mesh as JSON; Accept: application/json selects the summary. If the
+/// computation takes longer than the wait, the answer is 202 with the job. The header `Prefer: wait=N` sets the wait;
+/// `Prefer: respond-async` skips it (RFC 7240).
 #[utoipa::path(
     get, path = "/workspace", operation_id = "workspace", tag = "workspace", params(WorkspaceQuery),
     responses(
-        (status = 200, description = "The summary, or the mesh.", content(
+        (status = 200, description = "The summary or the mesh.", content(
             (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
             (Binary = "model/ply"),
         )),
-        (status = 202, description = "The job that computes it, at the path in Location.", body = JobObject),
+        (status = 202, description = "The job that computes the result. The header Location has its path.", body =
+            JobObject),
         WorkspaceQueryProblems
     )
 )]
@@ -56,20 +57,21 @@ pub(crate) async fn get_workspace(
     respond(&state, obtained, fresh, prefer, &conditions)
 }
 
-/// A workspace, or a family of them, of a machine of one's own
+/// A workspace or a family of workspaces, with a custom machine
 ///
-/// The question of GET /workspace as JSON; `machine` may be a whole machine. The result is kept under its id, for GET.
-/// Where `tool_length`, `phi1` or `phi2` is a list or a range in steps, the answer is the table of all combinations, and
-/// each of them is kept under an id of its own.
+/// Takes the parameters of GET /workspace as JSON. `machine` may be a complete machine object. The service stores the
+/// result under its id, and GET returns it. If `tool_length`, `phi1` or `phi2` is a list or a range in steps, the
+/// answer is a table of all combinations, and each combination has an id of its own.
 #[utoipa::path(
     post, path = "/workspace", operation_id = "workspace_post", tag = "workspace", params(MeshQuery),
-    request_body(content = WorkspaceBody, description = "Which workspace or workspaces, how exactly."),
+    request_body(content = WorkspaceBody, description = "The workspace or workspaces, and the tolerance."),
     responses(
-        (status = 200, description = "The summary, the table, or the mesh.", content(
+        (status = 200, description = "The summary, the table or the mesh.", content(
             (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
             (Binary = "model/ply"),
         )),
-        (status = 202, description = "The job that computes it, at the path in Location.", body = JobObject),
+        (status = 202, description = "The job that computes the result. The header Location has its path.", body =
+            JobObject),
         WorkspaceBodyProblems
     )
 )]

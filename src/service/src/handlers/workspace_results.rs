@@ -26,16 +26,16 @@ use crate::workers::on_workers_while_waited_for;
 /// The id in a path.
 pub(super) type Id = Result<Path<String>, PathRejection>;
 
-/// A computed workspace in figures
+/// Summary of a computed workspace
 ///
-/// What /workspace answered under this id. Results leave when room is needed: asked again, /workspace gives the same
-/// id and the same bytes. The id is a hash of the question: who knows it knows the question, so any key may read what
-/// is kept under it.
+/// Returns the answer that /workspace gave with this id. The service evicts results when it needs space; if you repeat
+/// the request to /workspace, it returns the same id and the same bytes. The id is a hash of the request, so a client
+/// that knows the id knows the request. Therefore any key may read the result.
 #[utoipa::path(
     get, path = "/workspace/{id}", operation_id = "workspace_summary", tag = "workspace",
-    params(("id" = String, Path, description = "The id that /workspace answered.")),
+    params(("id" = String, Path, description = "The id from an answer of /workspace.")),
     responses(
-        (status = 200, description = "The summary, the table of a family, or the figures of a dexterity map.", body = Summary),
+        (status = 200, description = "The summary of a workspace or a dexterity map, or the table of a family.", body = Summary),
         KeptProblems
     )
 )]
@@ -53,17 +53,18 @@ pub(crate) async fn get_summary(
 
 /// The mesh of a computed workspace
 ///
-/// Watertight, within the tolerance of the true surface, each triangle tagged with what limits the workspace there. By
-/// `format` or Accept, else GLB. Strong ETags, conditional requests and byte ranges.
+/// Returns a watertight mesh within the tolerance of the true surface. Each triangle has the constraint that is active
+/// there. `format` or Accept selects the format; the default is GLB. The service supports strong ETags, conditional
+/// requests and byte ranges.
 #[utoipa::path(
     get, path = "/workspace/{id}/mesh", operation_id = "workspace_mesh", tag = "workspace",
-    params(("id" = String, Path, description = "The id that /workspace answered."), KeptMeshQuery),
+    params(("id" = String, Path, description = "The id from an answer of /workspace."), KeptMeshQuery),
     responses(
         (status = 200, description = "The mesh.", content(
             (Binary = "model/gltf-binary"), (Binary = "model/stl"), (Binary = "model/ply"),
             (Object = "application/json"),
         )),
-        (status = 202, description = "The mesh has made room for others: the job that computes it again.",
+        (status = 202, description = "The service evicted the mesh. This job computes it again.",
             body = JobObject),
         MeshProblems
     )
@@ -87,13 +88,14 @@ pub(crate) async fn get_mesh(
     respond(&state, obtained, kept, prefer, &conditions)
 }
 
-/// A computed workspace cut at one height
+/// Slice of a computed workspace
 ///
-/// Polygons with holes, on request with lines of constant alpha (for the platform the ellipses of Eq (16)); as JSON,
-/// as a drawing (SVG) or for CAD (DXF). Exact to the workspace's tolerance: it is not a cut of the mesh.
+/// Returns the cut of a workspace with a plane of constant z: polygons with holes, optionally with lines of constant
+/// alpha (for the platform the ellipses of Eq (16)), as JSON, as a drawing (SVG) or for CAD (DXF). The slice is within
+/// the workspace's tolerance of the true boundary. The service does not use the mesh for it.
 #[utoipa::path(
     get, path = "/workspace/{id}/slice", operation_id = "workspace_slice", tag = "workspace",
-    params(("id" = String, Path, description = "The id that /workspace answered."), SliceQuery),
+    params(("id" = String, Path, description = "The id from an answer of /workspace."), SliceQuery),
     responses(
         (status = 200, description = "The slice.", content(
             (SliceObject = "application/json"), (Text = "image/svg+xml"), (Text = "image/vnd.dxf"),

@@ -18,12 +18,12 @@ pub(super) struct Bounds(pub Arc<Admission>);
 impl Collector for Bounds {
     fn encode(&self, mut encoder: DescriptorEncoder<'_>) -> fmt::Result {
         let places = self.0.places();
-        gauges(&mut encoder, "places_taken", "Places that are taken", &places, |usage| usage.taken)?;
-        gauges(&mut encoder, "places_limit", "Places that there are", &places, |usage| usage.limit)?;
+        gauges(&mut encoder, "places_taken", "Concurrency slots in use", &places, |usage| usage.taken)?;
+        gauges(&mut encoder, "places_limit", "Concurrency slots in total", &places, |usage| usage.limit)?;
         let memory = self.0.memory();
-        let taken = "Memory of bodies that are read and of answers that are sent";
+        let taken = "Memory of request bodies and responses in transit";
         gauges(&mut encoder, "memory_taken_bytes", taken, &memory, |usage| usage.taken)?;
-        gauges(&mut encoder, "memory_limit_bytes", "Most that they may have", &memory, |usage| usage.limit)
+        gauges(&mut encoder, "memory_limit_bytes", "Limit of this memory", &memory, |usage| usage.limit)
     }
 }
 

@@ -37,7 +37,7 @@ impl Computations {
     /// Told of in a registry.
     pub(crate) fn register(&self, registry: &mut Registry) {
         registry.register("computations", "Workspaces and pieces of maps computed", self.computed.clone());
-        let seconds = "Time of the runs of jobs and of their parts, those that find their result among them";
+        let seconds = "Run time of jobs and of their subtasks, including runs that find a stored result";
         registry.register_with_unit("job_run", seconds, Unit::Seconds, self.seconds.clone());
     }
 

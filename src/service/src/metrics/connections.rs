@@ -20,9 +20,9 @@ pub(crate) struct Open(Gauge);
 impl Connections {
     /// Told of in a registry.
     pub(crate) fn register(&self, registry: &mut Registry) {
-        registry.register("connections_open", "Connections that are open", self.open.clone());
-        registry.register("connections_limit", "Most that are open at once", self.limit.clone());
-        let refused = "Connections beyond the limit, or beyond one address's half of it";
+        registry.register("connections_open", "Open connections", self.open.clone());
+        registry.register("connections_limit", "Limit of open connections", self.limit.clone());
+        let refused = "Connections rejected because of the total limit or the limit per address";
         registry.register("connections_refused", refused, self.refused.clone());
     }
 

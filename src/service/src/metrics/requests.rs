@@ -50,9 +50,9 @@ impl Requests {
         let seconds = Family::new_with_constructor(histogram);
         let requests = Self { answered: Family::default(), seconds, under_way: Gauge::default() };
         registry.register("http_requests", "Requests answered", requests.answered.clone());
-        let seconds = "Time from a request to the head of its answer";
+        let seconds = "Time from a request to the headers of its response";
         registry.register_with_unit("http_request", seconds, Unit::Seconds, requests.seconds.clone());
-        let under_way = "Requests that have no answer yet";
+        let under_way = "Requests in progress";
         registry.register("http_requests_under_way", under_way, requests.under_way.clone());
         Arc::new(requests)
     }

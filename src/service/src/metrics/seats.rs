@@ -37,14 +37,14 @@ impl Collector for OfWorker {
     fn encode(&self, mut encoder: DescriptorEncoder<'_>) -> fmt::Result {
         let now = (self.0)();
         seats(&mut encoder, now.seats)?;
-        let redelivered = "Jobs that the broker had given before to a worker that was lost";
+        let redelivered = "Jobs redelivered after the loss of a worker";
         counter(&mut encoder, "worker_redeliveries", redelivered, now.redelivered)?;
-        let handed_back = "Jobs that this worker gave back to the queue";
+        let handed_back = "Jobs that this worker returned to the queue";
         counter(&mut encoder, "worker_handed_back", handed_back, now.handed_back)
     }
 }
 
 fn seats(encoder: &mut DescriptorEncoder<'_>, seats: Seats) -> fmt::Result {
-    gauge(encoder, "worker_seats", "Places for jobs in this process", number(seats.all))?;
-    gauge(encoder, "worker_seats_busy", "Places in which a job runs", number(seats.busy))
+    gauge(encoder, "worker_seats", "Job slots of this process", number(seats.all))?;
+    gauge(encoder, "worker_seats_busy", "Job slots in use", number(seats.busy))
 }

@@ -17,7 +17,8 @@ const LIMITS: &[Code] = &[Code::TooManyRequests, Code::Overloaded];
 /// The document with the scheme by which keys are sent.
 pub(crate) fn with_scheme(mut document: OpenApi) -> OpenApi {
     let mut scheme = Http::new(HttpAuthScheme::Bearer);
-    scheme.description = Some("A key; only where the service was started with --keys.".to_owned());
+    scheme.description =
+        Some("An API key. The service requires it if it was started with --keys.".to_owned());
     let components = document.components.get_or_insert_default();
     components.add_security_scheme(BEARER, SecurityScheme::Http(scheme));
     document

@@ -25,7 +25,7 @@ pub(crate) struct JobEvent;
 impl PartialSchema for JobEvent {
     fn schema() -> RefOr<Schema> {
         let text = || ObjectBuilder::new().schema_type(Type::String);
-        let event = text().description(Some("`end` for the last event; the others have none."));
+        let event = text().description(Some("`end` for the last event; other events do not have it."));
         ObjectBuilder::new()
             .schema_type(Type::Object)
             .property("data", text().content_media_type("application/json"))

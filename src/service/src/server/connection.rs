@@ -109,8 +109,8 @@ impl Attendant {
             let shaking = tokio::time::timeout(self.bounds.header, tls.accept(stream, !self.one_request));
             match self.stopping.run_until_cancelled(shaking).await {
                 Some(Ok(Ok((stream, http2)))) => self.serve(stream, Some(http2), peer).await,
-                Some(Ok(Err(error))) => tracing::debug!(%peer, %error, "no handshake"),
-                Some(Err(_)) | None => tracing::debug!(%peer, "no handshake in time"),
+                Some(Ok(Err(error))) => tracing::debug!(%peer, %error, "the TLS handshake failed"),
+                Some(Err(_)) | None => tracing::debug!(%peer, "the TLS handshake timed out"),
             }
         } else {
             let http2 = self.one_request.then_some(false);
@@ -164,11 +164,11 @@ impl Attendant {
         tokio::select! {
             served = served => {
                 if let Err(error) = served {
-                    tracing::debug!(%peer, %error, "a connection broke off");
+                    tracing::debug!(%peer, %error, "a connection failed");
                 }
             }
-            () = unused => tracing::debug!(%peer, "a connection is not used: cut"),
-            () = outgoing.stalled(bounds.stall) => tracing::debug!(%peer, "an answer is not taken: cut"),
+            () = unused => tracing::debug!(%peer, "closed an idle connection"),
+            () = outgoing.stalled(bounds.stall) => tracing::debug!(%peer, "closed a stalled connection"),
         }
     }
 }

@@ -8,12 +8,12 @@ pub(super) fn warn_if_open(listen: IpAddr, has_keys: bool, has_tls: bool) {
         return;
     }
     if !has_keys {
-        tracing::warn!("ANYBODY who reaches {listen} can use this service: it asks for no keys");
+        tracing::warn!("ANYBODY who can connect to {listen} can use this service: it requires no API key");
     }
     if !has_tls {
         tracing::warn!(
-            "what is sent to {listen} and back travels in clear, keys included: give --tls-certificate and --tls-key, \
-             or put a proxy with TLS before it"
+            "traffic on {listen} is not encrypted, API keys included: set --tls-certificate and --tls-key, or use a \
+             proxy with TLS"
         );
     }
 }
@@ -22,8 +22,8 @@ pub(super) fn warn_if_open(listen: IpAddr, has_keys: bool, has_tls: bool) {
 pub(crate) fn warn_of_probes(listen: IpAddr) {
     if !listen.to_canonical().is_loopback() {
         tracing::warn!(
-            "ANYBODY who reaches {listen} can read this worker's probes and metrics, in clear: let nobody reach it but \
-             those who measure"
+            "ANYBODY who can connect to {listen} can read this worker's probes and metrics, without encryption: \
+             restrict access to the monitoring system"
         );
     }
 }

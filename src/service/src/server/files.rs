@@ -13,7 +13,7 @@ pub(super) fn room_for(connections: usize) -> usize {
     let allowed = match rlimit::increase_nofile_limit(wanted) {
         Ok(allowed) => allowed,
         Err(error) => {
-            tracing::warn!(%error, "how many files this process may open is not known");
+            tracing::warn!(%error, "cannot read the limit of open files");
             return connections;
         }
     };
@@ -23,8 +23,8 @@ pub(super) fn room_for(connections: usize) -> usize {
             allowed,
             wanted,
             connections = room,
-            "this process may open too few files for --max-connections beside jobs and results, so there are fewer \
-             connections: raise its limit (ulimit -n), or lower --max-connections"
+            "the limit of open files is too low for --max-connections, jobs and results, so the service accepts fewer \
+             connections: raise the limit (ulimit -n), or lower --max-connections"
         );
     }
     room

@@ -38,9 +38,7 @@ pub(super) fn refused<B: Default>(status: StatusCode) -> Request<B> {
     let error = match status {
         StatusCode::URI_TOO_LONG => Error::UriTooLong(URI_BYTES),
         StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE => Error::HeadersTooLarge,
-        _ => {
-            Error::BadHead("This is no request of HTTP: its first line or one of its headers cannot be read.")
-        }
+        _ => Error::BadHead("The request is not valid HTTP: its first line or a header is malformed."),
     };
     refuse(&mut request, error);
     request
@@ -57,7 +55,7 @@ fn checked<B>(request: &Request<B>) -> Result<(), Error> {
         return Err(Error::UriTooLong(URI_BYTES));
     }
     if uri.scheme().is_none() && uri.authority().is_some() {
-        return Err(Error::BadHead("The address of the request is neither a path nor a URL."));
+        return Err(Error::BadHead("The request target is neither a path nor a URL."));
     }
     let headers = request.headers();
     // As in the first line: name, colon, value, end of line.
@@ -75,15 +73,15 @@ fn check_host(version: Version, uri: &Uri, headers: &HeaderMap) -> Result<(), Er
     let Some(host) = host else {
         let is_needed =
             version == Version::HTTP_11 || version > Version::HTTP_11 && uri.authority().is_none();
-        return if is_needed { Err(Error::BadHead("The header Host is missing.")) } else { Ok(()) };
+        return if is_needed { Err(Error::BadHead("The request has no Host header.")) } else { Ok(()) };
     };
     if second.is_some() {
-        return Err(Error::BadHead("The header Host is there more than once."));
+        return Err(Error::BadHead("The request has more than one Host header."));
     }
     if host.to_str().is_ok_and(is_host) {
         Ok(())
     } else {
-        Err(Error::BadHead("The header Host is no host with an optional port."))
+        Err(Error::BadHead("The Host header is not a host name with an optional port."))
     }
 }
 

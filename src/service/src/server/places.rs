@@ -26,8 +26,8 @@ pub(super) enum Full {
 impl fmt::Display for Full {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::All => "requests are refused: --max-connections are open",
-            Self::Share => "requests are refused: one address has half of --max-connections",
+            Self::All => "rejecting connections: --max-connections are open",
+            Self::Share => "rejecting connections: one address has half of --max-connections",
         })
     }
 }

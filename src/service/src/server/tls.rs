@@ -42,7 +42,7 @@ impl fmt::Display for TlsError {
             Self::File(path, error) => write!(f, "{}: {error}", path.display()),
             Self::Pem(path, error) => write!(f, "{}: {error}", path.display()),
             Self::Pair(path, error) => {
-                write!(f, "{}: this certificate and its key cannot be used: {error}", path.display())
+                write!(f, "{}: cannot use this certificate and its key: {error}", path.display())
             }
         }
     }
@@ -109,8 +109,10 @@ pub(super) async fn keep_fresh(tls: Option<Arc<Tls>>) {
         tokio::time::sleep(FRESH).await;
         let tls = Arc::clone(&tls);
         match tokio::task::spawn_blocking(move || tls.refresh()).await {
-            Ok(Ok(true)) => tracing::info!("a new certificate is in use"),
-            Ok(Err(error)) => tracing::error!(%error, "the certificate before stays in use"),
+            Ok(Ok(true)) => tracing::info!("loaded a new certificate"),
+            Ok(Err(error)) => {
+                tracing::error!(%error, "cannot load the new certificate; the previous one stays in use");
+            }
             Ok(Ok(false)) | Err(_) => {}
         }
     }

@@ -41,7 +41,7 @@ pub(super) async fn open_store(
 ) -> Result<Option<Results>, StorageError> {
     let Some(url) = &config.store else { return Ok(None) };
     let store = Store::open_shared(url, memory_bytes).await.map_err(StorageError::Store)?;
-    tracing::info!("results are kept in {url}");
+    tracing::info!("results are stored in {url}");
     Ok(Some(Results::new(store)))
 }
 
@@ -51,7 +51,7 @@ async fn connect(config: jetstream::Config) -> Result<Arc<JetStream>, StorageErr
             match JetStream::connect(config.clone()).await {
                 Ok(jobs) => return Ok(Arc::new(jobs)),
                 Err(ConnectError::Broker(reason)) => {
-                    tracing::warn!(reason, "the broker of jobs is waited for");
+                    tracing::warn!(reason, "waiting for the job broker");
                 }
                 Err(error) => return Err(StorageError::Broker(error)),
             }

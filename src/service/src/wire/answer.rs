@@ -12,42 +12,42 @@ use super::margins::{ConditioningObject, MarginsObject};
 use super::numbers::{Exactly, Triple};
 use super::request::Joints;
 
-/// The machine that an answer is for.
+/// The machine of an answer.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct MachineId {
-    /// Its name.
+    /// Name of the machine.
     #[schema(value_type = String, example = "verne")]
     pub name: Arc<str>,
-    /// BLAKE3 of its geometry, table and limits; name and description do not count.
+    /// BLAKE3 hash of its geometry, table and limits; it does not cover name and description.
     #[schema(value_type = String)]
     pub hash: Arc<str>,
 }
 
-/// All that was asked for, sorted; or why there is nothing.
+/// The requested solutions in order, or the reason why there is none.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct Answer {
     /// The machine.
     pub machine: MachineId,
-    /// Working first, then by alpha, then by rho; or by distance from `near`.
+    /// Working solutions first, then in order of alpha, then of rho; with `near`, in order of distance from it.
     pub solutions: Vec<Solution>,
-    /// What was not checked.
+    /// Conditions that the service did not check.
     #[schema(value_type = Vec<Unchecked>)]
     pub not_checked: &'static [Unchecked],
-    /// What the pose leaves open. `phi2`: the tool stands along the table's own axis, and these solutions are one
-    /// member of a family, the one at theta2 = `near.theta2`, or 0.
+    /// Coordinates that the pose does not determine. `phi2`: the tool is parallel to the table's own axis. The
+    /// solutions are then one member of a family: the one at theta2 = `near.theta2`, or 0.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub free: Vec<Free>,
-    /// Why there is no solution; only without solutions.
+    /// The reason why there is no solution. Only an answer without solutions has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub reason: Option<Reason>,
-    /// The constraint that prevents a solution, and by how much; only without solutions.
+    /// The constraint that prevents a solution, with its margin. Only an answer without solutions has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub constraint: Option<Limit>,
 }
 
-/// A coordinate that a pose leaves open.
+/// A coordinate that a pose does not determine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Free {
@@ -55,48 +55,49 @@ pub(crate) enum Free {
     Phi2,
 }
 
-/// Why a question has no solution: `unreachable`, the equations have none of the kind asked for; `infeasible`, every
-/// working one breaks a limit and only feasible ones were asked for; `self_motion`, the sliders do not hold the
-/// platform.
+/// Reason why a request has no solution: `unreachable`, the equations have no solution of the requested kind;
+/// `infeasible`, every working solution breaks a limit and the request allows only feasible ones; `self_motion`, the
+/// platform can move while all sliders are locked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Reason {
-    /// The equations have no solution of the kind asked for.
+    /// The equations have no solution of the requested kind.
     Unreachable,
-    /// Every working solution breaks a limit, and only feasible ones were asked for.
+    /// Every working solution breaks a limit, and the request allows only feasible ones.
     Infeasible,
-    /// The sliders do not hold the platform: it moves with all of them locked.
+    /// The platform can move while all sliders are locked.
     SelfMotion,
 }
 
-/// One solution, put back into the equations.
+/// One solution. The service checks each solution in the loop-closure equations.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct Solution {
-    /// The joints; in answers of /ik. theta1 and theta2 only in frame `part`.
+    /// The joints. Only answers of /ik have them; only answers in frame `part` have theta1 and theta2.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub joints: Option<Joints>,
     /// The platform in the base frame.
     pub platform: PlatformObject,
-    /// The tool's tip in the base frame.
+    /// The tool end in the base frame.
     pub tool: PointObject,
-    /// The tool in the table frame; where the table's angles are known.
+    /// The tool in the part frame. Only solutions with known table angles have it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub part: Option<PartObject>,
     /// The solution's label.
     pub mode: ModeObject,
-    /// Whether this is the mode the machine works in: every slider end above its platform end, rods uncrossed.
+    /// Whether the solution is in the working mode: the slider end of every rod is above its platform end, and leg I is
+    /// not crossed.
     pub working: bool,
-    /// Whether two solutions have merged here, as closely as double precision can tell: a singularity.
+    /// Whether two solutions coincide here within double precision. The posture is then singular.
     pub merged: bool,
     /// Whether every margin is at least zero.
     pub feasible: bool,
-    /// How far every limit is.
+    /// Margins of all limits.
     pub margins: MarginsObject,
-    /// How far singularities are.
+    /// Distance from singularities.
     pub conditioning: ConditioningObject,
-    /// Largest error of a rod's length when the solution is put back into Eqs (3)-(6), mm.
+    /// Largest error of a rod length when the solution is inserted into Eqs (3)-(6), mm.
     pub residual: f64,
 }
 
@@ -104,11 +105,11 @@ pub(crate) struct Solution {
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = PlatformPose)]
 pub(crate) struct PlatformObject {
-    /// mm.
+    /// x, mm.
     x: f64,
-    /// mm.
+    /// y, mm.
     y: f64,
-    /// mm; down.
+    /// z, mm. It points down.
     z: f64,
     /// Rotation about x, degrees.
     alpha: f64,
@@ -123,21 +124,21 @@ pub(crate) struct PointObject {
     z: f64,
 }
 
-/// Pose of the tool in the table frame.
+/// Pose of the tool in the part frame.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = PartPose)]
 pub(crate) struct PartObject {
-    /// mm.
+    /// x, mm.
     x: f64,
-    /// mm.
+    /// y, mm.
     y: f64,
-    /// mm; up from the table.
+    /// z, mm. It points up from the table.
     z: f64,
     /// Inclination, degrees.
     phi1: f64,
     /// Azimuth, degrees.
     phi2: f64,
-    /// Unit vector from tip to holder.
+    /// Unit vector from the tool end to the holder.
     #[schema(inline)]
     axis: Triple,
 }
@@ -154,11 +155,11 @@ pub(crate) struct ModeObject {
     leg3: SideName,
     /// Whether R1 cos alpha < r1.
     crossed: bool,
-    /// Tells solutions with equal labels apart: 0, 1, ... in the order working, alpha, rho.
+    /// Number of the solution among those with equal labels: 0, 1, ... in the order working, alpha, rho.
     index: usize,
 }
 
-/// Which end of a leg is higher.
+/// Higher end of a leg.
 #[derive(Clone, Copy, Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum SideName {

@@ -13,31 +13,32 @@ use super::request::Frame;
 
 /// The working solution for many poses.
 ///
-/// Rows stay text here and are read one by one: a bad one then spoils no other.
+/// The service reads the rows one by one, so a malformed row does not affect the others.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct IkBatchRequest<'a> {
-    /// The machine: a published name, or the whole object.
+    /// The machine: the name of a published machine, or a machine object.
     #[serde(default)]
     pub machine: MachineRef,
-    /// What the rows describe.
+    /// Frame of the rows.
     #[serde(default)]
     pub frame: Frame,
-    /// Distance from P to the tool's tip, mm.
+    /// Distance from P to the tool end, mm.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
-    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
-    /// frame, mm; only in frame `part`. Left out: the machine's own limit; without one the table is not checked.
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Only frame `part` has it. The default is the limit of the machine; if the machine has none, the
+    /// service does not check the table.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Rows `[x, y, z, phi1, phi2]` in frame `part`, `[x, y, z]` in the others. A row that cannot be read is
-    /// answered as `invalid`.
+    /// Rows `[x, y, z, phi1, phi2]` in frame `part`, `[x, y, z]` in the other frames. A malformed row has the status
+    /// `invalid`.
     #[serde(borrow)]
     #[schema(value_type = Vec<Option<Vec<Option<f64>>>>)]
     pub poses: Capped<&'a RawValue>,
@@ -47,24 +48,24 @@ pub(crate) struct IkBatchRequest<'a> {
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FkBatchRequest<'a> {
-    /// The machine: a published name, or the whole object.
+    /// The machine: the name of a published machine, or a machine object.
     #[serde(default)]
     pub machine: MachineRef,
-    /// Distance from P to the tool's tip, mm.
+    /// Distance from P to the tool end, mm.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
-    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
-    /// frame, mm; every row then needs theta1. Left out: the machine's own limit; without one the table is not checked.
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Every row then needs theta1. The default is the limit of the machine; if the machine has none,
+    /// the service does not check the table.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Rows `[rho1, rho2, rho3]` or `[rho1, rho2, rho3, theta1, theta2]`. A row that cannot be read is answered as
-    /// `invalid`.
+    /// Rows `[rho1, rho2, rho3]` or `[rho1, rho2, rho3, theta1, theta2]`. A malformed row has the status `invalid`.
     #[serde(borrow)]
     #[schema(value_type = Vec<Option<Vec<Option<f64>>>>)]
     pub joints: Capped<&'a RawValue>,
@@ -130,13 +131,13 @@ impl Rows<'_> {
 pub(crate) struct IkBatchAnswer {
     /// The machine.
     pub machine: MachineId,
-    /// `[rho1, rho2, rho3]`, in frame `part` `[rho1, rho2, rho3, theta1, theta2]`; null where there are none. Joints
-    /// that break a limit are answered, as `infeasible`. Of several working solutions the one is answered that the
-    /// solver finds first, starting from a level platform, if it breaks no limit; else the one with the least alpha
-    /// that breaks none; else the first.
+    /// `[rho1, rho2, rho3]`, in frame `part` `[rho1, rho2, rho3, theta1, theta2]`; null for a row without a solution.
+    /// Joints that break a limit have the status `infeasible`. If a pose has several working solutions, the service
+    /// returns the first one that the solver finds from a level platform, if it is feasible; otherwise the feasible one
+    /// with the least alpha; otherwise the first one.
     #[schema(value_type = Vec<Option<Vec<f64>>>)]
     pub joints: Vec<Option<Row>>,
-    /// How each row fares.
+    /// Status of each row.
     #[serde(flatten)]
     pub report: RowReport,
 }
@@ -146,47 +147,47 @@ pub(crate) struct IkBatchAnswer {
 pub(crate) struct FkBatchAnswer {
     /// The machine.
     pub machine: MachineId,
-    /// `[x, y, z, alpha]` of the platform in the base frame; null where there is none.
+    /// `[x, y, z, alpha]` of the platform in the base frame; null for a row without a solution.
     #[schema(value_type = Vec<Option<Vec<f64>>>)]
     pub poses: Vec<Option<Row>>,
-    /// `[x, y, z, phi1, phi2]` of the tool in the table frame, for rows that give theta1 and theta2.
+    /// `[x, y, z, phi1, phi2]` of the tool in the part frame, for rows with theta1 and theta2.
     #[schema(value_type = Vec<Option<Vec<f64>>>)]
     pub parts: Vec<Option<Row>>,
-    /// How each row fares.
+    /// Status of each row.
     #[serde(flatten)]
     pub report: RowReport,
 }
 
-/// How each row fares: columns as long as the batch, and their sums.
+/// Status of each row, as columns with one entry for each row, and totals.
 #[derive(Debug, Default, Serialize, ToSchema)]
 pub(crate) struct RowReport {
     /// Status of each row.
     pub status: Vec<Status>,
     /// The worst violated constraint of each row that is not `ok`; null for `ok` and `invalid`.
     pub constraint: Vec<Option<ConstraintName>>,
-    /// Its margin: negative, in the constraint's unit (mm, degrees or a pure number).
+    /// Margin of this constraint: negative, in its unit (mm, degrees or a pure number).
     pub margin: Vec<Option<f64>>,
-    /// The part of the machine it belongs to, such as `slider2.max`.
+    /// The part of the machine with this margin, such as `slider2.max`.
     #[schema(value_type = Vec<Option<String>>)]
     pub element: Vec<Option<ElementName>>,
-    /// How many rows have each status.
+    /// Number of rows with each status.
     pub counts: Counts,
-    /// What was not checked, of at least one row.
+    /// Conditions that the service did not check for at least one row.
     #[schema(value_type = Vec<Unchecked>)]
     pub not_checked: &'static [Unchecked],
-    /// What is wrong with the invalid rows: the first hundred.
+    /// Errors of the invalid rows, for the first hundred of them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub errors: Vec<RowError>,
 }
 
-/// Status of a row: `ok`; `unreachable`, no solution in the working mode; `infeasible`, solved, but breaks a limit;
-/// `invalid`, cannot be read.
+/// Status of a row: `ok`; `unreachable`, the working mode has no solution; `infeasible`, the solution breaks a limit;
+/// `invalid`, the row is malformed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Status {
-    /// Solved, within every limit.
+    /// Rows with a solution within every limit.
     Ok,
-    /// No solution in the working mode.
+    /// Rows without a solution in the working mode.
     Unreachable,
     /// Solved, but breaks a limit.
     Infeasible,
@@ -194,24 +195,24 @@ pub(crate) enum Status {
     Invalid,
 }
 
-/// How many rows have each status.
+/// Number of rows with each status.
 #[derive(Clone, Copy, Debug, Default, Serialize, ToSchema)]
 pub(crate) struct Counts {
-    /// Solved, within every limit.
+    /// Rows with a solution within every limit.
     pub ok: usize,
-    /// No solution in the working mode.
+    /// Rows without a solution in the working mode.
     pub unreachable: usize,
-    /// Solved, but break a limit.
+    /// Rows with a solution that breaks a limit.
     pub infeasible: usize,
-    /// Cannot be read.
+    /// Malformed.
     pub invalid: usize,
 }
 
-/// What is wrong with a row.
+/// Error of a row.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct RowError {
     /// The row, from 0.
     pub row: usize,
-    /// What is wrong, and what would be accepted.
+    /// The error, and the accepted values.
     pub detail: String,
 }

@@ -9,7 +9,7 @@ use super::machine::MachineObject;
 /// The published machines.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct MachineList {
-    /// By name.
+    /// The machines, sorted by name.
     pub machines: Vec<MachineEntry>,
 }
 
@@ -19,7 +19,7 @@ pub(crate) struct MachineEntry {
     /// Name and hash.
     #[serde(flatten)]
     pub id: MachineId,
-    /// Where its numbers come from.
+    /// Source of the numbers.
     pub description: String,
 }
 
@@ -28,34 +28,34 @@ pub(crate) struct MachineEntry {
 pub(crate) struct MachineAnswer {
     /// Name and hash.
     pub machine: MachineId,
-    /// The whole machine, as a request may carry it.
+    /// The complete machine object. Requests accept it.
     pub definition: MachineObject,
 }
 
 /// The state of the service.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct Health {
-    /// Whether all of it works.
+    /// Whether all parts of the service work.
     pub status: Status,
-    /// What does not, of what the processes of a service share.
+    /// The shared parts of the service that do not respond.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schema(required = false)]
     pub failing: Vec<Part>,
 }
 
-/// Whether a service works.
+/// Status of the service.
 #[derive(Clone, Copy, Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 // Named for the document: a batch's rows have a status, too.
 #[schema(as = HealthStatus)]
 pub(crate) enum Status {
-    /// Altogether.
+    /// All parts work.
     Ok,
-    /// Some of it.
+    /// Some shared parts do not respond.
     Degraded,
 }
 
-/// What the processes of a service share.
+/// A part that the processes of a service share.
 #[derive(Clone, Copy, Debug, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Part {

@@ -14,35 +14,36 @@ use super::numbers::{Counts, Exactly, Triple};
 use super::object::object;
 use super::workspace_summary::BoundsObject;
 
-/// With which inclinations is each point of the part reached, and where with some or with all of them?
+/// A request for the inclinations that reach each point of the part.
 #[derive(Clone, Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DexterityBody {
-    /// The machine: a published name, or the whole object.
+    /// The machine: the name of a published machine, or a machine object.
     #[serde(default)]
     pub machine: MachineRef,
-    /// Distance from P to the tool's tip, mm.
+    /// Distance from P to the tool end, mm.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
-    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
-    /// frame, mm. Left out: the machine's own limit; without one the table is not checked.
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. The default is the limit of the machine; if the machine has none, the service does not check
+    /// the table.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// The inclinations that matter.
+    /// The range of inclinations.
     #[serde(deserialize_with = "object")]
     #[schema(inline)]
     pub phi1: Inclinations,
-    /// Azimuth of the tool in the table frame, degrees.
+    /// Azimuth of the tool in the part frame, degrees.
     #[serde(default)]
     #[schema(minimum = -36000, maximum = 36000, default = 0.0)]
     pub phi2: f64,
-    /// Distance of neighbouring points of the grid, mm.
+    /// Distance between neighbouring points of the grid, mm.
     #[serde(default = "default_cell")]
     #[schema(minimum = 1, maximum = 1000, default = 20.0)]
     pub cell: f64,
@@ -52,49 +53,49 @@ fn default_cell() -> f64 {
     20.0
 }
 
-/// A range of phi1, degrees, at most a turn.
+/// A range of phi1 in degrees, at most one turn.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Inclinations {
-    /// The least.
+    /// Lower end of the range.
     #[schema(minimum = -36000, maximum = 36000)]
     pub from: f64,
-    /// The greatest.
+    /// Upper end of the range.
     #[schema(minimum = -36000, maximum = 36000)]
     pub to: f64,
 }
 
-/// A request with its defaults filled in.
+/// The request with its default values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[schema(as = CanonicalDexterityRequest)]
 pub(crate) struct CanonicalDexterity {
-    /// mm.
+    /// Distance from P to the tool end, mm.
     pub tool_length: f64,
-    /// mm; where the table is checked.
+    /// Table clearance, mm. Only a request with a table check has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub table_clearance: Option<f64>,
-    /// mm; where the table is checked.
+    /// Tool radius, mm. Only a request with a table check has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub tool_radius: Option<f64>,
-    /// The inclinations that matter, degrees.
+    /// The range of inclinations, degrees.
     pub phi1: Inclinations,
-    /// Degrees.
+    /// Azimuth of the tool, degrees.
     pub phi2: f64,
-    /// mm.
+    /// Distance between neighbouring grid points, mm.
     pub cell: f64,
 }
 
-/// A set of points: `reachable`, those reached with some inclination of the range; `dexterous`, those reached with all
-/// of them.
+/// Point set of a dexterity map: `reachable`, the points that at least one inclination of the range reaches;
+/// `dexterous`, the points that all inclinations of the range reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = PointSet)]
 pub(crate) enum SetName {
-    /// Reached with some inclination.
+    /// The points that at least one inclination reaches.
     Reachable,
-    /// Reached with all of them.
+    /// The points that all inclinations reach.
     Dexterous,
 }
 
@@ -113,47 +114,47 @@ impl SetName {
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct KeptMeshQuery {
-    /// The mesh in this format, whatever Accept says.
+    /// Return the mesh in this format. It overrides Accept.
     #[param(inline, nullable = false)]
     pub format: Option<MeshFormat>,
-    /// Which set's mesh of a dexterity map; without it that of what is reachable.
+    /// Point set of a dexterity map. The default is `reachable`.
     #[param(inline, nullable = false)]
     pub set: Option<SetName>,
 }
 
-/// A dexterity map in figures.
+/// Summary of a dexterity map.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct DexteritySummary {
-    /// BLAKE3 of the request, the machine and the solver's version.
+    /// BLAKE3 hash of the request, the machine and the solver's version.
     pub id: String,
-    /// The request with its defaults.
+    /// The request with its default values.
     pub request: CanonicalDexterity,
     /// The machine.
     pub machine: MachineId,
     /// The grid of points.
     pub grid: GridObject,
-    /// Points of the grid that are reached with some inclination.
+    /// Number of grid points that at least one inclination reaches.
     pub reached: usize,
-    /// What is reached with some inclination of the range.
+    /// The points that at least one inclination of the range reaches.
     pub reachable: SetObject,
-    /// What is reached with all of them.
+    /// The points that all inclinations of the range reach.
     pub dexterous: SetObject,
-    /// What was not checked.
+    /// Conditions that the service did not check.
     #[schema(value_type = Vec<Unchecked>)]
     pub not_checked: &'static [Unchecked],
-    /// Where the results are.
+    /// Paths of the results.
     pub links: DexterityLinks,
 }
 
-/// A set of points of the part in figures.
+/// Figures of a set of points of the part.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = PointSetFigures)]
 pub(crate) struct SetObject {
-    /// Volume, mm³, by integration and not from the mesh; null where the workspace folds.
+    /// Volume, mm³; null if the workspace folds. The service integrates it and does not use the mesh.
     pub volume: Option<f64>,
     /// The true volume lies within `volume` ± this, mm³.
     pub volume_error: Option<f64>,
-    /// The mesh's least and greatest coordinates, mm; null where it is empty.
+    /// Least and greatest coordinates of the mesh, mm; null if the mesh is empty.
     pub bounds: Option<BoundsObject>,
     /// Vertices of the mesh.
     pub vertices: usize,
@@ -167,9 +168,9 @@ pub(crate) struct DexterityLinks {
     /// This summary.
     #[serde(rename = "self")]
     pub itself: String,
-    /// The mesh of what is reachable.
+    /// The mesh of the reachable points.
     pub reachable: String,
-    /// The mesh of what is dexterous.
+    /// The mesh of the dexterous points.
     pub dexterous: String,
     /// The intervals of phi1 at each point of the grid.
     pub cells: String,
@@ -183,12 +184,12 @@ pub(crate) struct GridObject {
     /// Point (0, 0, 0) before the turn, mm.
     #[schema(inline)]
     pub origin: Triple,
-    /// Distance of neighbours, mm.
+    /// Distance between neighbours, mm.
     pub step: f64,
-    /// Points along each axis; 0 where nothing is reachable.
+    /// Number of points along each axis; 0 if no point is reachable.
     #[schema(inline)]
     pub counts: Counts,
-    /// Degrees about Z; phi2.
+    /// Rotation about Z, which is phi2, degrees.
     pub turn: f64,
 }
 
@@ -203,16 +204,16 @@ impl From<&Grid> for GridObject {
     }
 }
 
-/// The intervals of phi1 within the asked range, within every limit, at each point of the grid: exact, by root-finding
-/// on the limits.
+/// The intervals of phi1, within the requested range, that keep every limit at each point of the grid. They are exact:
+/// the service finds the roots of the limits.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct DexterityCells {
-    /// The map.
+    /// Id of the map.
     pub id: String,
     /// The points.
     pub grid: GridObject,
     /// Point n's intervals are those from `offsets[n]` up to `offsets[n + 1]`.
     pub offsets: Vec<u32>,
-    /// `from`, `to` of each interval in turn, degrees.
+    /// `from` and `to` of each interval, one after the other, degrees.
     pub intervals: Vec<f64>,
 }

@@ -10,37 +10,39 @@ use super::span::Span;
 use super::workspace::{CanonicalRequest, KindName, WorkspaceRequest, default_tolerance};
 use super::workspace_summary::BoundsObject;
 
-/// Where can the machine go? With lists, a family: every combination of their values.
+/// A request for a workspace. With lists it is a request for a family: one workspace for each combination of the
+/// values.
 #[derive(Clone, Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 #[schema(as = WorkspaceRequest)]
 pub(crate) struct WorkspaceBody {
-    /// The machine: a published name, or the whole object.
+    /// The machine: the name of a published machine, or a machine object.
     #[serde(default)]
     pub machine: MachineRef,
-    /// Whose positions the workspace is made of.
+    /// Point and frame of the positions.
     #[serde(default)]
     pub kind: KindName,
-    /// Distance from P to the tool's tip, mm, from 0 to 1e7; without effect on `platform`.
+    /// Distance from P to the tool end, mm, from 0 to 1e7. Kind `platform` ignores it.
     #[serde(default)]
     pub tool_length: Span,
-    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
-    /// frame, mm; only kind `part` has it. Left out: the machine's own limit; without one the table is not checked.
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Only kind `part` has it. The default is the limit of the machine; if the machine has none, the
+    /// service does not check the table.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Inclination of the tool in the table frame, degrees; only `part` depends on it.
+    /// Inclination of the tool in the part frame, degrees. Only kind `part` uses it.
     #[serde(default)]
     pub phi1: Span,
-    /// Azimuth of the tool in the table frame, degrees; only `part` depends on it.
+    /// Azimuth of the tool in the part frame, degrees. Only kind `part` uses it.
     #[serde(default)]
     pub phi2: Span,
-    /// Greatest distance between the mesh and the true surface, both ways, mm. At least a millionth of the machine's
-    /// longest dimension.
+    /// Greatest distance between the mesh and the true surface, in both directions, mm. It must be at least a millionth
+    /// of the machine's longest dimension.
     #[serde(default = "default_tolerance")]
     #[schema(minimum = 0.01, maximum = 1000, default = 1.0)]
     pub tolerance: f64,
@@ -68,44 +70,44 @@ impl WorkspaceBody {
     }
 }
 
-/// A family's request with its lists written out.
+/// The request of a family with its lists in full.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 pub(crate) struct FamilyRequest {
-    /// Whose positions.
+    /// Point and frame of the positions.
     pub kind: KindName,
-    /// mm.
+    /// Distance from P to the tool end, mm.
     pub tool_length: Vec<f64>,
-    /// mm; for `part`, where the table is checked.
+    /// Table clearance, mm. Only kind `part` with a table check has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub table_clearance: Option<f64>,
-    /// mm; for `part`, where the table is checked.
+    /// Tool radius, mm. Only kind `part` with a table check has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub tool_radius: Option<f64>,
-    /// Degrees.
+    /// Inclination of the tool, degrees.
     pub phi1: Vec<f64>,
-    /// Degrees.
+    /// Azimuth of the tool, degrees.
     pub phi2: Vec<f64>,
-    /// mm.
+    /// Tolerance, mm.
     pub tolerance: f64,
 }
 
-/// A family of workspaces in figures.
+/// Summary of a family of workspaces.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct FamilySummary {
-    /// BLAKE3 of the lists and of its members' ids.
+    /// BLAKE3 hash of the lists and of the members' ids.
     pub id: String,
-    /// The request with its lists written out.
+    /// The request with its lists in full.
     pub request: FamilyRequest,
     /// The machine.
     pub machine: MachineId,
-    /// The workspaces, phi2 running fastest, then phi1; each is kept by itself.
+    /// The workspaces in order; phi2 varies fastest, then phi1. Each workspace has a result of its own.
     pub members: Vec<FamilyMember>,
-    /// What was not checked.
+    /// Conditions that the service did not check.
     #[schema(value_type = Vec<Unchecked>)]
     pub not_checked: &'static [Unchecked],
-    /// Where the table is.
+    /// Path of the table.
     pub links: FamilyLinks,
 }
 
@@ -120,36 +122,36 @@ pub(crate) struct FamilyLinks {
 /// One workspace of a family.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct FamilyMember {
-    /// Its id: `/workspace/{id}` has its summary, mesh and slices.
+    /// Id of the workspace: `/workspace/{id}` has its summary, mesh and slices.
     pub id: String,
-    /// Its request.
+    /// Request of the workspace.
     pub request: CanonicalRequest,
-    /// Its figures; nothing where it could not be computed.
+    /// Figures of the workspace. They are missing if the computation failed.
     #[serde(flatten)]
     #[schema(inline)]
     pub figures: Option<Figures>,
-    /// Why it could not be computed.
+    /// The reason why the computation failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub failure: Option<String>,
 }
 
-/// The figures of a workspace, as its summary has them.
+/// Figures from the summary of a workspace.
 #[derive(Clone, Debug, Serialize, Deserialize, ToSchema)]
 #[schema(as = WorkspaceFigures)]
 pub(crate) struct Figures {
-    /// mm³; null where the workspace folds.
+    /// Volume, mm³; null if the workspace folds.
     pub volume: Option<f64>,
     /// The true volume lies within `volume` ± this, mm³.
     pub volume_error: Option<f64>,
-    /// mm².
+    /// Area, mm².
     pub area: f64,
-    /// The mesh's least and greatest coordinates, mm; null where it is empty.
+    /// Least and greatest coordinates of the mesh, mm; null if the mesh is empty.
     pub bounds: Option<BoundsObject>,
     /// Vertices of the mesh.
     pub vertices: usize,
     /// Triangles of the mesh.
     pub triangles: usize,
-    /// Whether some positions are reached from two platform positions.
+    /// Whether two platform positions reach the same position of the workspace.
     pub folded: bool,
 }

@@ -4,10 +4,10 @@ use clap::ValueEnum;
 use serde::Deserialize;
 use utoipa::ToSchema;
 
-/// How a mesh is written: `glb`, binary glTF 2.0 (metres, Y up, the frame in `extras`, a primitive and a material for
-/// each binding constraint), for viewers; `stl`, binary (mm), for slicers and CAD; `ply`, binary (mm, double precision,
-/// the binding constraint at the vertices, and in comments for the faces, which are ordered by it); `json` (mm, flat
-/// `positions` and `indices`), for scripts.
+/// Format of a mesh: `glb`, binary glTF 2.0 (metres, Y up, the frame in `extras`, one primitive and one material for
+/// each active constraint), for viewers; `stl`, binary (mm), for slicers and CAD; `ply`, binary (mm, double precision,
+/// with the active constraint of each vertex; the faces are sorted by active constraint, and comments list the
+/// constraints); `json` (mm, flat `positions` and `indices`), for scripts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum MeshFormat {
@@ -46,7 +46,7 @@ impl MeshFormat {
     }
 }
 
-/// How a slice is written: `json`; `svg`, a drawing for people; `dxf` (AC1015, mm), for CAD.
+/// Format of a slice: `json`; `svg`, a drawing; `dxf` (AC1015, mm), for CAD.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum SliceFormat {

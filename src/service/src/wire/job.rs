@@ -16,36 +16,36 @@ use crate::obtain::failure;
 use crate::problem::Problem;
 use crate::result_id::ResultId;
 
-/// A computation that outlives its request.
+/// A computation in the queue. It continues after its request has ended.
 #[derive(Debug, Serialize, ToSchema)]
 #[schema(as = Job)]
 pub(crate) struct JobObject {
-    /// The id of the result: equal questions are one job.
+    /// The id of the result. Equal requests share one job.
     pub id: String,
-    /// Where it stands.
+    /// State of the job.
     pub state: StateName,
-    /// Part of the work that is done, 0 to 1.
+    /// Fraction of the work that is done, 0 to 1.
     #[schema(minimum = 0, maximum = 1)]
     pub progress: f64,
-    /// The question with its defaults.
+    /// The request with its default values.
     #[schema(value_type = Object)]
     pub request: Box<RawValue>,
     /// The machine.
     pub machine: MachineId,
-    /// When it was asked for.
+    /// Time of the request.
     #[schema(format = DateTime)]
     pub created: String,
-    /// When it was last begun; null in the queue.
+    /// Time at which the job last started; null in the queue.
     #[schema(format = DateTime)]
     pub started: Option<String>,
-    /// When it ended; null before.
+    /// Time at which the job ended; null before that.
     #[schema(format = DateTime)]
     pub finished: Option<String>,
-    /// Path of the result; null until it succeeded.
+    /// Path of the result; null unless the job succeeded.
     pub result: Option<String>,
-    /// Why it failed; null unless it did.
+    /// The reason why the job failed; null unless it failed.
     pub error: Option<Problem>,
-    /// Where to follow it.
+    /// Paths of the job.
     pub links: JobLinks,
 }
 
@@ -55,24 +55,24 @@ pub(crate) struct JobLinks {
     /// The job; DELETE cancels it.
     #[serde(rename = "self")]
     pub itself: String,
-    /// Its changes as server-sent events.
+    /// The changes of the job as server-sent events.
     pub events: String,
 }
 
-/// Where a job stands.
+/// State of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = JobState)]
 pub(crate) enum StateName {
-    /// It waits for its turn.
+    /// The job is in the queue.
     Queued,
-    /// It is being computed.
+    /// The job is running.
     Running,
-    /// Its result is there.
+    /// The job has a result.
     Succeeded,
-    /// There will be no result.
+    /// The job ended without a result.
     Failed,
-    /// Somebody cancelled it, or nobody waited any more.
+    /// A client cancelled the job, or no client waited for it any more.
     Cancelled,
 }
 
@@ -133,7 +133,7 @@ impl JobObject {
 pub(crate) struct JobList {
     /// The jobs.
     pub jobs: Vec<JobObject>,
-    /// What `after` takes for the next page; null on the last.
+    /// The value of `after` for the next page; null on the last page.
     pub next: Option<String>,
 }
 
@@ -142,14 +142,14 @@ pub(crate) struct JobList {
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct JobsQuery {
-    /// Only jobs in this state.
+    /// List only jobs in this state.
     #[param(inline, nullable = false)]
     pub state: Option<StateName>,
-    /// Most jobs on a page.
+    /// Maximum number of jobs on a page.
     #[serde(default = "default_limit")]
     #[param(minimum = 1, maximum = 100, default = 50)]
     pub limit: usize,
-    /// Where the last page ended: its `next`.
+    /// The `next` of the previous page.
     #[param(nullable = false)]
     pub after: Option<String>,
 }

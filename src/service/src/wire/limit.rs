@@ -38,7 +38,7 @@ pub(crate) enum ConstraintName {
     TableClearance,
 }
 
-/// Unit of a margin; the last is for pure numbers.
+/// Unit of a margin: mm, degrees, or 1 for a dimensionless number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 pub(crate) enum Unit {
     /// Millimetres.
@@ -55,20 +55,20 @@ pub(crate) enum Unit {
 /// A constraint's margin: positive inside, zero on the limit, negative outside.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct Limit {
-    /// Which constraint.
+    /// The constraint.
     pub constraint: ConstraintName,
-    /// How far from the limit.
+    /// Distance from the limit.
     pub value: f64,
     /// Unit of `value`.
     pub unit: Unit,
-    /// Where: `slider1.min`, `slider1.max`, `leg1`, `rod11`, `rods11-31`, `theta1.min`, `theta2.max`,
+    /// The part of the machine: `slider1.min`, `slider1.max`, `leg1`, `rod11`, `rods11-31`, `theta1.min`, `theta2.max`,
     /// `platform`, `tool` (its end) or `joint11` (at the platform).
     #[schema(value_type = String, example = "slider2.max")]
     pub element: ElementName,
 }
 
-/// What no margin speaks of: `table`, whether tool and platform stay above the table; `part`, collisions with the
-/// part; `fixtures`, collisions with what holds it.
+/// Condition that no margin covers: `table`, whether the tool and the platform stay above the table; `part`, collisions
+/// with the part; `fixtures`, collisions with the fixtures of the part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Unchecked {
@@ -76,7 +76,7 @@ pub(crate) enum Unchecked {
     Table,
     /// Collisions with the part.
     Part,
-    /// Collisions with what holds the part.
+    /// Collisions with the fixtures of the part.
     Fixtures,
 }
 

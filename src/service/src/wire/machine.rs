@@ -14,10 +14,10 @@ use super::object::object;
 #[serde(deny_unknown_fields)]
 #[schema(as = Machine)]
 pub struct MachineObject {
-    /// Short name; answers repeat it.
+    /// Short name. Answers repeat it.
     #[schema(min_length = 1, max_length = 64, example = "verne")]
     pub name: String,
-    /// Where the numbers come from.
+    /// Source of the numbers.
     #[serde(default)]
     pub description: String,
     /// The parallel module.
@@ -48,11 +48,11 @@ pub struct GeometryObject {
     /// x of legs II and III's joints on the platform, in the platform frame.
     #[schema(minimum = -1e6, maximum = 1e6)]
     pub D2: f64,
-    /// x of legs II and III's guideways, in the base frame. D1 - d1 and D2 - d2 must differ by at
-    /// least a thousandth of the longest leg.
+    /// x of the guideways of legs II and III, in the base frame. D1 - d1 and D2 - d2 must differ by at least a
+    /// thousandth of the longest leg.
     #[schema(minimum = -1e6, maximum = 1e6)]
     pub d2: f64,
-    /// Half-distance of leg I's joints on the platform; at least 1.001 times r1.
+    /// Half-distance of the joints of leg I on the platform. It must be at least 1.001 times r1.
     #[schema(minimum = 1e-3, maximum = 1e6)]
     pub R1: f64,
     /// Half-distance of leg I's joints on the slider.
@@ -106,10 +106,10 @@ pub struct LimitsObject {
     /// Half-angle of the cone that each rod may use at the platform, degrees.
     #[schema(exclusive_minimum = 0, maximum = 180)]
     pub platform_cone: f64,
-    /// Least cosine between a rod and its guideway.
+    /// Least cosine of the angle between a rod and its guideway.
     #[schema(minimum = 0, exclusive_maximum = 1)]
     pub serial_margin: f64,
-    /// Least parallel conditioning, in the sign it has at home.
+    /// Least parallel conditioning, with the sign that it has at home.
     #[schema(minimum = 0, exclusive_maximum = 1)]
     pub parallel_margin: f64,
     /// `[min, max]` of theta1, degrees.
@@ -118,13 +118,13 @@ pub struct LimitsObject {
     /// `[min, max]` of theta2, degrees.
     #[schema(inline)]
     pub rotary: Pair,
-    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
-    /// frame, mm. Left out: the table is not checked, unless a request says so.
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Without it, the service checks the table only if a request has a clearance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0, maximum = 1e6)]
     pub table_clearance: Option<f64>,
-    /// Axes of the slider cones in the base frame, for rod 11, rod 12, leg II and leg III, from slider to
-    /// platform, of any length. Left out: the rods' directions at home (x = y = alpha = 0).
+    /// Axes of the slider cones in the base frame, for rod 11, rod 12, leg II and leg III, from slider to platform, of
+    /// any length. The default is the directions of the rods at home (x = y = alpha = 0).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(inline)]
     pub slider_axes: Option<Axes>,

@@ -12,13 +12,13 @@ use super::machine::MachineObject;
 /// Name of the built-in reference machine, which a request means when it names none.
 pub(crate) const REFERENCE: &str = "verne";
 
-/// The machine that a question is about.
+/// The machine of a request.
 #[derive(Clone, Debug, ToSchema)]
 #[serde(untagged)]
 pub(crate) enum MachineRef {
     /// The name of a published machine; GET /machines lists them.
     Name(String),
-    /// A machine of one's own.
+    /// A custom machine.
     Whole(Box<MachineObject>),
 }
 

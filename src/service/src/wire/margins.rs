@@ -16,38 +16,39 @@ pub(crate) struct MarginsObject {
     /// `[rho - min, max - rho]` of each slider, mm.
     #[schema(inline)]
     stroke: PairPerSlider,
-    /// What each leg's length leaves for its drop along z, mm; a signed root.
+    /// Vertical extent that the length of each leg leaves, mm: the signed square root of the squared length minus the
+    /// squared horizontal distance.
     #[schema(inline)]
     leg_length: Triple,
-    /// Cosine between rod and guideway, less `serial_margin`.
+    /// Cosine of the angle between rod and guideway, minus `serial_margin`.
     #[schema(inline)]
     serial_singularity: PerRod,
-    /// Parallel conditioning in the sign it has at home, less `parallel_margin`.
+    /// Parallel conditioning, with the sign that it has at home, minus `parallel_margin`.
     parallel_singularity: f64,
-    /// `slider_cone` less the rod's angle from the cone's axis, degrees.
+    /// `slider_cone` minus the angle between the rod and the axis of the cone, degrees.
     #[schema(inline)]
     slider_joint: PerRod,
-    /// `platform_cone` less the rod's angle from the cone's axis, degrees.
+    /// `platform_cone` minus the angle between the rod and the axis of the cone, degrees.
     #[schema(inline)]
     platform_joint: PerRod,
     /// R1 cos alpha - r1, mm.
     rod_crossing: f64,
-    /// Least distance between the axes of two rods, less twice `rod_radius`, mm.
+    /// Least distance between the axes of two rods, minus twice `rod_radius`, mm.
     rod_interference: f64,
-    /// `[theta1 - min, max - theta1]`, degrees; where the table's angles are known.
+    /// `[theta1 - min, max - theta1]`, degrees. Only solutions with known table angles have it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(inline, nullable = false)]
     tilt: Option<Pair>,
-    /// `[theta2 - min, max - theta2]`, degrees; where the table's angles are known.
+    /// `[theta2 - min, max - theta2]`, degrees. Only solutions with known table angles have it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(inline, nullable = false)]
     rotary: Option<Pair>,
-    /// Height over the table, less `table_clearance`, of what is lowest: the tool's end or a joint of the platform.
-    /// Only where a clearance is set and theta1 is known.
+    /// Least height of the tool's end circle and the platform's joints over the table, minus `table_clearance`, mm.
+    /// Only solutions with a clearance and a known theta1 have it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     table_clearance: Option<Limit>,
-    /// The worst: the least margin as a fraction of its constraint's own range.
+    /// The worst margin: the least as a fraction of the range of its constraint.
     worst: Limit,
 }
 
@@ -72,15 +73,16 @@ impl MarginsObject {
     }
 }
 
-/// How a solution stands to singularities.
+/// Distance of a solution from singularities.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = Conditioning)]
 pub(crate) struct ConditioningObject {
     /// Determinant of the dimensionless parallel matrix; zero at a parallel singularity.
     det: f64,
-    /// Its condition number in the 2-norm; null where it is singular.
+    /// Condition number of this matrix in the 2-norm; null if the matrix is singular.
     condition_number: Option<f64>,
-    /// Cosine between each rod and its guideway, for the rods 11, 12, 21, 22, 31, 32; zero at a serial singularity.
+    /// Cosine of the angle between each rod and its guideway, for the rods 11, 12, 21, 22, 31, 32; zero at a serial
+    /// singularity.
     #[schema(inline)]
     serial: PerRod,
 }

@@ -18,47 +18,48 @@ fn reference() -> String {
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct FkQuery {
-    /// The machine's name (on the command line also the path of a machine object).
+    /// Name of the machine. On the command line it may also be the path of a machine file.
     #[serde(default = "reference")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
     pub machine: String,
-    /// The three sliders, mm.
+    /// Positions of the three sliders, mm.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false)]
     pub rho: ListedTriple,
-    /// Tilting angle of the table, degrees; together with theta2.
+    /// Tilting angle of the table, degrees. Needs theta2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -36000, maximum = 36000, nullable = false)]
     pub theta1: Option<f64>,
-    /// Rotary angle of the table, degrees; together with theta1.
+    /// Rotary angle of the table, degrees. Needs theta1.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -36000, maximum = 36000, nullable = false)]
     pub theta2: Option<f64>,
-    /// Distance from P to the tool's tip, mm.
+    /// Distance from P to the tool end, mm.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
-    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
-    /// frame, mm; needs theta1. Left out: the machine's own limit; without one the table is not checked.
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Needs theta1. The default is the limit of the machine; if the machine has none, the service
+    /// does not check the table.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Which solutions to answer.
+    /// Solutions to return.
     #[serde(default)]
     #[arg(long, default_value = "working")]
     pub solutions: Wanted,
-    /// Sorts by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2.
+    /// Sort the solutions by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
     pub near_joints: Option<ListedJoints>,
-    /// Sorts by distance from this platform pose: x,y,z or x,y,z,alpha.
+    /// Sort the solutions by distance from this platform pose: x,y,z or x,y,z,alpha.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
     pub near_pose: Option<ListedPose>,
@@ -69,65 +70,68 @@ pub(crate) struct FkQuery {
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct IkQuery {
-    /// The machine's name (on the command line also the path of a machine object).
+    /// Name of the machine. On the command line it may also be the path of a machine file.
     #[serde(default = "reference")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
     pub machine: String,
-    /// What x, y, z and the orientation describe.
+    /// Frame of x, y, z and the orientation.
     #[serde(default)]
     #[arg(long, default_value = "part")]
     pub frame: Frame,
-    /// mm.
+    /// x, mm.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -1e7, maximum = 1e7)]
     pub x: f64,
-    /// mm.
+    /// y, mm.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -1e7, maximum = 1e7)]
     pub y: f64,
-    /// mm; down in the base frame, up from the table in the part frame.
+    /// z, mm. It points down in the base frame and up from the table in the part frame.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -1e7, maximum = 1e7)]
     pub z: f64,
-    /// Inclination of the tool, degrees; only in `part`, there 0 unless `phi1` or `axis` is given.
+    /// Inclination of the tool, degrees. Only frame `part` has it. The default is 0, unless the request has `axis`.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -36000, maximum = 36000, nullable = false)]
     pub phi1: Option<f64>,
-    /// Azimuth of the tool, degrees; only in `part`, there 0 unless `phi2` or `axis` is given. Where the tool stands
-    /// along the table's own axis it is left open unless given, also beside `axis`: see `free` in the answer.
+    /// Azimuth of the tool, degrees. Only frame `part` has it. The default is 0, unless the request has `axis`. If the
+    /// tool is parallel to the table's own axis, phi2 is free unless the request sets it (see `free` in the answer); it
+    /// may then stand beside `axis`.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -36000, maximum = 36000, nullable = false)]
     pub phi2: Option<f64>,
-    /// Tool axis i,j,k in the table frame, from tip to holder; only in `part`, instead of phi1 and phi2.
+    /// Tool axis i,j,k in the part frame, from the tool end to the holder. Only frame `part` has it. It replaces phi1
+    /// and phi2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
     pub axis: Option<ListedTriple>,
-    /// Distance from P to the tool's tip, mm.
+    /// Distance from P to the tool end, mm.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
-    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
-    /// frame, mm; only in frame `part`. Left out: the machine's own limit; without one the table is not checked.
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Only frame `part` has it. The default is the limit of the machine; if the machine has none, the
+    /// service does not check the table.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Which solutions to answer.
+    /// Solutions to return.
     #[serde(default)]
     #[arg(long, default_value = "working")]
     pub solutions: Wanted,
-    /// Sorts by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2. theta1 and theta2 are
-    /// answered on the windings within their ranges that are nearest to these.
+    /// Sort the solutions by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2. theta1 and
+    /// theta2 of the solutions are on the windings within their ranges that are nearest to these.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
     pub near_joints: Option<ListedJoints>,
-    /// Sorts by distance from this platform pose: x,y,z or x,y,z,alpha.
+    /// Sort the solutions by distance from this platform pose: x,y,z or x,y,z,alpha.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
     pub near_pose: Option<ListedPose>,

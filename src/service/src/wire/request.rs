@@ -8,67 +8,69 @@ use super::machine_ref::MachineRef;
 use super::numbers::Triple;
 use super::object::{object, optional_object};
 
-/// Where are platform, tool and part for these joints?
+/// A request for the poses at given joints.
 #[derive(Clone, Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FkRequest {
-    /// The machine: a published name, or the whole object.
+    /// The machine: the name of a published machine, or a machine object.
     #[serde(default)]
     pub machine: MachineRef,
-    /// The sliders, and the table where a part pose is wanted.
+    /// The sliders, and the table if the answer should have poses in the part frame.
     #[serde(deserialize_with = "object")]
     pub joints: Joints,
-    /// Distance from P to the tool's tip, mm.
+    /// Distance from P to the tool end, mm.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
-    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
-    /// frame, mm; needs theta1. Left out: the machine's own limit; without one the table is not checked.
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Needs theta1. The default is the limit of the machine; if the machine has none, the service
+    /// does not check the table.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Which solutions to answer.
+    /// Solutions to return.
     #[serde(default)]
     pub solutions: Wanted,
-    /// Sorts the solutions by distance from here.
+    /// Sort the solutions by distance from these joints or this pose.
     #[serde(default, deserialize_with = "optional_object")]
     pub near: Option<Near>,
 }
 
-/// Which joints bring the machine to this pose?
+/// A request for the joints of a pose.
 #[derive(Clone, Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct IkRequest {
-    /// The machine: a published name, or the whole object.
+    /// The machine: the name of a published machine, or a machine object.
     #[serde(default)]
     pub machine: MachineRef,
-    /// What `pose` describes.
+    /// Frame of `pose`.
     #[serde(default)]
     pub frame: Frame,
     /// The pose.
     #[serde(deserialize_with = "object")]
     pub pose: TargetPose,
-    /// Distance from P to the tool's tip, mm.
+    /// Distance from P to the tool end, mm.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
-    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
-    /// frame, mm; only in frame `part`. Left out: the machine's own limit; without one the table is not checked.
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Only frame `part` has it. The default is the limit of the machine; if the machine has none, the
+    /// service does not check the table.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Which solutions to answer.
+    /// Solutions to return.
     #[serde(default)]
     pub solutions: Wanted,
-    /// Sorts the solutions by distance from here.
+    /// Sort the solutions by distance from these joints or this pose.
     #[serde(default, deserialize_with = "optional_object")]
     pub near: Option<Near>,
 }
@@ -80,52 +82,54 @@ pub(crate) struct Joints {
     /// The three sliders.
     #[schema(inline, example = json!([674, 685, 250]))]
     pub rho: Triple,
-    /// Tilting angle of the table; together with theta2.
+    /// Tilting angle of the table. Needs theta2.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = -36000, maximum = 36000)]
     pub theta1: Option<f64>,
-    /// Rotary angle of the table; together with theta1.
+    /// Rotary angle of the table. Needs theta1.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(minimum = -36000, maximum = 36000)]
     pub theta2: Option<f64>,
 }
 
-/// A pose in the frame of the question. In `part` it takes `phi1` and `phi2`, or `axis`.
+/// A pose in the frame of the request. In frame `part` it has `phi1` and `phi2`, or `axis`.
 #[derive(Clone, Copy, Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TargetPose {
-    /// mm.
+    /// x, mm.
     #[schema(minimum = -1e7, maximum = 1e7)]
     pub x: f64,
-    /// mm.
+    /// y, mm.
     #[schema(minimum = -1e7, maximum = 1e7)]
     pub y: f64,
-    /// mm; down in the base frame, up from the table in the part frame.
+    /// z, mm. It points down in the base frame and up from the table in the part frame.
     #[schema(minimum = -1e7, maximum = 1e7)]
     pub z: f64,
-    /// Inclination of the tool, degrees; only in `part`, there 0 unless `phi1` or `axis` is given.
+    /// Inclination of the tool, degrees. Only frame `part` has it. The default is 0, unless the request has `axis`.
     #[schema(minimum = -36000, maximum = 36000)]
     pub phi1: Option<f64>,
-    /// Azimuth of the tool, degrees; only in `part`, there 0 unless `phi2` or `axis` is given. Where the tool stands
-    /// along the table's own axis it is left open unless given, also beside `axis`: see `free` in the answer.
+    /// Azimuth of the tool, degrees. Only frame `part` has it. The default is 0, unless the request has `axis`. If the
+    /// tool is parallel to the table's own axis, phi2 is free unless the request sets it (see `free` in the answer); it
+    /// may then stand beside `axis`.
     #[schema(minimum = -36000, maximum = 36000)]
     pub phi2: Option<f64>,
-    /// Tool axis in the table frame, from tip to holder, of any length; only in `part`, instead of phi1 and phi2. An
-    /// axis within 1e-6 rad of the table's own is the table's own: phi2 is then free.
+    /// Tool axis in the part frame, from the tool end to the holder, of any length. Only frame `part` has it. It
+    /// replaces phi1 and phi2. The service treats an axis within 1e-6 rad of the table's own axis as the table's own;
+    /// phi2 is then free.
     #[schema(inline)]
     pub axis: Option<Triple>,
 }
 
-/// What a pose describes: `platform`, the platform's point P in the base frame; `tool`, the tool's tip in the base
-/// frame (alpha follows); `part` (default), the tool's tip and orientation in the table frame.
+/// Frame of a pose: `platform`, the platform's point P in the base frame; `tool`, the tool end in the base frame (alpha
+/// follows from the position); `part` (default), the tool end and the tool's orientation in the part frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Frame {
     /// The platform's point P in the base frame.
     Platform,
-    /// The tool's tip in the base frame; alpha follows.
+    /// The tool end in the base frame; alpha follows from the position.
     Tool,
-    /// The tool's tip and orientation in the table frame.
+    /// The tool end and the tool's orientation in the part frame.
     #[default]
     Part,
 }
@@ -133,35 +137,35 @@ pub(crate) enum Frame {
 impl Frame {
     /// Why there is no theta1, where there is none.
     pub(crate) fn without_tilt(self) -> Option<&'static str> {
-        (self != Self::Part).then_some("belongs to frame part")
+        (self != Self::Part).then_some("is allowed only in frame part")
     }
 }
 
-/// Which solutions to answer: `working` (default), those in the machine's own mode, feasible or not: nearly always one,
-/// several where the table is far from the platform; `feasible`, those of them that break no limit; `all`, every
+/// Solutions to return: `working` (default), the solutions in the working mode, feasible or not (nearly always one;
+/// several if the table is far from the platform); `feasible`, the working solutions that break no limit; `all`, every
 /// solution of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Wanted {
-    /// The machine's own mode, feasible or not.
+    /// Solutions in the working mode, feasible or not.
     #[default]
     Working,
-    /// Only what breaks no limit.
+    /// Working solutions that break no limit.
     Feasible,
     /// Every solution of the equations.
     All,
 }
 
-/// A place to sort by: joints, or a pose of the platform in the base frame.
+/// Reference for the order of the solutions: joints, or a pose of the platform in the base frame.
 #[derive(Clone, Copy, Debug, Deserialize, ToSchema)]
 #[serde(try_from = "NearFields")]
 #[schema(rename_all = "snake_case")]
 #[serde(untagged)]
 pub(crate) enum Near {
-    /// Distance of the joints; theta1 and theta2 count where both sides have them. /ik answers theta1 and theta2 on the
-    /// windings (by whole turns) within their ranges that are nearest to these.
+    /// Distance of the joints. theta1 and theta2 count if both sides have them. The theta1 and theta2 in an answer of
+    /// /ik are on the windings (by whole turns) within their ranges that are nearest to these.
     Joints(Joints),
-    /// Distance of the platform; alpha counts where it is given.
+    /// Distance of the platform. alpha counts if the request has it.
     Pose(NearPose),
 }
 
@@ -169,13 +173,13 @@ pub(crate) enum Near {
 #[derive(Clone, Copy, Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NearPose {
-    /// mm.
+    /// x, mm.
     pub x: f64,
-    /// mm.
+    /// y, mm.
     pub y: f64,
-    /// mm.
+    /// z, mm.
     pub z: f64,
-    /// Degrees.
+    /// alpha, degrees.
     pub alpha: Option<f64>,
 }
 

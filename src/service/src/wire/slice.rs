@@ -10,26 +10,26 @@ use super::numbers::{Exactly, Pair};
 use super::workspace::{CanonicalRequest, FrameName};
 use crate::result_id::ResultId;
 
-/// A workspace cut at one height.
+/// Slice of a workspace at one height.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = Slice)]
 pub(crate) struct SliceObject {
-    /// The workspace.
+    /// Id of the workspace.
     pub id: String,
     /// The frame of z and of the points.
     pub frame: FrameName,
     /// Height of the cut, mm.
     pub z: f64,
-    /// Greatest distance between polygon and true boundary, mm.
+    /// Greatest distance between the polygons and the true boundary, mm.
     pub tolerance: f64,
     /// Area of all polygons, mm².
     pub area: f64,
-    /// What was not checked.
+    /// Conditions that the service did not check.
     #[schema(value_type = Vec<Unchecked>)]
     pub not_checked: &'static [Unchecked],
-    /// The parts of the cut; none where the plane misses the workspace.
+    /// The polygons of the cut; none if the plane misses the workspace.
     pub polygons: Vec<PolygonObject>,
-    /// Lines of constant alpha within the cut; only where they were asked for.
+    /// Lines of constant alpha within the cut. Only answers to requests with `alpha` have them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub contours: Vec<ContourObject>,
 }
@@ -44,7 +44,7 @@ pub(crate) struct PolygonObject {
     /// Corners of each hole; clockwise.
     #[schema(inline)]
     pub holes: Vec<Vec<Pair>>,
-    /// Area less the holes', mm².
+    /// Area without the holes, mm².
     pub area: f64,
 }
 
@@ -52,7 +52,7 @@ pub(crate) struct PolygonObject {
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = AlphaLine)]
 pub(crate) struct ContourObject {
-    /// Degrees.
+    /// alpha, degrees.
     pub alpha: f64,
     /// [x, y] along the line, mm.
     #[schema(inline)]

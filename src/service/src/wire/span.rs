@@ -20,15 +20,15 @@ pub(crate) enum Span {
     Steps(Steps),
 }
 
-/// Equal steps: from, from + step, ... as long as `to` is not passed by more than a billionth of a step.
+/// Equal steps: from, from + step, ... up to `to`. The last number may exceed `to` by a billionth of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Steps {
     /// The first number.
     pub from: f64,
-    /// The bound of the last.
+    /// The upper bound.
     pub to: f64,
-    /// Greater than zero.
+    /// Step, greater than zero.
     #[schema(exclusive_minimum = 0)]
     pub step: f64,
 }

@@ -9,24 +9,24 @@ use super::degrees::from_degrees_of_turn;
 use super::limit::Unchecked;
 use super::machine_ref::MachineRef;
 
-/// Where can the machine go?
+/// A request for a workspace.
 #[derive(Clone, Debug)]
 pub(crate) struct WorkspaceRequest {
-    /// The machine: a published name, or the whole object.
+    /// The machine: the name of a published machine, or a machine object.
     pub machine: MachineRef,
-    /// Whose positions the workspace is made of.
+    /// Point and frame of the positions.
     pub kind: KindName,
-    /// Distance from P to the tool's tip, mm; without effect on `platform`.
+    /// Distance from P to the tool end, mm. Kind `platform` ignores it.
     pub tool_length: f64,
     /// Least height of the tool's end and of the platform's joints over the table, mm; only kind `part` has it.
     pub table_clearance: Option<f64>,
     /// Radius of the tool's end, mm; counts for `table_clearance` alone.
     pub tool_radius: f64,
-    /// Inclination of the tool in the table frame, degrees; only `part` depends on it.
+    /// Inclination of the tool in the part frame, degrees. Only kind `part` uses it.
     pub phi1: f64,
-    /// Azimuth of the tool in the table frame, degrees; only `part` depends on it.
+    /// Azimuth of the tool in the part frame, degrees. Only kind `part` uses it.
     pub phi2: f64,
-    /// Greatest distance between the mesh and the true surface, both ways, mm.
+    /// Greatest distance between the mesh and the true surface, in both directions, mm.
     pub tolerance: f64,
 }
 
@@ -35,9 +35,9 @@ pub(crate) fn default_tolerance() -> f64 {
     1.0
 }
 
-/// Whose positions a workspace is made of: `platform` (default), the platform's point P in the base frame; `tool`,
-/// the tool's tip in the base frame; `part`, the tool's tip in the table frame, for a fixed orientation of the tool
-/// there (with phi1 = phi2 = 0 the manufacturing workspace of the paper).
+/// Point and frame of a workspace's positions: `platform` (default), the platform's point P in the base frame; `tool`,
+/// the tool end in the base frame; `part`, the tool end in the part frame, for a fixed orientation of the tool in that
+/// frame (with phi1 = phi2 = 0 it is the manufacturing workspace of the paper).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = WorkspaceKind)]
@@ -45,9 +45,9 @@ pub(crate) enum KindName {
     /// The platform's point P in the base frame.
     #[default]
     Platform,
-    /// The tool's tip in the base frame.
+    /// The tool end in the base frame.
     Tool,
-    /// The tool's tip in the table frame, for a fixed orientation.
+    /// The tool end in the part frame, for a fixed orientation.
     Part,
 }
 
@@ -63,7 +63,7 @@ impl KindName {
 
     /// Why there is no theta1, where there is none.
     pub(crate) fn without_tilt(self) -> Option<&'static str> {
-        (self != Self::Part).then_some("belongs to kind part")
+        (self != Self::Part).then_some("is allowed only for kind part")
     }
 
     /// The frame of its positions.
@@ -75,7 +75,7 @@ impl KindName {
     }
 }
 
-/// A frame: `base`, z down; `part`, that of the table, z up.
+/// Frame: `base`, the base frame with z down; `part`, the part frame with z up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = WorkspaceFrame)]
@@ -86,32 +86,32 @@ pub(crate) enum FrameName {
     Part,
 }
 
-/// A request with its defaults filled in, and without the fields that have no effect.
+/// The request with its default values, without the fields that have no effect.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
 pub(crate) struct CanonicalRequest {
-    /// Whose positions.
+    /// Point and frame of the positions.
     pub kind: KindName,
-    /// mm; for `tool` and `part`.
+    /// Distance from P to the tool end, mm. Only kinds `tool` and `part` have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub tool_length: Option<f64>,
-    /// mm; for `part`, where the table is checked.
+    /// Table clearance, mm. Only kind `part` with a table check has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub table_clearance: Option<f64>,
-    /// mm; for `part`, where the table is checked.
+    /// Tool radius, mm. Only kind `part` with a table check has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub tool_radius: Option<f64>,
-    /// Degrees; for `part`.
+    /// Inclination of the tool, degrees. Only kind `part` has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub phi1: Option<f64>,
-    /// Degrees; for `part`.
+    /// Azimuth of the tool, degrees. Only kind `part` has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub phi2: Option<f64>,
-    /// mm.
+    /// Tolerance, mm.
     pub tolerance: f64,
 }
 

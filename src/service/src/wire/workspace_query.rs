@@ -18,46 +18,47 @@ fn reference() -> String {
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct WorkspaceQuery {
-    /// The machine's name (on the command line also the path of a machine object).
+    /// Name of the machine. On the command line it may also be the path of a machine file.
     #[serde(default = "reference")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
     pub machine: String,
-    /// Whose positions the workspace is made of.
+    /// Point and frame of the positions.
     #[serde(default)]
     #[arg(long, default_value = "platform")]
     pub kind: KindName,
-    /// Distance from P to the tool's tip, mm; without effect on `platform`.
+    /// Distance from P to the tool end, mm. Kind `platform` ignores it.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
-    /// Least height of the tool's end and of the platform's six joints over the table, the plane Z = 0 of the part
-    /// frame, mm; only kind `part` has it. Left out: the machine's own limit; without one the table is not checked.
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Only kind `part` has it. The default is the limit of the machine; if the machine has none, the
+    /// service does not check the table.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, a circle perpendicular to its axis, mm; counts for `table_clearance` alone.
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Inclination of the tool in the table frame, degrees; only `part` depends on it.
+    /// Inclination of the tool in the part frame, degrees. Only kind `part` uses it.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = -36000, maximum = 36000, default = 0.0)]
     pub phi1: f64,
-    /// Azimuth of the tool in the table frame, degrees; only `part` depends on it.
+    /// Azimuth of the tool in the part frame, degrees. Only kind `part` uses it.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = -36000, maximum = 36000, default = 0.0)]
     pub phi2: f64,
-    /// Greatest distance between the mesh and the true surface, both ways, mm.
+    /// Greatest distance between the mesh and the true surface, in both directions, mm.
     #[serde(default = "default_tolerance")]
     #[arg(long, default_value_t = 1.0, allow_hyphen_values = true)]
     #[param(minimum = 0.01, maximum = 1000, default = 1.0)]
     pub tolerance: f64,
-    /// The mesh in this format instead of the summary, whatever Accept says.
+    /// Return the mesh in this format instead of the summary. It overrides Accept.
     #[arg(skip)]
     #[param(inline, nullable = false)]
     pub format: Option<MeshFormat>,
@@ -87,7 +88,7 @@ impl WorkspaceQuery {
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct MeshQuery {
-    /// The mesh in this format, whatever Accept says.
+    /// Return the mesh in this format. It overrides Accept.
     #[param(inline, nullable = false)]
     pub format: Option<MeshFormat>,
 }
@@ -97,15 +98,15 @@ pub(crate) struct MeshQuery {
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct SliceQuery {
-    /// Height of the cut in the workspace's frame, mm.
+    /// Height of the cut in the frame of the workspace, mm.
     #[param(minimum = -1e7, maximum = 1e7)]
     pub z: f64,
-    /// Lines of constant alpha within the cut: `true` for every five degrees, or the angles in degrees, separated by
+    /// Lines of constant alpha within the cut: `true` for a line every five degrees, or angles in degrees, separated by
     /// commas.
     #[serde(default)]
     #[param(inline, explode = false)]
     pub alpha: Alphas,
-    /// The slice in this format, whatever Accept says.
+    /// Return the slice in this format. It overrides Accept.
     #[param(inline, nullable = false)]
     pub format: Option<SliceFormat>,
 }

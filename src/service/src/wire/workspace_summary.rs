@@ -9,20 +9,20 @@ use super::numbers::Triple;
 use super::workspace::{CanonicalRequest, FrameName, KindName};
 use crate::result_id::ResultId;
 
-/// A workspace in figures.
+/// Summary of a workspace.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct WorkspaceSummary {
-    /// BLAKE3 of the request, the machine and the solver's version: equal questions have equal ids.
+    /// BLAKE3 hash of the request, the machine and the solver's version. Equal requests have equal ids.
     pub id: String,
-    /// Whose positions.
+    /// Point and frame of the positions.
     pub kind: KindName,
     /// The frame of bounds, mesh and slices.
     pub frame: FrameName,
-    /// The request with its defaults, without the fields that have no effect on this kind.
+    /// The request with its default values, without the fields that have no effect on this kind.
     pub request: CanonicalRequest,
     /// The machine.
     pub machine: MachineId,
-    /// Volume, mm³, by integration and not from the mesh; null where the workspace folds.
+    /// Volume, mm³; null if the workspace folds. The service integrates it and does not use the mesh.
     pub volume: Option<f64>,
     /// The true volume lies within `volume` ± this, mm³.
     pub volume_error: Option<f64>,
@@ -30,30 +30,32 @@ pub(crate) struct WorkspaceSummary {
     pub area: f64,
     /// The true area lies within `area` ± this, mm².
     pub area_error: f64,
-    /// The mesh's least and greatest coordinates, within the tolerance of the true ones; null where it has no triangles.
+    /// Least and greatest coordinates of the mesh, within the tolerance of the true ones; null if the mesh has no
+    /// triangles.
     pub bounds: Option<BoundsObject>,
     /// Vertices of the mesh.
     pub vertices: usize,
     /// Triangles of the mesh.
     pub triangles: usize,
-    /// Whether some positions are reached from two platform positions. Found where the map's Jacobian determinant has
-    /// both signs, and where one of 2,000 points spread evenly over the workspace has two feasible inverse solutions:
-    /// a doubly covered part of less than about 0.15 % of the workspace may be missed. Where a second working
-    /// solution exists that is not feasible, 20,000 points are looked at, and `volume_error` includes what may have
-    /// been missed.
+    /// Whether two platform positions reach the same position of the workspace. The service detects this if the map's
+    /// Jacobian determinant has both signs, or if one of 2,000 points spread evenly over the workspace has two feasible
+    /// inverse solutions. It may miss a doubly covered part of less than about 0.15 % of the workspace. If a second
+    /// working solution exists that is not feasible, the service tests 20,000 points, and `volume_error` includes the
+    /// part that it may have missed.
     pub folded: bool,
-    /// What was not checked.
+    /// Conditions that the service did not check.
     #[schema(value_type = Vec<Unchecked>)]
     pub not_checked: &'static [Unchecked],
-    /// Why there is no volume, or why there are no triangles though the area is not zero; else absent.
+    /// The reason why there is no volume, or why there are no triangles although the area is not zero; otherwise
+    /// missing.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, value_type = String)]
     pub explanation: Option<&'static str>,
-    /// Where the results are.
+    /// Paths of the results.
     pub links: Links,
 }
 
-/// A box along the axes, mm.
+/// Box parallel to the axes, mm.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
 #[schema(as = Bounds)]
 pub(crate) struct BoundsObject {
