@@ -19,6 +19,20 @@ async fn the_committed_document_is_the_generated_one() {
     );
 }
 
+#[test]
+fn the_api_guide_lists_every_problem_code_as_the_service_does() {
+    let document = verne_service::app::document();
+    let description = document["info"]["description"].as_str().unwrap();
+    let generated: Vec<_> = description.lines().filter(|line| line.starts_with('|')).collect();
+    let guide = include_str!("../../docs/api.md");
+    let after_begin = guide.split_once("<!-- codes: begin -->\n").unwrap().1;
+    let committed: Vec<_> = after_begin.split_once("<!-- codes: end -->").unwrap().0.lines().collect();
+    assert_eq!(
+        committed, generated,
+        "the table of codes in docs/api.md is stale; its last section says how to renew it"
+    );
+}
+
 #[tokio::test]
 async fn every_example_gets_its_documented_answer() {
     let document = get("/openapi.json").await.json;
