@@ -32,7 +32,29 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// The clearance that a question asks for, or else the machine's; `None` where neither has one.
+    /// Takes the least height `asked` by the caller, or else the machine's. The answer is `None` if neither is given:
+    /// the table
+    /// is then no limit.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): the height follows from Eqs
+    /// (7) and (26); the limit itself is not in the paper.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Clearance, Machine};
+    ///
+    /// let machine = Machine::verne();
+    /// assert!(Clearance::of(&machine, None, 150.0, 5.0).is_none());
+    /// let clearance = Clearance::of(&machine, Some(2.0), 150.0, 5.0);
+    /// assert_eq!(clearance.map(|clearance| clearance.least), Some(2.0));
+    /// ```
     pub fn of(machine: &Machine, asked: Option<f64>, tool_length: f64, tool_radius: f64) -> Option<Self> {
         let least = asked.or(machine.limits().table_clearance)?;
         Some(Self { least, tool_length, tool_radius })
