@@ -144,8 +144,35 @@ pub(crate) struct Derived {
 }
 
 impl Machine {
-    /// Checks the numbers and derives what the formulas need. The error lists every fault found,
-    /// each with its field.
+    /// Checks the numbers and derives from them what the formulas need.
+    ///
+    /// # Units
+    ///
+    /// Lengths are millimetres, angles radians.
+    ///
+    /// # Errors
+    ///
+    /// Every fault found, each with the path of its field, such as `limits/stroke/0`. A machine needs finite numbers,
+    /// positive
+    /// lengths, ordered ranges, D1 - d1 different from D2 - d2, R1 greater than r1, and a home posture in the working
+    /// mode away from
+    /// parallel singularity.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(7), Fig. 3; the
+    /// conditions e1 ≠ e2 and R1 ≠ r1 stem from the elimination (see the crate's documentation).
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    ///
+    /// let mut data = Machine::verne().data().clone();
+    /// data.geometry.L1 = -1.0;
+    /// let faults = Machine::new(data).unwrap_err();
+    /// assert!(faults.iter().any(|fault| fault.field == "geometry/L1"));
+    /// ```
     pub fn new(data: MachineData) -> Result<Self, Vec<MachineFault>> {
         let faults = validate::faults(&data);
         if !faults.is_empty() {
@@ -160,17 +187,42 @@ impl Machine {
     }
 
     /// The data the machine was made from.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    ///
+    /// let data = Machine::verne().data().clone();
+    /// assert_eq!(Machine::new(data), Ok(Machine::verne()));
+    /// ```
     pub fn data(&self) -> &MachineData {
         &self.data
     }
 
-    /// The machine's name.
+    /// The machine's name, as requests use it.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// assert_eq!(verne_solver::Machine::verne().name(), "verne");
+    /// ```
     pub fn name(&self) -> &str {
         &self.data.name
     }
 
-    /// The longest dimension that the equations hold, mm: lengths in questions may be up to
+    /// The longest dimension that occurs in the equations. A length in a request may be up to
     /// [`MOST_RATIO`](crate::MOST_RATIO) times as long.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// assert_eq!(verne_solver::Machine::verne().longest(), 1050.0, "a rod");
+    /// ```
     pub fn longest(&self) -> f64 {
         self.derived.scale
     }

@@ -46,8 +46,30 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// The margins of a posture, with the table's ranges where it takes part. The table's plane is not
-    /// among them: see [`Self::above_table`].
+    /// Computes the margins of a posture. With `table` they include the ranges of theta1 and theta2. The height over
+    /// the
+    /// table's plane is not among them: see [`Self::above_table`].
+    ///
+    /// # Units
+    ///
+    /// Each field of [`Margins`] states its unit: mm, rad, or none.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): section IV.A.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Machine, Margins, Refusal, platform_working};
+    ///
+    /// let machine = Machine::verne();
+    /// let posture = platform_working(&machine, [0.0, 0.0, 1200.0])?;
+    /// let margins = Margins::of(&machine, &posture, None);
+    /// assert_eq!(margins.stroke[0][0], posture.rho[0], "the first slider's stroke begins at 0");
+    /// assert!(margins.feasible() && margins.tilt.is_none());
+    /// # Ok::<(), Refusal>(())
+    /// ```
     pub fn of(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Self {
         Self::of_solution(machine, &posture.pose, posture.rho, table)
     }
@@ -84,8 +106,31 @@ impl Margins {
         }
     }
 
-    /// The same with the margin of the table's plane, where there is a clearance to keep and the table
-    /// takes part.
+    /// Computes the same margins and, if `table` and `clearance` are given, that of the height over the table's plane.
+    ///
+    /// # Units
+    ///
+    /// Each field of [`Margins`] states its unit: mm, rad, or none.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): section IV.A and Eq (26); the
+    /// paper has no limit for the table's plane.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Clearance, Machine, Margins, Refusal, platform_working, table_angles};
+    ///
+    /// let machine = Machine::verne();
+    /// let posture = platform_working(&machine, [0.0, 0.0, 1200.0])?;
+    /// let table = table_angles(&machine, posture.pose.alpha, 0.0, 0.0);
+    /// let clearance = Clearance::of(&machine, Some(2.0), 150.0, 5.0);
+    /// let margins = Margins::above_table(&machine, &posture, Some(table), clearance.as_ref());
+    /// // P is 1500 - 1200 + 200 over the plane, the tool's end 150 lower, and 2 are kept.
+    /// assert_eq!(margins.table_clearance.map(|margin| margin.value.round()), Some(348.0));
+    /// # Ok::<(), Refusal>(())
+    /// ```
     pub fn above_table(
         machine: &Machine,
         posture: &Posture,
@@ -98,6 +143,21 @@ impl Margins {
     }
 
     /// Whether every margin is at least zero.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): section IV.A.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Machine, Margins, Refusal, platform_working};
+    ///
+    /// let machine = Machine::verne();
+    /// let posture = platform_working(&machine, [0.0, 0.0, 600.0])?;
+    /// assert!(!Margins::of(&machine, &posture, None).feasible(), "the sliders would be above their strokes");
+    /// # Ok::<(), Refusal>(())
+    /// ```
     pub fn feasible(&self) -> bool {
         let inside = |ends: &[f64; 2]| ends[0] >= 0.0 && ends[1] >= 0.0;
         let all = |margins: &[f64]| margins.iter().all(|margin| *margin >= 0.0);

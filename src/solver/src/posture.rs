@@ -22,6 +22,17 @@ impl Side {
     }
 
     /// +1 for above, -1 for below.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): the signs of the roots for
+    /// legs I, II and III in section III.C.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// assert_eq!(verne_solver::Side::Below.sign(), -1.0);
+    /// ```
     pub fn sign(self) -> f64 {
         match self {
             Self::Above => 1.0,

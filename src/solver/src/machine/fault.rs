@@ -13,6 +13,15 @@ pub struct MachineFault {
 
 impl MachineFault {
     /// A fault of one field.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::MachineFault;
+    ///
+    /// let fault = MachineFault::new("table/da", "must be finite");
+    /// assert_eq!(fault.to_string(), "table/da: must be finite");
+    /// ```
     pub fn new(field: impl Into<String>, detail: impl Into<String>) -> Self {
         Self { field: field.into(), detail: detail.into() }
     }

@@ -134,8 +134,31 @@ impl Worst {
 }
 
 impl Margins {
-    /// The worst margin: the least one as a fraction of its constraint's own range (stroke, rod
-    /// length, cone half-angle, value at home, ...), so that lengths and angles compare.
+    /// Finds the worst margin. Margins are compared as fractions of their constraint's own range (stroke, rod length,
+    /// cone
+    /// half-angle, value at home, ...), so that lengths and angles compare.
+    ///
+    /// # Units
+    ///
+    /// `value` of the answer has the unit of its constraint: mm, rad, or none.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): section IV.A; the comparison
+    /// is ours.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Constraint, Machine, Margins, Refusal, platform_working};
+    ///
+    /// let machine = Machine::verne();
+    /// let posture = platform_working(&machine, [0.0, 0.0, 600.0])?;
+    /// let worst = Margins::of(&machine, &posture, None).worst(&machine);
+    /// assert_eq!(worst.constraint, Constraint::Stroke);
+    /// assert!(worst.value < 0.0);
+    /// # Ok::<(), Refusal>(())
+    /// ```
     pub fn worst(&self, machine: &Machine) -> Margin {
         self.weighed(machine).0
     }

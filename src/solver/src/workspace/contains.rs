@@ -28,7 +28,49 @@ pub struct Membership {
     pub margin: Option<Margin>,
 }
 
-/// Whether each point, in the frame of the request's kind, belongs to the workspace; in order.
+/// Decides for each point, in the frame of the request's kind, whether it belongs to the workspace. The answers have
+/// the
+/// order of the points.
+///
+/// The function solves the inverse problem and reads the margins. It uses no mesh, and folds do not matter to it. A
+/// point
+/// that the solver refuses is outside; it is not an error.
+///
+/// # Units
+///
+/// Points are millimetres. A margin has the unit of its constraint: mm, rad, or none.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
+///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (15), (26), (27), constraints
+/// of section IV.A.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, contains};
+///
+/// let request = Request {
+///     kind: Kind::Platform,
+///     tool_length: 0.0,
+///     phi1: 0.0,
+///     phi2: 0.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     tolerance: 20.0,
+/// };
+/// let points = [[0.0, 0.0, 1200.0], [0.0, 0.0, 600.0]];
+/// let members = contains(&Machine::verne(), &request, &points, &Unobserved)?;
+/// assert!(members[0].inside && !members[1].inside);
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn contains(
     machine: &Machine,
     request: &Request,

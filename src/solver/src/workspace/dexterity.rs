@@ -71,10 +71,52 @@ pub struct Dexterity {
     pub dexterous: Region,
 }
 
-/// The inclinations at the nodes of a grid over all that is reachable, and the two regions.
+/// Computes the intervals of phi1 at the nodes of a grid over all reachable points, and two regions: what some phi1 of
+/// the
+/// range reaches, and what every phi1 of the range reaches.
 ///
-/// It is [`grid`](Grid::new), [`slab`] for all of the grid's layers, [`volumes`] and [`merge`]: the
-/// same whatever slabs it is cut into and on however many threads.
+/// It is [`grid`](Grid::new), [`slab`] for all of the grid's layers, [`volumes`] and [`merge`]. The answer does not
+/// depend
+/// on how the grid is cut into slabs, nor on the number of threads.
+///
+/// # Units
+///
+/// Millimetres, mm³ and radians.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN), the range of phi1 is
+///   not ordered or longer than a revolution, or the cell is below 0.1 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+/// - [`WorkspaceError::TooManyNodes`]: the grid would have more nodes than [`MOST_NODES`](MOST_NODES).
+/// - [`WorkspaceError::Open`]: a region's surface could not be closed.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), (27); the
+/// intervals are derived in the [workspace documentation](crate::workspace).
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::dexterity::{DexterityRequest, dexterity};
+/// use verne_solver::workspace::{Unobserved, WorkspaceError};
+///
+/// let request = DexterityRequest {
+///     tool_length: 150.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     phi2: 0.0,
+///     phi1: [-0.5, 0.5],
+///     cell: 200.0,
+/// };
+/// let machine = Machine::verne();
+/// let map = dexterity(&machine, &request, &Unobserved)?;
+/// assert_eq!(map.offsets.len(), map.grid.nodes() + 1);
+/// assert!(map.intervals.iter().all(|[from, to]| -0.5 <= *from && from <= to && *to <= 0.5));
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn dexterity(
     machine: &Machine,
     request: &DexterityRequest,

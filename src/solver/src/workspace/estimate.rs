@@ -18,12 +18,45 @@ const MOST_LOOKS: usize = 100_000;
 /// First tolerance, as a part of the workspace's greatest possible size.
 const COARSE: f64 = 0.02;
 
-/// About how many triangles [`surface`](super::surface) makes; where they are few, the number before short edges are
-/// contracted. It takes the time of some thousand triangles. Where that is not enough, the number is a guess.
+/// Estimates how many triangles [`surface`](super::surface()) makes. If they are few, it is the number before short
+/// edges are
+/// contracted. The estimate takes about as long as some thousand triangles. If that does not suffice, the number is a
+/// guess.
 ///
-/// The domain is traced at tolerances that are too coarse, ever finer, until there are enough triangles. From there their
-/// number grows as 1/tolerance: curved sheets and walls along which columns turn need so many. The chords of a curve
-/// grow as the root only, so the estimate is rather too high.
+/// The function traces the domain at tolerances that are too coarse, ever finer, until there are enough triangles. From
+/// there their number grows as 1/tolerance: curved sheets and walls along which columns turn need so many. The chords
+/// of a
+/// curve grow only as the root of it, so the estimate is rather too high.
+///
+/// # Units
+///
+/// The request's tolerance is in mm.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
+///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, expected_triangles};
+///
+/// let request = Request {
+///     kind: Kind::Platform,
+///     tool_length: 0.0,
+///     phi1: 0.0,
+///     phi2: 0.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     tolerance: 20.0,
+/// };
+/// let count = expected_triangles(&Machine::verne(), &request, &Unobserved)?;
+/// assert!(count > 100.0 && count < 10_000.0, "{count}");
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn expected_triangles(
     machine: &Machine,
     request: &Request,

@@ -54,13 +54,48 @@ pub struct Measure {
     pub inclination: Option<f64>,
 }
 
-/// Volume and area of the workspace, with bounds of their errors: relative 1e-6 or better as a rule.
+/// Computes the volume and the area of a workspace, with errors: as a rule 1e-6 of the value or better.
 ///
-/// Where so much of the domain's boundary cannot be decided at reasonable cost that a part of the
-/// domain might be missed, the errors include it: the undecided area, and it times a bound of the
-/// columns' volume. The quadrature's own errors are estimated by refinement.
+/// The error consists of the area, and a bound of the volume, of the boxes that the cover leaves undecided, of the
+/// places of
+/// structural changes, and of four times the quadrature's estimate. The last is an estimate, not a bound; the
+/// [module's documentation](super) lists what is proved. The request's tolerance has no effect.
 ///
-/// The tolerance of the request is without effect: it belongs to surfaces and slices.
+/// # Units
+///
+/// mm², mm³; the inclination is in radians.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
+///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (26) and (27) as maps,
+/// constraints of section IV.A; the integral over columns is ours.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, Volume, measure};
+///
+/// let request = Request {
+///     kind: Kind::Platform,
+///     tool_length: 0.0,
+///     phi1: 0.0,
+///     phi2: 0.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     tolerance: 20.0,
+/// };
+/// let measured = measure(&Machine::verne(), &request, &Unobserved)?;
+/// let Volume::Value { value, error } = measured.volume else { panic!("the platform's map does not fold") };
+/// assert!((value - 2.336_92e8).abs() < 1e3 && error < 1e-6 * value);
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn measure(
     machine: &Machine,
     request: &Request,
@@ -79,7 +114,26 @@ pub fn measure(
 }
 
 impl Measure {
-    /// Whether the map folds.
+    /// Whether the map folds; see [`Volume::Folded`] for what is detected.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, measure};
+    ///
+    /// let request = Request {
+    ///     kind: Kind::Platform,
+    ///     tool_length: 0.0,
+    ///     phi1: 0.0,
+    ///     phi2: 0.0,
+    ///     table_clearance: None,
+    ///     tool_radius: 0.0,
+    ///     tolerance: 20.0,
+    /// };
+    /// assert!(!measure(&Machine::verne(), &request, &Unobserved)?.folded());
+    /// # Ok::<(), WorkspaceError>(())
+    /// ```
     pub fn folded(&self) -> bool {
         self.volume == Volume::Folded
     }

@@ -30,8 +30,47 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid over all that is reachable, with nodes beyond it on each side;
-    /// [`WorkspaceError::TooManyNodes`] before any work on the nodes.
+    /// Places the grid over all reachable points, with at least one layer of nodes beyond them on each side. The extent
+    /// is
+    /// found from sections along x; it is generous, not exact.
+    ///
+    /// # Units
+    ///
+    /// Millimetres and radians.
+    ///
+    /// # Errors
+    ///
+    /// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN), the range of phi1
+    ///   is not ordered or longer than a revolution, or the cell is below 0.1 mm.
+    /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+    /// - [`WorkspaceError::TooManyNodes`]: the grid would have more nodes than
+    ///   [`MOST_NODES`](super::dexterity::MOST_NODES). No node has been computed then.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), (27); the
+    /// intervals are derived in the [workspace documentation](crate::workspace).
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    /// use verne_solver::workspace::dexterity::{DexterityRequest, Grid};
+    /// use verne_solver::workspace::{Unobserved, WorkspaceError};
+    ///
+    /// let request = DexterityRequest {
+    ///     tool_length: 150.0,
+    ///     table_clearance: None,
+    ///     tool_radius: 0.0,
+    ///     phi2: 0.0,
+    ///     phi1: [-0.5, 0.5],
+    ///     cell: 200.0,
+    /// };
+    /// let machine = Machine::verne();
+    /// let grid = Grid::new(&machine, &request, &Unobserved)?;
+    /// assert!(grid.nodes() > 0);
+    /// # Ok::<(), WorkspaceError>(())
+    /// ```
     pub fn new(
         machine: &Machine,
         request: &DexterityRequest,
@@ -54,17 +93,53 @@ impl Grid {
         Ok(Self { origin: first.map(|n| n * step), step, counts: counts.map(whole), turn })
     }
 
-    /// Number of nodes.
+    /// The number of nodes.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::workspace::dexterity::Grid;
+    ///
+    /// let grid = Grid { origin: [0.0; 3], step: 10.0, counts: [2, 3, 4], turn: 0.0 };
+    /// assert_eq!(grid.nodes(), 24);
+    /// ```
     pub fn nodes(&self) -> usize {
         self.counts.iter().map(|&count| count as usize).product()
     }
 
-    /// A node's position in the turned frame, mm.
+    /// A node's position in the turned frame.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::workspace::dexterity::Grid;
+    ///
+    /// let grid = Grid { origin: [0.0, 5.0, 0.0], step: 10.0, counts: [2, 3, 4], turn: 0.0 };
+    /// assert_eq!(grid.node([1, 2, 3]), [10.0, 25.0, 30.0]);
+    /// ```
     pub fn node(&self, number: [u32; 3]) -> Point {
         [0, 1, 2].map(|axis| self.origin[axis] + self.step * f64::from(number[axis]))
     }
 
-    /// A point of the turned frame in the part frame.
+    /// Turns a point of the turned frame into the part frame: about Z by phi2.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::workspace::dexterity::Grid;
+    ///
+    /// let grid = Grid { origin: [0.0; 3], step: 10.0, counts: [2, 3, 4], turn: std::f64::consts::FRAC_PI_2 };
+    /// let [x, y, z] = grid.in_part_frame([1.0, 0.0, 7.0]);
+    /// assert!(x.abs() < 1e-15 && y == 1.0 && z == 7.0);
+    /// ```
     pub fn in_part_frame(&self, [x, y, z]: Point) -> Point {
         let (s, c) = self.turn.sin_cos();
         [x * c - y * s, x * s + y * c, z]

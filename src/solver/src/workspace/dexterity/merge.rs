@@ -7,8 +7,43 @@ use super::region::{Region, triangles};
 use super::slab::{Crossing, Slab};
 use super::{Dexterity, DexterityRequest, Grid};
 
-/// Slabs that cover the grid, in any order, and the volumes made the answer;
-/// [`WorkspaceError::Open`] if a layer is missing or there twice.
+/// Joins slabs that cover the grid, in any order, and the two volumes to the answer of
+/// [`dexterity`](super::dexterity()).
+///
+/// # Units
+///
+/// Millimetres, mm³ and radians.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::Open`]: a layer is missing or given twice, or a region's surface could not be closed.
+/// - [`WorkspaceError::TooFine`]: there are more intervals than 32 bits can number.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::dexterity::{DexterityRequest, Grid, dexterity, merge, slab, volumes};
+/// use verne_solver::workspace::{Unobserved, WorkspaceError};
+///
+/// let request = DexterityRequest {
+///     tool_length: 150.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     phi2: 0.0,
+///     phi1: [-0.5, 0.5],
+///     cell: 200.0,
+/// };
+/// let machine = Machine::verne();
+/// let grid = Grid::new(&machine, &request, &Unobserved)?;
+/// let part = |layers| slab(&machine, &request, &grid, layers, &Unobserved);
+/// let parts = vec![part(2..grid.counts[0])?, part(0..2)?];
+/// let volumes = volumes(&machine, &request, &Unobserved)?;
+/// let merged = merge(&request, &grid, parts, volumes, &Unobserved)?;
+/// assert_eq!(merged, dexterity(&machine, &request, &Unobserved)?);
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn merge(
     request: &DexterityRequest,
     grid: &Grid,

@@ -43,8 +43,46 @@ pub(super) struct Row {
     pub(super) inside: Vec<[bool; 2]>,
 }
 
-/// The layers of a grid with these numbers. What is computed of a layer does not depend on which
-/// others belong to the slab.
+/// Computes some layers of a grid. A layer's result does not depend on which other layers belong to the slab. Layers
+/// beyond
+/// the grid are left out.
+///
+/// # Units
+///
+/// Millimetres and radians.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN), the range of phi1 is
+///   not ordered or longer than a revolution, or the cell is below 0.1 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), (27); the
+/// intervals are derived in the [workspace documentation](crate::workspace).
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::dexterity::{DexterityRequest, Grid, slab};
+/// use verne_solver::workspace::{Unobserved, WorkspaceError};
+///
+/// let request = DexterityRequest {
+///     tool_length: 150.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     phi2: 0.0,
+///     phi1: [-0.5, 0.5],
+///     cell: 200.0,
+/// };
+/// let machine = Machine::verne();
+/// let grid = Grid::new(&machine, &request, &Unobserved)?;
+/// let part = slab(&machine, &request, &grid, 0..2, &Unobserved)?;
+/// assert_eq!(part.counts.len(), 2 * (grid.counts[1] * grid.counts[2]) as usize);
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn slab(
     machine: &Machine,
     request: &DexterityRequest,

@@ -26,10 +26,52 @@ const SAFETY: f64 = 2.0;
 /// Halvings of the place where the set begins or ends along x.
 const HALVINGS: u32 = 40;
 
-/// Volumes of what is reachable and of what is dexterous, with bounds of their errors.
+/// Computes the volumes of what some phi1 of the range reaches and of what every phi1 of the range reaches. The errors
+/// are
+/// twice the quadrature's estimates, not bounds.
 ///
-/// A region narrower than a hundredth of the machine along x may be missed.
-/// [`Volume::Folded`] where the part's map folds.
+/// A region narrower than a hundredth of the machine along x may be missed. The answer is [`Volume::Folded`] if the
+/// part's
+/// map may fold.
+///
+/// # Units
+///
+/// mm³.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN), the range of phi1 is
+///   not ordered or longer than a revolution, or the cell is below 0.1 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), (27); the
+/// intervals are derived in the [workspace documentation](crate::workspace).
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::dexterity::{DexterityRequest, volumes};
+/// use verne_solver::workspace::{Unobserved, WorkspaceError};
+///
+/// let request = DexterityRequest {
+///     tool_length: 150.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     phi2: 0.0,
+///     phi1: [-0.5, 0.5],
+///     cell: 200.0,
+/// };
+/// let machine = Machine::verne();
+/// use verne_solver::workspace::Volume;
+///
+/// let [some, all] = volumes(&machine, &request, &Unobserved)?;
+/// let value = |volume| if let Volume::Value { value, .. } = volume { value } else { f64::NAN };
+/// assert!(value(all) < value(some));
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn volumes(
     machine: &Machine,
     request: &DexterityRequest,
