@@ -24,15 +24,51 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// True if the surface has an inside everywhere: no rim, two triangles at each edge and these facing one
-    /// way.
+    /// Whether the surface separates an inside from an outside everywhere: every edge has two triangles, and these face
+    /// the same way.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// assert!(mesh.audit().is_watertight());
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn is_watertight(&self) -> bool {
         self.boundary_edges == 0 && self.non_manifold_edges == 0 && self.inconsistent_edges == 0
     }
 }
 
 impl Mesh {
-    /// Examines the mesh. All figures are of the indices, except the degenerate triangles.
+    /// Examines the mesh. All counts follow from the indices, except that of degenerate triangles, which needs
+    /// coordinates.
+    ///
+    /// # References
+    ///
+    /// Euler's polyhedron formula: vertices - edges + triangles = 2 for a sphere, 0 for a torus.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// let audit = mesh.audit();
+    /// assert_eq!((audit.boundary_edges, audit.components, audit.euler_characteristic), (0, 1, 2));
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn audit(&self) -> Audit {
         let mut audit = Audit::default();
         let mut pieces = Forest::new(self.corner_count() / 3);

@@ -33,7 +33,45 @@ pub struct Options {
     pub extras: Value,
 }
 
-/// Writes the mesh as a GLB; an empty one as a scene without nodes, since glTF knows no empty buffers.
+/// Writes the mesh as a GLB. An empty mesh becomes a scene without nodes, because glTF has no empty buffers.
+///
+/// # Units
+///
+/// The mesh is in millimetres; the file is in metres with Y up. `options.crease` is in radians.
+///
+/// # Errors
+///
+/// - The error of `out`.
+/// - [`io::ErrorKind::FileTooLarge`]: the file would be longer than 4 GiB.
+///
+/// # References
+///
+/// [glTF 2.0](https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html), section 4: the GLB container.
+///
+/// # Examples
+///
+/// ```
+/// # use verne_mesh::{Mesh, MeshFault, Swatch};
+/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+/// # }
+/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+/// use verne_mesh::glb::{self, Options, Up};
+///
+/// let options = Options {
+///     name: "tetrahedron".to_owned(),
+///     up: Up::NegativeZ,
+///     crease: 0.7,
+///     extras: serde_json::Value::Null,
+/// };
+/// let mut file = Vec::new();
+/// glb::write(&mesh, &options, &mut file)?;
+/// assert!(file.starts_with(b"glTF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write(mesh: &Mesh, options: &Options, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     match mesh.bounds() {

@@ -12,9 +12,41 @@ use crate::groups::Groups;
 
 /// Writes the mesh as a little-endian PLY: vertices with colour and tag, then faces in the order of their tags.
 ///
-/// Each line of the comments becomes a comment. So does each swatch, as `tag NUMBER RED GREEN BLUE NAME`, and each
-/// tag that faces have, as `faces FIRST COUNT tag NUMBER`; faces count from 0. What does not fit into a comment
-/// continues in further ones, each of which begins with `+`.
+/// Each line of `comments` becomes a comment. Each swatch becomes a comment `tag NUMBER RED GREEN BLUE NAME`, and each
+/// tag
+/// that faces have a comment `faces FIRST COUNT tag NUMBER`, where faces count from 0. Text that is too long for a
+/// comment
+/// continues in further comments, each of which begins with `+`.
+///
+/// # Units
+///
+/// Millimetres, in double precision.
+///
+/// # Errors
+///
+/// The error of `out`.
+///
+/// # References
+///
+/// G. Turk, *The PLY Polygon File Format*, Stanford University 1994.
+///
+/// # Examples
+///
+/// ```
+/// # use verne_mesh::{Mesh, MeshFault, Swatch};
+/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+/// # }
+/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+/// let mut file = Vec::new();
+/// verne_mesh::ply::write(&mesh, "a tetrahedron", &mut file)?;
+/// let text = String::from_utf8_lossy(&file);
+/// assert!(text.contains("comment a tetrahedron") && text.contains("comment tag 1 80 80 80 slope"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write(mesh: &Mesh, comments: &str, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     let groups = Groups::of(mesh);

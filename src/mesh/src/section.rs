@@ -14,7 +14,20 @@ pub struct Contour {
 }
 
 impl Contour {
-    /// The area within, mm²: negative for a hole.
+    /// Computes the area inside; it is negative for a hole.
+    ///
+    /// # Units
+    ///
+    /// mm².
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_mesh::Contour;
+    ///
+    /// let square = Contour { points: vec![[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]] };
+    /// assert_eq!(square.area(), 4.0);
+    /// ```
     pub fn area(&self) -> f64 {
         let Some(&[x, y]) = self.points.first() else { return 0.0 };
         let following = self.points.iter().cycle().skip(1);
@@ -25,10 +38,33 @@ impl Contour {
 }
 
 impl Mesh {
-    /// The contours at the height `z` of a watertight mesh; of another, what closes by a straight line.
+    /// Cuts a watertight mesh at the height `z`. If the mesh is not watertight, a straight line closes each open
+    /// contour.
     ///
-    /// A vertex at the very height counts as above, as though the plane lay a hair lower in z: so every cut
-    /// is of whole edges, and a flat face in the plane shows if the inside lies on the lower side of it.
+    /// A vertex exactly at the height counts as above it, as if the plane lay infinitesimally lower in z. So every cut
+    /// crosses whole
+    /// edges, and a flat face in the plane appears if the inside lies on its lower side.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// let contours = mesh.section(3.0);
+    /// assert_eq!(contours.len(), 1);
+    /// assert!((contours[0].area() - 4.5).abs() < 1e-12, "half a square of 3 mm");
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn section(&self, z: f64) -> Vec<Contour> {
         let mut following = self.following(z);
         let mut contours = Vec::new();

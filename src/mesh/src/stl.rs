@@ -7,7 +7,36 @@ use crate::{Mesh, facet};
 
 const HEADER: usize = 80;
 
-/// Writes the mesh as a binary STL. The header has room for some sixty bytes of the title.
+/// Writes the mesh as a binary STL. The header has room for about sixty bytes of the title.
+///
+/// # Units
+///
+/// Millimetres, in single precision; the format itself has no unit.
+///
+/// # Errors
+///
+/// The error of `out`.
+///
+/// # References
+///
+/// [Library of Congress, STL binary](https://www.loc.gov/preservation/digital/formats/fdd/fdd000505.shtml).
+///
+/// # Examples
+///
+/// ```
+/// # use verne_mesh::{Mesh, MeshFault, Swatch};
+/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+/// # }
+/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+/// let mut file = Vec::new();
+/// verne_mesh::stl::write(&mesh, "tetrahedron", &mut file)?;
+/// assert_eq!(file.len(), 80 + 4 + 50 * mesh.triangles().len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write(mesh: &Mesh, title: &str, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     out.write_all(&header(title))?;

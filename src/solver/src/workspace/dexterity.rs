@@ -85,10 +85,11 @@ pub struct Dexterity {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN), the range of phi1 is
+/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`], the range of phi1 is
 ///   not ordered or longer than a revolution, or the cell is below 0.1 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
-/// - [`WorkspaceError::TooManyNodes`]: the grid would have more nodes than [`MOST_NODES`](MOST_NODES).
+/// - [`WorkspaceError::TooManyNodes`]: the grid would have more nodes than [`MOST_NODES`].
+/// - [`WorkspaceError::TooFine`]: there are more intervals than 32 bits can number.
 /// - [`WorkspaceError::Open`]: a region's surface could not be closed.
 ///
 /// # References

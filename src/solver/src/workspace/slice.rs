@@ -44,8 +44,9 @@ pub struct Slice {
 /// # Errors
 ///
 /// - [`WorkspaceError::OutOfDomain`]: `height` or a number of the request is not finite, beyond
-///   [`DOMAIN`](crate::DOMAIN) or, for the tolerance, below 0.001 mm.
+///   [`DOMAIN`] or, for the tolerance, below 0.001 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+/// - [`WorkspaceError::TooFine`]: the cut has more vertices than 32 bits can number.
 /// - [`WorkspaceError::Open`]: the outlines could not be closed on any of three lattices.
 ///
 /// # References

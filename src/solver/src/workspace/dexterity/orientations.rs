@@ -39,7 +39,7 @@ pub struct Interval {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number or `point` is not finite or beyond [`DOMAIN`](crate::DOMAIN), the range
+/// - [`WorkspaceError::OutOfDomain`]: a number or `point` is not finite or beyond [`DOMAIN`], the range
 ///   of phi1 is not ordered or longer than a revolution, or the cell is below 0.1 mm.
 ///
 /// # References
