@@ -1,13 +1,13 @@
-//! Whether a mesh is the closed surface that it should be.
+//! Examination of a mesh: is it a closed surface?
 
 use crate::edges::{Edges, Side};
 use crate::forest::Forest;
 use crate::{Mesh, facet};
 
-/// What there is to say against a mesh, and its topology.
+/// The defects of a mesh, and its topology.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Audit {
-    /// Edges of one triangle only: the surface has a rim there.
+    /// Edges of only one triangle. The surface has a boundary there.
     pub boundary_edges: usize,
     /// Edges of more than two triangles.
     pub non_manifold_edges: usize,
@@ -19,7 +19,7 @@ pub struct Audit {
     pub pinched_vertices: usize,
     /// Vertices less edges plus triangles.
     pub euler_characteristic: i64,
-    /// Pieces that share no edge with each other.
+    /// Pieces of the surface that share no edge with each other.
     pub components: usize,
 }
 
@@ -94,7 +94,7 @@ impl Mesh {
         audit
     }
 
-    /// How many vertices have corners in more than one fan.
+    /// Counts the vertices with corners in more than one fan.
     fn pinched(&self, fans: &mut Forest) -> usize {
         let mut first = vec![u32::MAX; self.positions().len()];
         let mut pinched = vec![false; self.positions().len()];

@@ -1,8 +1,8 @@
-//! GLB, the binary glTF 2.0: for viewers. In metres and with Y up, as glTF demands.
+//! GLB, the binary glTF 2.0, for viewers: in metres and with Y up, as glTF requires.
 //!
-//! Each tag that occurs is a primitive whose material has the tag's name and colour, so that other programs can
-//! select it; its `extras` hold the `tag`, an index into the `palette` of the mesh's `extras`. The vertices are
-//! split along the creases and between the tags, and interleaved, 24 bytes each: position and normal.
+//! Each tag that occurs becomes a primitive whose material has the tag's name and colour, so other programs can
+//! select it. Its `extras` contain the `tag`, an index into the `palette` of the mesh's `extras`. The vertices are
+//! split along the creases and between the tags. They are interleaved, 24 bytes each: position and normal.
 
 mod document;
 mod layout;
@@ -20,16 +20,17 @@ use crate::groups::Groups;
 use crate::shading::{ShadedVertex, Shading};
 use crate::{Bounds, Mesh};
 
-/// What a GLB holds besides the mesh.
+/// The contents of a GLB besides the mesh.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What a viewer's list of objects calls the mesh.
+    /// The name of the mesh in a viewer's list of objects.
     pub name: String,
-    /// Which way is up in the mesh's frame.
+    /// The direction that is up in the mesh's frame.
     pub up: Up,
-    /// The bend, in radians, from which an edge is shown sharp. Edges between two tags always are.
+    /// The angle between two triangles, in radians, from which their edge is shown sharp. Edges between two tags
+    /// always are.
     pub crease: f64,
-    /// The scene's `extras`: whatever the caller has to say; left out if null.
+    /// The scene's `extras`; omitted if null.
     pub extras: Value,
 }
 
@@ -109,7 +110,7 @@ fn record(vertex: &ShadedVertex, mesh: &Mesh, placement: &Placement) -> [u8; STR
 
 fn write_indices(part: &Part, shading: &Shading, short: bool, out: &mut impl Write) -> io::Result<()> {
     let corners = &shading.corners[part.indices.clone()];
-    // A tag's first corner names its first vertex.
+    // The first corner of a tag refers to its first vertex.
     for index in corners.iter().map(|corner| corner - corners[0]) {
         match u16::try_from(index) {
             Ok(index) if short => out.write_all(&index.to_le_bytes())?,

@@ -1,4 +1,4 @@
-//! JSON, in millimetres: for scripts without a mesh library.
+//! JSON in millimetres, for scripts without a mesh library.
 
 use std::io::{self, BufWriter, Write};
 
@@ -9,8 +9,7 @@ use crate::{Mesh, Swatch};
 
 /// Writes the mesh as one JSON object: `unit`, flat `positions` (three numbers a vertex) and `indices` (three a
 /// triangle), `tags` (one a vertex), `triangle_tags`, the `palette` that the tags index, and the caller's `extras`
-/// unless
-/// null. Positions read back exactly.
+/// unless null. Positions read back exactly.
 ///
 /// # Units
 ///

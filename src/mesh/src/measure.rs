@@ -1,9 +1,9 @@
-//! How much there is of a mesh, and where.
+//! Bounds, volume and area of a mesh.
 
 use crate::vector::{add, cross, dot, scale, sub};
 use crate::{Mesh, facet, sum};
 
-/// The smallest box along the axes that holds a mesh.
+/// The smallest box along the axes that contains a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// The least of each coordinate, mm.
@@ -87,7 +87,8 @@ impl Mesh {
     /// # Ok::<(), MeshFault>(())
     /// ```
     pub fn volume(&self) -> f64 {
-        // Tetrahedra from the centre, not from the frame's origin: a mesh far from it would lose digits.
+        // The tetrahedra have their apex at the centre of the mesh, not at the frame's origin: a mesh far from the
+        // origin would lose digits.
         let apex = self.bounds().map_or([0.0; 3], |bounds| bounds.centre());
         let six_fold = self.triangles().iter().map(|triangle| {
             let [a, b, c] = self.corners(triangle).map(|corner| sub(corner, apex));

@@ -1,4 +1,4 @@
-//! The mesh itself.
+//! The mesh type.
 
 use crate::{MeshFault, Swatch};
 
@@ -53,7 +53,7 @@ impl Mesh {
         tags: Vec<u8>,
         palette: Vec<Swatch>,
     ) -> Result<Self, MeshFault> {
-        // Corners are numbered, and the largest number is kept free to mean none.
+        // Corners are numbered. The largest number is reserved for none.
         if u32::try_from(positions.len()).is_err()
             || u32::try_from(triangles.len().saturating_mul(3)).is_err()
         {

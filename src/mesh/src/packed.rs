@@ -1,4 +1,4 @@
-//! A mesh as bytes to be kept and read back exactly: for ourselves, not for exchange.
+//! A compact binary form of a mesh that reads back exactly. It is for internal storage, not for exchange.
 
 use std::borrow::Cow;
 
@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Mesh, MeshFault, Swatch};
 
-/// Says that the bytes are these, and of which layout.
+/// Identifies the format and its layout.
 const LAYOUT: [u8; 8] = *b"verneM01";
 
-/// Why bytes are no packed mesh.
+/// The reason why bytes cannot be decoded.
 #[derive(Debug)]
 pub enum Unreadable {
-    /// They were never one, or not of this layout, or are damaged.
+    /// The bytes are not a packed mesh of this layout, or are damaged.
     Bytes(postcard::Error),
-    /// They hold something that is no mesh.
+    /// The bytes decode to data that is not a mesh.
     Mesh(MeshFault),
 }
 
@@ -43,7 +43,7 @@ struct Packed<'a> {
 ///
 /// # Errors
 ///
-/// The error of the encoder. It needs no more than memory.
+/// The encoder's error. The encoder writes to memory only.
 ///
 /// # References
 ///

@@ -1,8 +1,8 @@
-//! Binary PLY, in millimetres and double precision: for what follows in other programs.
+//! Binary PLY in millimetres and double precision, for further processing in other programs.
 //!
-//! meshio and PyMesh read no face that has a scalar beside its list of vertices, and meshio reads no third element
-//! and takes `uchar` for a signed number. So the faces are ordered by tag, comments say where each tag's faces are,
-//! and types have the names with their widths.
+//! meshio and PyMesh cannot read faces with a scalar next to their list of vertices. meshio reads no third element,
+//! and takes `uchar` for a signed number. So the faces are ordered by tag, comments give the range of each tag's
+//! faces, and types have the names with their widths.
 
 use std::fmt::Write as _;
 use std::io::{self, BufWriter, Write};
@@ -13,10 +13,8 @@ use crate::groups::Groups;
 /// Writes the mesh as a little-endian PLY: vertices with colour and tag, then faces in the order of their tags.
 ///
 /// Each line of `comments` becomes a comment. Each swatch becomes a comment `tag NUMBER RED GREEN BLUE NAME`, and each
-/// tag
-/// that faces have a comment `faces FIRST COUNT tag NUMBER`, where faces count from 0. Text that is too long for a
-/// comment
-/// continues in further comments, each of which begins with `+`.
+/// tag that faces have a comment `faces FIRST COUNT tag NUMBER`, where faces count from 0. Text that is too long for a
+/// comment continues in further comments, each of which begins with `+`.
 ///
 /// # Units
 ///
@@ -85,12 +83,12 @@ fn header(mesh: &Mesh, groups: &Groups, comments: &str) -> String {
     header
 }
 
-/// Characters of a comment. MeshLab refuses lines of 512 characters, VTK reads nothing after one of 4,096, and Open3D
-/// aborts at 1,024.
+/// Greatest number of characters of a comment. MeshLab refuses lines of 512 characters, VTK reads nothing after one
+/// of 4,096, and Open3D aborts at 1,024.
 const COMMENT: usize = 400;
 
 fn comment(header: &mut String, text: &str) {
-    // A line's end within the text would end the comment, and readers expect ASCII.
+    // A line break within the text would end the comment, and readers expect ASCII.
     let ascii: Vec<char> =
         text.chars().map(|c| if c == ' ' || c.is_ascii_graphic() { c } else { '?' }).collect();
     header.push_str("comment ");

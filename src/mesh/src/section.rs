@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::edges::Edges;
 use crate::{Mesh, sum};
 
-/// A closed polygon in the plane of the cut, the last point joined to the first.
+/// A closed polygon in the plane of the cut. The last point joins the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
     /// The corners (x, y), mm. The mesh's inside lies to the left, so that an outer contour runs
@@ -42,8 +42,7 @@ impl Mesh {
     /// contour.
     ///
     /// A vertex exactly at the height counts as above it, as if the plane lay infinitesimally lower in z. So every cut
-    /// crosses whole
-    /// edges, and a flat face in the plane appears if the inside lies on its lower side.
+    /// crosses whole edges, and a flat face in the plane appears if the inside lies on its lower side.
     ///
     /// # Units
     ///
@@ -81,7 +80,7 @@ impl Mesh {
             if points.first() == points.last() {
                 points.pop();
             }
-            // What only touches the plane leaves a point or a line.
+            // A part that only touches the plane leaves a point or a line.
             if points.len() > 2 {
                 contours.push(Contour { points });
             }
@@ -89,11 +88,11 @@ impl Mesh {
         contours
     }
 
-    /// From each side that passes down through the plane to the next such side along its contour, both named
-    /// by the corner they start from.
+    /// Maps each side that passes down through the plane to the next such side along its contour. Both are named by
+    /// the corner at which they start.
     ///
-    /// A triangle that is cut has one side down and one up, and the contour crosses it from the first to the
-    /// second. There it enters the neighbour, for which the same edge is the side down.
+    /// A cut triangle has one side down and one side up, and the contour crosses it from the first to the second.
+    /// There it enters the neighbour, for which the same edge is the side down.
     fn following(&self, z: f64) -> BTreeMap<u32, u32> {
         let mut following = BTreeMap::new();
         for sides in Edges::among(self, |from, to| self.above(from, z) != self.above(to, z)).iter() {
@@ -117,7 +116,7 @@ impl Mesh {
         self.above(from, z) && !self.above(to, z)
     }
 
-    /// Where a side that goes down meets the plane; exactly at its start if that is in the plane.
+    /// The point where a side that goes down meets the plane; exactly its start if that is in the plane.
     fn crossing(&self, corner: u32, z: f64) -> [f64; 2] {
         let [from, to] = self.side(corner).map(|vertex| self.positions()[vertex as usize]);
         let part = (from[2] - z) / (from[2] - to[2]);

@@ -1,4 +1,4 @@
-//! Binary STL, in millimetres: for slicers and CAD. It has neither vertices in common nor tags.
+//! Binary STL in millimetres, for slicers and CAD. It has neither shared vertices nor tags.
 
 use std::io::{self, BufWriter, Write};
 
@@ -44,14 +44,14 @@ pub fn write(mesh: &Mesh, title: &str, out: impl Write) -> io::Result<()> {
     out.write_all(&count.to_le_bytes())?;
     for triangle in mesh.triangles() {
         let corners = mesh.corners(triangle);
-        // The format's custom for a triangle without a normal is zero.
+        // By convention the normal of a triangle without a normal is zero.
         let normal = facet::normal(corners).unwrap_or_default();
         out.write_all(&record([normal, corners[0], corners[1], corners[2]]))?;
     }
     out.flush()
 }
 
-/// Starts with what no reader can take for the word "solid", by which it would know a text file.
+/// Makes the header. It does not begin with "solid", by which readers recognise a text file.
 fn header(title: &str) -> [u8; HEADER] {
     let text = format!("binary STL, mm; {title}");
     let ascii = text.chars().map(|c| if c.is_ascii_graphic() { c } else { ' ' });
@@ -63,7 +63,7 @@ fn header(title: &str) -> [u8; HEADER] {
     header
 }
 
-/// Twelve numbers and two bytes that nobody agrees on, left zero.
+/// A record: twelve numbers and two attribute bytes. Their meaning is not standardised, so they are zero.
 fn record(vectors: [[f64; 3]; 4]) -> [u8; 50] {
     let mut bytes = [0; 50];
     for (slot, &number) in bytes.chunks_exact_mut(4).zip(vectors.map(single).as_flattened()) {

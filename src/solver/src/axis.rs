@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-/// Half-angle of the cone around the table's own axis in which an axis is the table's own, rad.
-/// Axes in tool paths carry noise of about 1e-7 rad, and six decimals round by up to 7e-7; such an
-/// inclination has no azimuth that means anything.
+/// Half-angle of the cone around the table's own axis in which an axis counts as the table's own, rad. Axes in tool
+/// paths carry noise of about 1e-7 rad, and six decimals round by up to 7e-7. The azimuth of such an inclination has
+/// no meaning.
 pub const POLE: f64 = 1e-6;
 /// Width of the strip beside an azimuth of half a turn whose sign is rounding, rad: there, and at
 /// zero for the twin, an azimuth is not turned by a whole turn.
@@ -45,8 +45,7 @@ pub enum Preimages {
     },
 }
 
-/// The axis in numbers whose greatest magnitude is 1, without negative zeros; `None` if it is zero
-/// or not finite.
+/// The axis scaled to a greatest magnitude of 1, without negative zeros; `None` if it is zero or not finite.
 pub(crate) fn direction(axis: [f64; 3]) -> Option<[f64; 3]> {
     let largest = axis.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
     let is_one = largest > 0.0 && axis.iter().all(|c| c.is_finite());

@@ -19,8 +19,8 @@ use crate::machine::Machine;
 use crate::pose::{PlatformPose, TableAngles};
 use crate::table::part_pose;
 
-/// A tool, and the height over the table's plane that its end and the platform's joints keep. Lengths
-/// in mm.
+/// A tool, and the least height of its end and of the platform's joints over the table's plane. Lengths are
+/// millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
     /// The least height.
@@ -33,8 +33,7 @@ pub struct Clearance {
 
 impl Clearance {
     /// Takes the least height `asked` by the caller, or else the machine's. The answer is `None` if neither is given:
-    /// the table
-    /// is then no limit.
+    /// the table is then no limit.
     ///
     /// # Units
     ///
@@ -60,7 +59,7 @@ impl Clearance {
         Some(Self { least, tool_length, tool_radius })
     }
 
-    /// The margin of what is lowest.
+    /// The margin of the lowest point.
     #[inline]
     pub(crate) fn margin(&self, machine: &Machine, pose: &PlatformPose, table: TableAngles) -> Margin {
         let tool = part_pose(machine, pose, table, self.tool_length);
@@ -68,8 +67,8 @@ impl Clearance {
         Margin { constraint: Constraint::TableClearance, element, value: tool.z - depth - self.least }
     }
 
-    /// How far the lowest of tool and joints is below the tool centre point at an inclination, mm, and
-    /// which it is. The two joints of a parallelogram are equally high; the first stands for both.
+    /// The distance of the lowest of tool and joints below the tool centre point at an inclination, mm, and which of
+    /// them it is. The two joints of a parallelogram are equally high; the first represents both.
     #[inline]
     pub(crate) fn depth(&self, machine: &Machine, phi1: f64) -> (f64, Element) {
         let g = machine.geometry();

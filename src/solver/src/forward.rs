@@ -84,8 +84,8 @@ pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, Refusal> {
 /// ```
 pub fn forward_working(machine: &Machine, rho: [f64; 3]) -> Result<Posture, Refusal> {
     let assembly = question(machine, rho)?;
-    // On the sheet λ > 0 from the level platform: the working mode's only basin in practice. What
-    // is found there counts only in the working mode and on home's side of the singularity.
+    // Newton's method on the sheet λ > 0 from the level platform finds the working mode in practice. Its result
+    // counts only if it is in the working mode and on home's side of the singularity.
     let level = from_level(&assembly);
     if let Some(root) = level
         && on_home_side(machine, &assembly, &root)
@@ -157,7 +157,7 @@ fn posture(machine: &Machine, assembly: &Assembly, rho: [f64; 3], root: &Root) -
     let legs = drops.map(Side::of);
     let working = u > 0.0 && w1 > v.abs() && drops[1] > 0.0 && drops[2] > 0.0;
     let mode = Mode { legs, crossed: u < 0.0 };
-    // A NaN is no residual either.
+    // A NaN is not a residual either.
     let holds = residual <= RESIDUAL_TOLERANCE * size(machine, pose.z);
     holds.then_some(Posture { pose, rho, mode, working, merged: root.merged, residual })
 }

@@ -1,9 +1,8 @@
 //! Differential kinematics: parallel and serial singularities (types 2 and 1).
 //!
-//! The derivative of Eqs (3)-(6), each a rod's squared length, is twice `b · d(B - A)`: with
-//! b = B - A the row of rod 11 is (bx, by, bz, -R1 sin a · by + R1 cos a · bz) against
-//! (x, y, z, a) and -bz against its slider; the other rods differ in the sign and length of the
-//! arm.
+//! Each of Eqs (3)-(6) is a rod's squared length, so its derivative is twice `b · d(B - A)` with b = B - A. The row
+//! of rod 11 is (bx, by, bz, -R1 sin a · by + R1 cos a · bz) against (x, y, z, a) and -bz against its slider. The
+//! other rods differ in the sign and length of the arm.
 
 use nalgebra::{Matrix4, Matrix4x3};
 
@@ -18,7 +17,7 @@ pub type ParallelMatrix = [[f64; 4]; 4];
 /// Below this ratio of singular values a matrix is singular to double precision.
 const SINGULAR: f64 = 1e-14;
 
-/// How a posture stands to singularities.
+/// The distance of a posture from singularities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conditioning {
     /// Determinant of the parallel matrix, `det_P`; zero at a parallel (type 2) singularity.
@@ -97,8 +96,7 @@ fn spread(matrix: &Matrix4<f64>) -> Option<f64> {
 }
 
 /// Computes the rates d(x, y, z, alpha)/d(rho1, rho2, rho3): row for the coordinate, column for the slider. The answer
-/// is
-/// `None` at a parallel singularity.
+/// is `None` at a parallel singularity.
 ///
 /// # Units
 ///

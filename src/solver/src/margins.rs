@@ -14,8 +14,8 @@ use crate::pose::{PlatformPose, TableAngles};
 use crate::posture::Posture;
 use crate::rods::Rods;
 
-/// All margins of one posture. Arrays of four are rod 11, rod 12, the rods of leg II, the rods of
-/// leg III (a parallelogram's two rods are parallel).
+/// All margins of one posture. Arrays of four are for rod 11, rod 12, the rods of leg II, the rods of leg III (the
+/// two rods of a parallelogram are parallel).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margins {
     /// `[rho - min, max - rho]` of each slider, mm.
@@ -36,19 +36,18 @@ pub struct Margins {
     pub rod_interference: f64,
     /// The two rods that are nearest to each other.
     pub nearest_rods: [u8; 2],
-    /// `[theta1 - min, max - theta1]`, where the table takes part, rad.
+    /// `[theta1 - min, max - theta1]`, rad. `None` if the table takes no part.
     pub tilt: Option<[f64; 2]>,
-    /// `[theta2 - min, max - theta2]`, where the table takes part, rad.
+    /// `[theta2 - min, max - theta2]`, rad. `None` if the table takes no part.
     pub rotary: Option<[f64; 2]>,
-    /// Height over the table's plane, less the least one, of what is lowest: the tool's end or a joint
-    /// of the platform. `None` where it is not checked.
+    /// Height of the lowest point (the tool's end or a joint of the platform) over the table's plane, less the least
+    /// height. `None` if it is not checked.
     pub table_clearance: Option<Margin>,
 }
 
 impl Margins {
     /// Computes the margins of a posture. With `table` they include the ranges of theta1 and theta2. The height over
-    /// the
-    /// table's plane is not among them: see [`Self::above_table`].
+    /// the table's plane is not among them: see [`Self::above_table`].
     ///
     /// # Units
     ///
@@ -74,7 +73,7 @@ impl Margins {
         Self::of_solution(machine, &posture.pose, posture.rho, table)
     }
 
-    /// The same of a posture's pose and sliders.
+    /// Computes the margins from a posture's pose and sliders.
     #[inline]
     fn of_solution(
         machine: &Machine,
@@ -171,8 +170,8 @@ impl Margins {
             && self.table_clearance.is_none_or(|margin| margin.value >= 0.0)
     }
 
-    /// What keeps a posture from being in the working mode: crossed rods, or the slider end that
-    /// lies lowest against its platform end.
+    /// The margin of the constraint that keeps a posture out of the working mode: crossed rods, or the slider end
+    /// that lies lowest relative to its platform end.
     pub(crate) fn out_of_mode(&self) -> Margin {
         if self.rod_crossing <= 0.0 {
             let (constraint, element) = (Constraint::RodCrossing, Element::Leg(1));

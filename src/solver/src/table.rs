@@ -93,29 +93,28 @@ pub fn table_angles(machine: &Machine, alpha: f64, phi1: f64, phi2: f64) -> Tabl
     TableAngles { theta1, theta2 }
 }
 
-/// An angle in whole turns and the rest, which keeps the digits of both.
+/// An angle as whole turns and a remainder. Both keep their digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Winding {
-    /// The rest, rad.
+    /// The remainder, rad.
     pub angle: f64,
     /// Whole turns.
     pub turns: f64,
 }
 
-/// A table's angle on one of its windings.
+/// A table angle moved by whole turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wound {
-    /// Whole turns beside the angle that was asked for.
+    /// Whole turns in addition to the given angle.
     pub turns: f64,
-    /// The angle with its turns, rad; within the range, should rounding alone put it outside.
+    /// The angle including its turns, rad. It is clamped to the range if rounding alone puts it outside.
     pub value: f64,
 }
 
 /// Moves theta1 and theta2 by whole turns into the machine's ranges.
 ///
 /// Of several values in a range the function takes the one nearest to `near` if that is given, else the given value,
-/// else
-/// the one nearest to zero. An angle that has no value in its range is moved to its value nearest to zero.
+/// else the one nearest to zero. An angle that has no value in its range is moved to its value nearest to zero.
 ///
 /// # Units
 ///

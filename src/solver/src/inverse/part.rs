@@ -26,8 +26,8 @@ use crate::posture::{Posture, Postures};
 /// # References
 ///
 /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), with (15) as
-/// an equation of degree three on the circle; section III.C.
-/// The paper states sixteen solutions at most; the sextic in tan(alpha/2) gives up to twenty-four.
+/// an equation of degree three on the circle; section III.C. The paper states sixteen solutions at most; the sextic in
+/// tan(alpha/2) gives up to twenty-four.
 ///
 /// # Examples
 ///

@@ -97,8 +97,8 @@ pub fn platform_working(machine: &Machine, p: Point) -> Result<Posture, Refusal>
     second_choice(machine, p, &leg)
 }
 
-/// The cubic can have both roots where the rods do not cross, and the working mode is then at
-/// either; it is never at both.
+/// The posture in the working mode at either root of the cubic. Both roots can have uncrossed rods; at most one is in
+/// the working mode.
 #[cold]
 fn second_choice(machine: &Machine, p: Point, leg: &FirstLeg<'_>) -> Result<Posture, Refusal> {
     let mut refused = None;
@@ -119,7 +119,7 @@ fn closed(machine: &Machine, p: Point, angle: &LegAngle) -> Closed {
     if merged || closed.is_fine() { closed } else { polished(machine, p, &root).unwrap_or(closed) }
 }
 
-/// Newton's method on (A) itself, where the cubic has lost digits: w1 and y both near zero.
+/// Newton's method on (A) itself, if the cubic has lost digits because w1 and y are both near zero.
 #[cold]
 fn polished(machine: &Machine, p: Point, start: &Root) -> Option<Closed> {
     let track = Track::still(p);

@@ -1,13 +1,13 @@
-//! What keeps numbers from being a machine.
+//! Faults of a machine's data.
 
 use std::fmt;
 
-/// One fault of a machine's data: which field, and what would be accepted.
+/// One fault of a machine's data: the field, and the values that would be accepted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MachineFault {
     /// Path of the field with `/` between its parts, such as `limits/stroke/0`.
     pub field: String,
-    /// What is wrong, and what would be accepted.
+    /// The fault, and the values that would be accepted.
     pub detail: String,
 }
 

@@ -4,8 +4,7 @@ use super::{Geometry, Limits, Machine, MachineData, Table};
 
 impl Machine {
     /// The reference machine, `verne`. Its dimensions are round numbers chosen so that every solution count printed in
-    /// the
-    /// paper comes out. They are not Fatronik's.
+    /// the paper comes out. They are not Fatronik's.
     ///
     /// # Units
     ///

@@ -101,9 +101,9 @@ fn meet_between_legs(nearest: &mut Nearest, g: &Geometry, ends: &[[f64; 3]; 6], 
     }
 }
 
-/// Whether two rods are at least as far apart as the nearest pair, by what can be told without
-/// their nearest points, wherever one of them is shifted along x by up to `shift` either way: the
-/// segments' projections on the gap's direction are at least so far apart, times |gap|.
+/// Whether two rods are at least as far apart as the nearest pair, decided without their nearest points, if one of
+/// them is shifted along x by up to `shift` either way: the segments' projections on the gap's direction are at least
+/// so far apart, times |gap|.
 #[inline]
 fn far(nearest: &Nearest, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
     let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);

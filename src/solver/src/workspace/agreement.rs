@@ -1,20 +1,18 @@
-//! Volume by integration against the volume that the surface encloses.
+//! Comparison of the integrated volume with the volume that the surface encloses.
 
 use super::measure::{Measure, Volume};
 use super::observer::{Observer, Pace};
 use super::request::WorkspaceError;
 use super::surface::Surface;
 
-/// Most that a surface's volume may be off, over its area times its tolerance.
+/// Greatest difference of the volumes beyond the stated error, over the surface's area times its tolerance.
 const ALLOWED: f64 = 2.0;
 
 /// Checks that a surface of this tolerance encloses the measured volume.
 ///
 /// The two may differ by the volume's error plus twice the surface's area times the tolerance. A folded workspace has
-/// no
-/// volume to compare and passes. An empty surface passes too: [`surface`](super::surface()) itself checks that the
-/// workspace is empty or
-/// thinner than the tolerance.
+/// no volume to compare and passes. An empty surface passes too: [`surface`](super::surface()) itself checks that the
+/// workspace is empty or thinner than the tolerance.
 ///
 /// # Units
 ///

@@ -1,4 +1,4 @@
-//! A workspace cut at a height of its own frame.
+//! The cut of a workspace at a height of its own frame.
 
 mod contour;
 mod loops;
@@ -13,7 +13,7 @@ use crate::machine::Machine;
 
 pub use contour::Contour;
 
-/// A closed polygon with holes; the last corner joins the first.
+/// A closed polygon with holes. The last corner of a ring joins the first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polygon {
     /// Counter-clockwise.
@@ -22,18 +22,18 @@ pub struct Polygon {
     pub holes: Vec<Vec<[f64; 2]>>,
 }
 
-/// The cut of a workspace at one height: (x, y) of the frame of the request's kind, mm.
+/// The cut of a workspace at one height: (x, y) in the frame of the request's kind, mm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slice {
-    /// Parts of the cut; none where the plane misses the workspace.
+    /// Parts of the cut. Empty if the plane misses the workspace.
     pub polygons: Vec<Polygon>,
     /// Lines of constant alpha within the cut.
     pub contours: Vec<Contour>,
 }
 
 /// Cuts the workspace at z = `height` of the frame of the request's kind. The polygons are within the request's
-/// tolerance of
-/// the true cut; this is checked at sample points, not proved. Lines show where alpha has one of the values `alphas`.
+/// tolerance of the true cut; this is checked at sample points, not proved. Lines show where alpha has one of the
+/// values `alphas`.
 ///
 /// If the request's map folds, polygons may overlap.
 ///
@@ -43,8 +43,8 @@ pub struct Slice {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: `height` or a number of the request is not finite, beyond
-///   [`DOMAIN`] or, for the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::OutOfDomain`]: `height` or a number of the request is not finite, beyond [`DOMAIN`] or, for the
+///   tolerance, below 0.001 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 /// - [`WorkspaceError::TooFine`]: the cut has more vertices than 32 bits can number.
 /// - [`WorkspaceError::Open`]: the outlines could not be closed on any of three lattices.

@@ -12,24 +12,24 @@ use super::request::{Request, WorkspaceError};
 use crate::machine::Machine;
 use crate::pose::Point;
 
-/// Parts of the work that are done when the plane's patches are joined, when the surface is a manifold and when its short
-/// edges are contracted.
+/// Fractions of the work that are done when the patches are joined, when the surface is a manifold, and when its
+/// short edges are contracted.
 const JOINED: f64 = 0.93;
 const PARTED: f64 = 0.95;
 const TIDIED: f64 = 0.98;
 
-/// A closed surface of triangles, oriented outwards; empty for an empty workspace.
+/// A closed surface of triangles that face outwards. An empty workspace has no triangles.
 ///
-/// Every edge belongs to two triangles, which run along it in opposite directions, and the
-/// triangles at a vertex are one ring: where parts of the workspace touch, each has vertices of
-/// its own. Where the slider or the constraint that binds changes, the change is an edge.
+/// Every edge belongs to two triangles, which run along it in opposite directions. The triangles at a vertex form one
+/// ring: where parts of the workspace touch, each part has its own vertices. An edge marks each change of the binding
+/// slider or constraint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
-    /// Positions in the frame of the request's kind, mm.
+    /// Positions of the vertices in the frame of the request's kind, mm.
     pub positions: Vec<Point>,
-    /// Numbers of the corners, counter-clockwise seen from outside.
+    /// Vertex numbers of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// What limits the workspace there, for each triangle.
+    /// For each triangle the constraint that bounds the workspace there.
     pub bindings: Vec<Binding>,
 }
 
@@ -153,7 +153,7 @@ pub fn surface_within(
     Ok(surface)
 }
 
-/// The surface over the first lattice on which it closes.
+/// Makes the surface over the first lattice on which it closes.
 fn closed(
     domain: &Domain<'_>,
     tolerance: f64,
@@ -186,7 +186,7 @@ fn made_one(mut surface: Surface, tolerance: f64, pace: &mut Pace<'_>) -> Result
     pace.observer.progress(PARTED);
     tidy::contract(&mut surface, tolerance, pace)?;
     pace.observer.progress(TIDIED);
-    // Contraction keeps a manifold one; this looks at the result, and costs little.
+    // Contraction preserves manifolds. This checks the result at little cost.
     part::part(&mut surface, pace)?;
     Ok(surface)
 }
@@ -311,8 +311,8 @@ impl Surface {
         Ok(sheets)
     }
 
-    /// The wall over a side, by the shorter of its diagonals. Of rods that are too near, it names
-    /// the two that are nearest half-way along the side.
+    /// Adds the wall over a side, split by the shorter of its diagonals. If it stems from rod interference, its
+    /// binding names the two rods that are nearest half-way along the side.
     fn wall(&mut self, domain: &Domain<'_>, plane: &Plane, rim: &Rim, [a, b]: [[u32; 2]; 2]) {
         let [from, to] = rim.ends.map(|end| plane.vertices[end as usize].at);
         let limit = domain.binding_at(rim.limit, [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])]);

@@ -1,4 +1,4 @@
-//! Slabs made one.
+//! Joining of slabs to one dexterity map.
 
 use super::super::measure::Volume;
 use super::super::observer::{Observer, Pace};
@@ -86,7 +86,7 @@ pub fn merge(
     Ok(Dexterity { grid: *grid, offsets, intervals, reachable, dexterous })
 }
 
-/// A node's place from its number.
+/// The grid position of a node, from its number.
 fn place(grid: &Grid, number: usize) -> [u32; 3] {
     let [_, across, up] = grid.counts.map(|count| count as usize);
     [number / up / across, number / up % across, number % up].map(|n| u32::try_from(n).unwrap_or(u32::MAX))

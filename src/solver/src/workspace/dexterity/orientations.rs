@@ -1,4 +1,4 @@
-//! The inclinations with which one point is reached.
+//! The inclinations that reach one point.
 
 use super::super::domain::Binding;
 use super::super::request::WorkspaceError;
@@ -9,29 +9,25 @@ use crate::limit::{Constraint, DOMAIN, Element};
 use crate::machine::Machine;
 use crate::pose::Point;
 
-/// Intervals that are nearer to each other are one, rad.
+/// Intervals that are less than this apart are one, rad.
 const APART: f64 = 1e-9;
 
-/// Inclinations with which a point is reached.
+/// An interval of inclinations that reach a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// `[from, to]` of phi1, rad.
     pub ends: [f64; 2],
-    /// What ends it at either end; `None` where the asked range does.
+    /// The constraint that ends it at either end. `None` if the requested range ends it.
     pub bindings: [Option<Binding>; 2],
 }
 
 /// Computes the intervals of phi1 within the request's range for which the working mode reaches the part point and
-/// keeps every
-/// limit. They are in ascending order. Intervals less than 1e-9 rad apart are one.
+/// keeps every limit. They are in ascending order. Intervals less than 1e-9 rad apart are one.
 ///
 /// The intervals are arcs of a circle (see the [workspace documentation](crate::workspace)). On it each stroke's limit
-/// is
-/// examined at steps of at most 1/48 of a turn, taken for a parabola between them, and examined again half-way if it
-/// may
-/// vanish twice. An interval or gap wider than the steps is always found. A narrower one is missed only if a limit
-/// turns twice
-/// between two steps.
+/// is examined at steps of at most 1/48 of a turn, taken for a parabola between them, and examined again half-way if it
+/// may vanish twice. An interval or gap wider than the steps is always found. A narrower one is missed only if a limit
+/// turns twice between two steps.
 ///
 /// # Units
 ///
@@ -39,8 +35,8 @@ pub struct Interval {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number or `point` is not finite or beyond [`DOMAIN`], the range
-///   of phi1 is not ordered or longer than a revolution, or the cell is below 0.1 mm.
+/// - [`WorkspaceError::OutOfDomain`]: a number or `point` is not finite or beyond [`DOMAIN`], the range of phi1 is not
+///   ordered or longer than a revolution, or the cell is below 0.1 mm.
 ///
 /// # References
 ///
@@ -109,7 +105,7 @@ pub(super) fn at(
     }
 }
 
-/// The parts of an arc on which the table's tilt is within its range.
+/// Finds the parts of an arc on which theta1 is within its range.
 fn turned(arc: &Arc<'_>, psi: f64, part: &mut dyn FnMut([f64; 2], [Option<Binding>; 2])) {
     let Some([middle, half]) = arc.circle.setting.tilt else {
         part(arc.ends, arc.bindings);
@@ -148,7 +144,7 @@ fn inclinations(
     }
 }
 
-/// Intervals in order, those that meet made one.
+/// Sorts the intervals and unites those that meet.
 fn joined(mut found: Vec<Interval>) -> Vec<Interval> {
     found.sort_by(|a, b| a.ends[0].total_cmp(&b.ends[0]).then(a.ends[1].total_cmp(&b.ends[1])));
     let mut joined: Vec<Interval> = Vec::with_capacity(found.len());

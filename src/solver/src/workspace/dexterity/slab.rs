@@ -1,4 +1,4 @@
-//! A part of the grid, worked on by itself.
+//! Computation of some layers of the grid, independent of the others.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,29 +14,29 @@ use super::{DexterityRequest, Grid};
 use crate::machine::Machine;
 use crate::pose::Point;
 
-/// The nodes of some layers of a grid and the crossings of the edges that begin at them.
+/// The nodes of some layers of a grid, and the crossings of the edges that begin at them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slab {
-    /// Layers along the grid's first axis: from this one up to the other.
+    /// The layers along the grid's first axis.
     pub layers: Range<u32>,
     /// Number of intervals of each node.
     pub counts: Vec<u8>,
-    /// All intervals of phi1, node by node.
+    /// The intervals of phi1 of all nodes, node by node, rad.
     pub intervals: Vec<[f64; 2]>,
-    /// Edges that cross the surface of what is reachable, and of what is dexterous, ascending.
+    /// Crossings of edges with the surface of the reachable region and of the dexterous region, ascending by edge.
     pub crossings: [Vec<Crossing>; 2],
 }
 
-/// Where an edge of the grid crosses a region's surface.
+/// The crossing of a grid edge with a region's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Seven times the number of the node where the edge begins, plus the edge's direction.
     pub edge: u64,
-    /// The place in the part frame, mm.
+    /// Its position in the part frame, mm.
     pub at: Point,
 }
 
-/// A row of nodes along Z: their intervals, and whether each is reachable and dexterous.
+/// A row of nodes along Z: their intervals, and whether each is in the reachable and in the dexterous region.
 pub(super) struct Row {
     pub(super) counts: Vec<u8>,
     pub(super) intervals: Vec<[f64; 2]>,
@@ -44,8 +44,7 @@ pub(super) struct Row {
 }
 
 /// Computes some layers of a grid. A layer's result does not depend on which other layers belong to the slab. Layers
-/// beyond
-/// the grid are left out.
+/// beyond the grid are left out.
 ///
 /// # Units
 ///
@@ -132,7 +131,7 @@ pub fn slab(
     Ok(slab)
 }
 
-/// Progress through the layers: the nodes of one are twice the work of its edges.
+/// Progress through the layers. The nodes of a layer are twice as much work as its edges.
 struct Done<'a> {
     count: AtomicUsize,
     whole: usize,
@@ -146,7 +145,7 @@ impl Done<'_> {
     }
 }
 
-/// What a slab is computed from.
+/// The input of a slab's computation.
 pub(super) struct Work<'a> {
     pub(super) setting: &'a Setting<'a>,
     pub(super) request: &'a DexterityRequest,
@@ -180,7 +179,7 @@ impl Work<'_> {
         row.inside.push(inside.map(|inside| inside && !self.grid.outermost(number)));
     }
 
-    /// Whether a point with these intervals is reachable, and dexterous.
+    /// Whether a point with these intervals is reachable, and whether it is dexterous.
     pub(super) fn inside(&self, intervals: &[[f64; 2]]) -> [bool; 2] {
         [!intervals.is_empty(), intervals == [self.request.phi1]]
     }
