@@ -111,7 +111,7 @@ pub(crate) fn from_level<const M: usize, C: Closure<M>>(closure: &C) -> Option<R
     polish(closure, Root::at(0.0, [1.0, 0.0], w))
 }
 
-/// Finds all solutions with |a| <= range. `known` is one of them; it is kept as it is, to the last bit.
+/// Finds all solutions with |a| <= range. `known`, if given, is one of them; it is kept as it is, to the last bit.
 #[inline]
 pub(crate) fn find_roots<const M: usize, C: Closure<M>>(
     closure: &C,

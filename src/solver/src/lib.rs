@@ -9,7 +9,7 @@
 //!
 //! # Notation
 //!
-//! The platform stands at P = (x, y, z), turned by a about x (1); slider i is at z = rho_i. With
+//! The platform is at P = (x, y, z), rotated by a about x (1). Slider i is at z = rho_i. With
 //!
 //! ```text
 //! X1 = x + e1,  e1 = D1 - d1        u = R1 cos a - r1,  v = R1 sin a      (leg I)
@@ -45,12 +45,11 @@
 //!
 //! # Inverse: the tool given in the base or the part frame
 //!
-//! The tool's axis fixes theta2 = -phi2 (9) and theta1 = a - phi1 (14), and P moves on a circle as
-//! a turns: y and z are of the first degree in cos a and sin a, by (27) for a tool in the base
-//! frame and by (26) for one in the part frame. (15) becomes of the third degree on the circle, so
-//! of the sixth in tan(a/2), and it can have six real roots: **the whole machine has up to
-//! twenty-four inverse solutions**, not sixteen. Several of them can be in the working mode, where
-//! the table is far from the platform ([`part_every_working`]).
+//! The tool's axis determines theta2 = -phi2 (9) and theta1 = a - phi1 (14), and P moves on a circle as a changes: y
+//! and z are of the first degree in cos a and sin a, by (27) for a tool in the base frame and by (26) for one in the
+//! part frame. (15) becomes of the third degree on the circle, so of the sixth in tan(a/2), and it can have six real
+//! roots: **the whole machine has up to twenty-four inverse solutions**, not sixteen. Several of them can be in the
+//! working mode if the table is far from the platform ([`part_every_working`]).
 //!
 //! # Forward
 //!
@@ -67,23 +66,21 @@
 //!     + (rho2 - rho3) q + (e1 - e2)²
 //! ```
 //!
-//! where D, N, T are of the first degree on the circle. Putting λ = N/D into the second equation
-//! gives F(a) = 0 of degree four: nine coefficients, eight roots at most (of which the machine has
-//! been seen to use six). The division by e1 - e2 is why a machine needs e1 ≠ e2. Near e1 = e2, and
-//! near R1 = r1, where u and v vanish together at a = 0, roots of F are closer together than double
-//! precision tells; such machines are refused ([`Machine::new`]).
+//! where D, N, T are of the first degree on the circle. Substituting λ = N/D in the second equation gives F(a) = 0 of
+//! degree four, with nine coefficients and at most eight roots; at most six have been observed. Because of the
+//! division by e1 - e2 a machine needs e1 ≠ e2. Near e1 = e2, and near R1 = r1, where u and v vanish together at a =
+//! 0, roots of F are closer together than double precision resolves. [`Machine::new`] refuses such machines.
 //!
-//! Where D and N vanish together λ is free, the second equation gives two values for it, and F has
-//! a double root although both solutions are regular. It happens on the symmetry plane
-//! (rho2 = rho3 with L2 = L3, at a = 0 and π) and equally where S = 0 with L2 = L3, at every zero
-//! of D: sliders as ordinary as 500, 400, 600 stand there. Near such sliders the two roots of F
-//! are closer together than its coefficients are exact.
+//! If D and N vanish together, λ is free, the second equation gives two values for it, and F has a double root
+//! although both solutions are regular. This happens on the symmetry plane (rho2 = rho3 with L2 = L3, at a = 0 and π)
+//! and also if S = 0 with L2 = L3, at every zero of D: for instance with the sliders at 500, 400, 600. Near such
+//! sliders the two roots of F are closer together than the precision of its coefficients.
 //!
 //! # Roots on the circle, and sheets
 //!
-//! Both directions thus end in two equations in (a, w), one linear and one quadratic in w (w = w1
-//! or λ), and a trigonometric polynomial F(a) that is, up to a positive factor, the product of the
-//! linear equation's values on the two *sheets* w₊(a) and w₋(a) of the quadratic one.
+//! Both directions thus lead to two equations in (a, w), one linear and one quadratic in w (w = w1 or λ), and to a
+//! trigonometric polynomial F(a). Up to a positive factor F is the product of the linear equation's values on the two
+//! *sheets* w₊(a) and w₋(a) of the quadratic one.
 //!
 //! The roots of F are isolated with certificates on arcs of the circle. The Bernstein control points of a cubic
 //! Hermite interpolant, widened by the interpolation error that the Fourier coefficients bound, decide whether an arc
@@ -93,9 +90,9 @@
 //! a parallel singularity, which [`Posture::merged`] reports. The sheets are followed to where they meet: where leg I
 //! is nearly level, a small island on which they exist can lie entirely within the polynomial's rounding.
 //!
-//! Evidence for the method, from the benches: a companion matrix takes about ten times as long and
-//! splits double roots by the square root of the rounding; tan(a/2) has no room for a = π; Sturm
-//! sequences lose exactly the close pairs that matter.
+//! The benches show why this method was chosen: a companion matrix takes about ten times as long and splits double
+//! roots by the square root of the rounding; tan(a/2) cannot represent a = π; Sturm sequences lose exactly the close
+//! pairs that matter.
 //!
 //! # Working mode
 //!
@@ -107,10 +104,15 @@
 //!
 //! # Singularities
 //!
-//! Differentiating (3)-(6) gives, for a rod B - A = b, the row (b, ± R cos a · bz ∓ R sin a · by)
-//! against (x, y, z, a) and -bz against its slider. Divided by the rod length and by R1 in the last
-//! column it is dimensionless; its determinant det_P vanishes where two assembly modes merge. bz/L
-//! vanishes where two inverse solutions merge. See [`jacobian`].
+//! Differentiating (3)-(6) gives, for a rod B - A = b, the row (b, ± R cos a · bz ∓ R sin a · by) against (x, y, z,
+//! a) and -bz against its slider. Divided by the rod length, and by R1 in the last column, it is dimensionless. Its
+//! determinant det_P vanishes where two assembly modes merge. bz/L vanishes where two inverse solutions merge. See
+//! [`jacobian`].
+//!
+//! # Examples
+//!
+//! Each module's functions have examples. Three programs show more: `cargo run -p verne-solver --example forward`,
+//! `inverse` and `workspace`.
 
 mod angle;
 pub mod axis;
