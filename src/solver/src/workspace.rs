@@ -4,11 +4,11 @@
 //! depend on (x, y) alone, and the workspace is a set of vertical columns over a plane domain. Root-finding on the
 //! constraints gives the domain's boundary. The third dimension is not sampled.
 //!
-//! - [`measure`]: volume and area with errors, by integration.
-//! - [`surface`], [`surface_within`]: the closed boundary surface within a tolerance; [`expected_triangles`] estimates
+//! - [`measure()`]: volume and area with errors, by integration.
+//! - [`surface()`], [`surface_within`]: the closed boundary surface within a tolerance; [`expected_triangles`] estimates
 //!   its size, and [`agree`] compares it with the volume.
 //! - [`slice()`]: the cut at a height, as polygons.
-//! - [`contains`]: whether points belong to the workspace, without a mesh.
+//! - [`contains()`]: whether points belong to the workspace, without a mesh.
 //! - [`dexterity`]: the tool's inclinations that reach a part point.
 //!
 //! Every function takes a [`Request`] or a [`dexterity::DexterityRequest`]. Long computations report to an [`Observer`]

@@ -73,7 +73,7 @@ pub struct Dexterity {
 /// Computes the intervals of phi1 at the nodes of a grid over all reachable points, and two regions: what some phi1 of
 /// the range reaches, and what every phi1 of the range reaches.
 ///
-/// It is [`grid`](Grid::new), [`slab`] for all of the grid's layers, [`volumes`] and [`merge`]. The answer does not
+/// It is [`grid`](Grid::new), [`slab()`] for all of the grid's layers, [`volumes()`] and [`merge()`]. The answer does not
 /// depend on how the grid is cut into slabs, nor on the number of threads.
 ///
 /// # Units

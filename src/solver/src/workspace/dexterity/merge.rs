@@ -24,8 +24,8 @@ use super::{Dexterity, DexterityRequest, Grid};
 ///
 /// ```
 /// use verne_solver::Machine;
-/// use verne_solver::workspace::dexterity::{DexterityRequest, Grid, dexterity, merge, slab, volumes};
-/// use verne_solver::workspace::{Unobserved, WorkspaceError};
+/// use verne_solver::workspace::dexterity::{DexterityRequest, Grid, merge, slab};
+/// use verne_solver::workspace::{Unobserved, Volume, WorkspaceError};
 ///
 /// let request = DexterityRequest {
 ///     tool_length: 150.0,
@@ -38,10 +38,11 @@ use super::{Dexterity, DexterityRequest, Grid};
 /// let machine = Machine::verne();
 /// let grid = Grid::new(&machine, &request, &Unobserved)?;
 /// let part = |layers| slab(&machine, &request, &grid, layers, &Unobserved);
-/// let parts = vec![part(2..grid.counts[0])?, part(0..2)?];
-/// let volumes = volumes(&machine, &request, &Unobserved)?;
-/// let merged = merge(&request, &grid, parts, volumes, &Unobserved)?;
-/// assert_eq!(merged, dexterity(&machine, &request, &Unobserved)?);
+/// let volumes = [Volume::Value { value: 0.0, error: 0.0 }; 2]; // in place of those that `volumes` computes
+/// let join = |slabs| merge(&request, &grid, slabs, volumes, &Unobserved);
+/// let parts = join(vec![part(2..grid.counts[0])?, part(0..2)?])?;
+/// assert_eq!(parts, join(vec![part(0..grid.counts[0])?])?);
+/// assert_eq!(join(vec![part(0..2)?]), Err(WorkspaceError::Open), "layers are missing");
 /// # Ok::<(), WorkspaceError>(())
 /// ```
 pub fn merge(
