@@ -184,7 +184,11 @@ impl Machine {
         Ok(machine)
     }
 
-    /// The data the machine was made from.
+    /// The data from which the machine was made.
+    ///
+    /// # Units
+    ///
+    /// Millimetres and radians.
     ///
     /// # Examples
     ///

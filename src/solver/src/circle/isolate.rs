@@ -121,8 +121,8 @@ impl Arc {
         self.low + self.width
     }
 
-    /// Where the interpolant of a monotone arc crosses zero, to a few hundredths of the arc: the
-    /// secant, improved by one Newton step.
+    /// The crossing of zero of a monotone arc's interpolant, to a few hundredths of the arc: the secant, improved by
+    /// one Newton step.
     fn interpolated_root(&self) -> f64 {
         let [b0, b1, b2, b3] = self.control_points();
         let (c1, c2, c3) = (3.0 * (b1 - b0), 3.0 * (b2 - 2.0 * b1 + b0), b3 - b0 + 3.0 * (b1 - b2));

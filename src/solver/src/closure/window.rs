@@ -162,8 +162,8 @@ impl Stretch {
     }
 }
 
-/// Where a function that is negative at `outside` and not at `inside` becomes zero: the last place
-/// at which it is not negative.
+/// Finds where a function that is negative at `outside` and not at `inside` becomes zero: the last place at which it
+/// is not negative.
 fn fold(height: &impl Fn(f64) -> f64, mut outside: f64, mut inside: f64) -> f64 {
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (outside + inside);

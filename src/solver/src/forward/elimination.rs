@@ -1,4 +1,4 @@
-//! The forward question's loop closure in (a, λ), and its polynomial of degree four.
+//! The loop closure of the forward problem in (a, λ), and its polynomial of degree four.
 
 use crate::circle::{TrigPolynomial, linear};
 use crate::closure::{Closure, Equations, LAST_STEP, Root};

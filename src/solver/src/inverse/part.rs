@@ -1,4 +1,4 @@
-//! The whole machine: the tool's pose given in the table frame.
+//! The whole machine: the tool's pose is given in the part frame.
 
 use super::track::Track;
 use crate::angle::sin_cos;

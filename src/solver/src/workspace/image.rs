@@ -5,7 +5,7 @@ use super::request::{Kind, Request};
 use crate::machine::{Machine, Table};
 use crate::pose::Point;
 
-/// Least |cos theta1| at which a plane Z = const of the table frame cuts a column at one point.
+/// Least |cos theta1| at which a plane Z = const of the part frame cuts a column at one point.
 const UPRIGHT: f64 = 1e-12;
 /// The z, mm, that stands for a plane that does not meet a column: beyond every stroke.
 pub(super) const NOWHERE: f64 = 1e15;

@@ -256,7 +256,7 @@ impl<'a> Leaf<'a> {
             value(self.domain, curve, &self.domain.column(drawn(part)))
         });
         let mut site = Site::new(self.domain, drawn(part));
-        // Where two limits of the strokes meet, a crease of the sheet they share ends.
+        // A crease of the common sheet ends where two limits of the strokes meet.
         for value in &mut site.values[CREASES..] {
             if value.abs() <= SAME * self.domain.machine.derived.scale {
                 *value = 0.0;

@@ -18,7 +18,7 @@ pub(super) fn polygons(plane: &Plane) -> Vec<Polygon> {
                 .collect()
         })
         .collect();
-    // The domain lies to the left of its sides; the map to the table frame mirrors the plane.
+    // The domain lies to the left of its sides. The map to the part frame mirrors the plane.
     if rings.iter().map(|ring| area(ring)).sum::<f64>() < 0.0 {
         for ring in &mut rings {
             ring.reverse();
