@@ -1,13 +1,13 @@
-//! Whether a mesh is the closed surface that it should be.
+//! Examination of a mesh: is it a closed surface?
 
 use crate::edges::{Edges, Side};
 use crate::forest::Forest;
 use crate::{Mesh, facet};
 
-/// What there is to say against a mesh, and its topology.
+/// The defects of a mesh, and its topology.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Audit {
-    /// Edges of one triangle only: the surface has a rim there.
+    /// Edges of only one triangle. The surface has a boundary there.
     pub boundary_edges: usize,
     /// Edges of more than two triangles.
     pub non_manifold_edges: usize,
@@ -19,20 +19,56 @@ pub struct Audit {
     pub pinched_vertices: usize,
     /// Vertices less edges plus triangles.
     pub euler_characteristic: i64,
-    /// Pieces that share no edge with each other.
+    /// Pieces of the surface that share no edge with each other.
     pub components: usize,
 }
 
 impl Audit {
-    /// True if the surface has an inside everywhere: no rim, two triangles at each edge and these facing one
-    /// way.
+    /// Whether the surface separates an inside from an outside everywhere: every edge has two triangles, and these face
+    /// the same way.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// assert!(mesh.audit().is_watertight());
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn is_watertight(&self) -> bool {
         self.boundary_edges == 0 && self.non_manifold_edges == 0 && self.inconsistent_edges == 0
     }
 }
 
 impl Mesh {
-    /// Examines the mesh. All figures are of the indices, except the degenerate triangles.
+    /// Examines the mesh. All counts follow from the indices, except that of degenerate triangles, which needs
+    /// coordinates.
+    ///
+    /// # References
+    ///
+    /// Euler's polyhedron formula: vertices - edges + triangles = 2 for a sphere, 0 for a torus.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// let audit = mesh.audit();
+    /// assert_eq!((audit.boundary_edges, audit.components, audit.euler_characteristic), (0, 1, 2));
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn audit(&self) -> Audit {
         let mut audit = Audit::default();
         let mut pieces = Forest::new(self.corner_count() / 3);
@@ -58,7 +94,7 @@ impl Mesh {
         audit
     }
 
-    /// How many vertices have corners in more than one fan.
+    /// Counts the vertices with corners in more than one fan.
     fn pinched(&self, fans: &mut Forest) -> usize {
         let mut first = vec![u32::MAX; self.positions().len()];
         let mut pinched = vec![false; self.positions().len()];

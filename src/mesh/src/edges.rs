@@ -1,4 +1,4 @@
-//! Which triangles meet at which edge.
+//! The edges of a mesh, and the triangles at each.
 
 use crate::Mesh;
 
@@ -32,7 +32,7 @@ impl Side {
     }
 }
 
-/// Sides, those of one edge beside each other.
+/// The sides of a mesh. Those of one edge are contiguous.
 pub(crate) struct Edges(Vec<Side>);
 
 impl Edges {
@@ -41,7 +41,7 @@ impl Edges {
         Self::among(mesh, |_, _| true)
     }
 
-    /// Those sides whose two vertices please.
+    /// The sides whose two vertices satisfy a predicate.
     pub(crate) fn among(mesh: &Mesh, wanted: impl Fn(u32, u32) -> bool) -> Self {
         let mut sides = Vec::new();
         for corner in 0..mesh.corner_count() {
@@ -62,7 +62,7 @@ impl Edges {
 }
 
 impl Mesh {
-    /// How many corners the triangles have; `Mesh::new` made sure that the number fits.
+    /// The number of the triangles' corners. `Mesh::new` checked that it fits.
     pub(crate) fn corner_count(&self) -> u32 {
         u32::try_from(self.triangles().len() * 3).unwrap_or(u32::MAX)
     }

@@ -2,16 +2,16 @@
 
 use crate::vector::{cross, dot, norm, scale, sub};
 
-/// A height below this part of the longest edge is rounding, and the normal it would give is noise.
+/// Fraction of the longest edge below which a height is rounding error, and a normal computed from it is noise.
 const FLAT: f64 = 1e-12;
 
-/// The outward unit normal; none where the corners lie on a line.
+/// The outward unit normal; `None` if the corners lie on a line.
 pub(crate) fn normal([a, b, c]: [[f64; 3]; 3]) -> Option<[f64; 3]> {
     let (ab, bc, ca) = (sub(b, a), sub(c, b), sub(a, c));
     let longest_squared = dot(ab, ab).max(dot(bc, bc)).max(dot(ca, ca));
     let twice = cross(ab, sub(c, a));
     let twice_area = norm(twice);
-    // Written so that an overflow or a not-a-number counts as flat.
+    // The comparison treats an overflow or a NaN as flat.
     (twice_area > FLAT * longest_squared && twice_area.is_finite()).then(|| scale(twice, twice_area.recip()))
 }
 

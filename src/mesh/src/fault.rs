@@ -1,17 +1,17 @@
-//! Why a list of triangles is no mesh.
+//! The reasons why vertices, triangles and tags are not a mesh.
 
 use std::fmt;
 
-/// What makes vertices, triangles and tags unfit to be a [`Mesh`](crate::Mesh).
+/// The reason why vertices, triangles and tags are not a [`Mesh`](crate::Mesh).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MeshFault {
     /// More vertices or corners than 32-bit indices can count.
     TooLarge,
-    /// As many tags as triangles are wanted.
+    /// The number of tags differs from the number of triangles.
     TagCount {
-        /// How many triangles there are.
+        /// The number of triangles.
         triangles: usize,
-        /// How many tags there are.
+        /// The number of tags.
         tags: usize,
     },
     /// A coordinate is infinite or not a number.
@@ -23,7 +23,7 @@ pub enum MeshFault {
     NoSuchVertex {
         /// The triangle.
         triangle: usize,
-        /// What it names.
+        /// The number of the vertex.
         vertex: u32,
     },
     /// A triangle's tag has no swatch.
@@ -33,7 +33,7 @@ pub enum MeshFault {
         /// Its tag.
         tag: u8,
     },
-    /// No triangle uses the vertex: it would count in the bounds and in Euler's formula.
+    /// No triangle uses the vertex. It would count in the bounds and in Euler's formula.
     Unused {
         /// The vertex.
         vertex: usize,

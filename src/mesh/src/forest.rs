@@ -1,7 +1,6 @@
-//! Which of many numbered things hang together.
+//! Disjoint sets (union-find).
 
-/// Disjoint sets of the numbers below a bound; the least member stands for its set, whatever the order of
-/// joining.
+/// Disjoint sets of the numbers below a bound. The least member represents its set, whatever the order of joining.
 pub(crate) struct Forest {
     parent: Vec<u32>,
 }
@@ -12,7 +11,7 @@ impl Forest {
         Self { parent: (0..size).collect() }
     }
 
-    /// The least member of the set that holds `of`.
+    /// The least member of the set that contains `of`.
     pub(crate) fn root(&mut self, mut of: u32) -> u32 {
         while self.parent[of as usize] != of {
             // Halving the path keeps later walks short.
@@ -29,7 +28,7 @@ impl Forest {
         self.parent[a.max(b) as usize] = a.min(b);
     }
 
-    /// How many sets there are.
+    /// The number of sets.
     pub(crate) fn count(&self) -> usize {
         (0..).zip(&self.parent).filter(|(number, parent)| number == *parent).count()
     }

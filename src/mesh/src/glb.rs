@@ -1,8 +1,8 @@
-//! GLB, the binary glTF 2.0: for viewers. In metres and with Y up, as glTF demands.
+//! GLB, the binary glTF 2.0, for viewers: in metres and with Y up, as glTF requires.
 //!
-//! Each tag that occurs is a primitive whose material has the tag's name and colour, so that other programs can
-//! select it; its `extras` hold the `tag`, an index into the `palette` of the mesh's `extras`. The vertices are
-//! split along the creases and between the tags, and interleaved, 24 bytes each: position and normal.
+//! Each tag that occurs becomes a primitive whose material has the tag's name and colour, so other programs can
+//! select it. Its `extras` contain the `tag`, an index into the `palette` of the mesh's `extras`. The vertices are
+//! split along the creases and between the tags. They are interleaved, 24 bytes each: position and normal.
 
 mod document;
 mod layout;
@@ -20,20 +20,59 @@ use crate::groups::Groups;
 use crate::shading::{ShadedVertex, Shading};
 use crate::{Bounds, Mesh};
 
-/// What a GLB holds besides the mesh.
+/// The contents of a GLB besides the mesh.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What a viewer's list of objects calls the mesh.
+    /// The name of the mesh in a viewer's list of objects.
     pub name: String,
-    /// Which way is up in the mesh's frame.
+    /// The direction that is up in the mesh's frame.
     pub up: Up,
-    /// The bend, in radians, from which an edge is shown sharp. Edges between two tags always are.
+    /// The angle between two triangles, in radians, from which their edge is shown sharp. Edges between two tags
+    /// always are.
     pub crease: f64,
-    /// The scene's `extras`: whatever the caller has to say; left out if null.
+    /// The scene's `extras`; omitted if null.
     pub extras: Value,
 }
 
-/// Writes the mesh as a GLB; an empty one as a scene without nodes, since glTF knows no empty buffers.
+/// Writes the mesh as a GLB. An empty mesh becomes a scene without nodes, because glTF has no empty buffers.
+///
+/// # Units
+///
+/// The mesh is in millimetres; the file is in metres with Y up. `options.crease` is in radians.
+///
+/// # Errors
+///
+/// - The error of `out`.
+/// - [`io::ErrorKind::FileTooLarge`]: the file would be longer than 4 GiB.
+///
+/// # References
+///
+/// [glTF 2.0](https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html), section 4: the GLB container.
+///
+/// # Examples
+///
+/// ```
+/// # use verne_mesh::{Mesh, MeshFault, Swatch};
+/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+/// # }
+/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+/// use verne_mesh::glb::{self, Options, Up};
+///
+/// let options = Options {
+///     name: "tetrahedron".to_owned(),
+///     up: Up::NegativeZ,
+///     crease: 0.7,
+///     extras: serde_json::Value::Null,
+/// };
+/// let mut file = Vec::new();
+/// glb::write(&mesh, &options, &mut file)?;
+/// assert!(file.starts_with(b"glTF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write(mesh: &Mesh, options: &Options, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     match mesh.bounds() {
@@ -71,7 +110,7 @@ fn record(vertex: &ShadedVertex, mesh: &Mesh, placement: &Placement) -> [u8; STR
 
 fn write_indices(part: &Part, shading: &Shading, short: bool, out: &mut impl Write) -> io::Result<()> {
     let corners = &shading.corners[part.indices.clone()];
-    // A tag's first corner names its first vertex.
+    // The first corner of a tag refers to its first vertex.
     for index in corners.iter().map(|corner| corner - corners[0]) {
         match u16::try_from(index) {
             Ok(index) if short => out.write_all(&index.to_le_bytes())?,

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::Mesh;
 
-/// The triangles of a mesh, ordered by tag: what a file keeps of the tags where its readers bear no scalar at a face.
+/// The triangles of a mesh, ordered by tag. Files whose readers accept no scalar at a face keep the tags in this way.
 pub(crate) struct Groups {
     order: Vec<u32>,
     groups: Vec<Group>,
@@ -14,7 +14,7 @@ pub(crate) struct Groups {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Group {
     pub(crate) tag: u8,
-    /// Where they stand in the order.
+    /// Their range in the order.
     pub(crate) triangles: Range<usize>,
 }
 

@@ -1,4 +1,4 @@
-//! JSON, in millimetres: for scripts without a mesh library.
+//! JSON in millimetres, for scripts without a mesh library.
 
 use std::io::{self, BufWriter, Write};
 
@@ -7,9 +7,35 @@ use serde_json::Value;
 
 use crate::{Mesh, Swatch};
 
-/// Writes the mesh as one JSON object: `unit`, flat `positions` (three numbers a vertex) and `indices` (three
-/// a triangle), `tags` (one a vertex), `triangle_tags`, the `palette` that the tags index, and the caller's
-/// `extras` unless null. Positions are written so that they read back exactly.
+/// Writes the mesh as one JSON object: `unit`, flat `positions` (three numbers a vertex) and `indices` (three a
+/// triangle), `tags` (one a vertex), `triangle_tags`, the `palette` that the tags index, and the caller's `extras`
+/// unless null. Positions read back exactly.
+///
+/// # Units
+///
+/// Millimetres.
+///
+/// # Errors
+///
+/// The error of `out`.
+///
+/// # Examples
+///
+/// ```
+/// # use verne_mesh::{Mesh, MeshFault, Swatch};
+/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+/// # }
+/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+/// let mut file = Vec::new();
+/// verne_mesh::json::write(&mesh, &serde_json::Value::Null, &mut file)?;
+/// let read: serde_json::Value = serde_json::from_slice(&file)?;
+/// assert_eq!(read["unit"], "mm");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write(mesh: &Mesh, extras: &Value, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     let object = Object {

@@ -1,9 +1,8 @@
-//! Indexed triangle meshes, in millimetres and in some right-handed frame: measures, audits, plane sections
-//! and encoders. What is meshed, and for whom, is the caller's business.
+//! Indexed triangle meshes in millimetres: measures, audits, plane sections and encoders. The frame is any
+//! right-handed one. The crate does not know the meaning of a mesh.
 //!
-//! Geometry is kept welded (a vertex is stored once and shared), so that a closed surface is closed by its
-//! indices and not by a comparison of coordinates. Only GLB, which has one normal a vertex, is given split
-//! vertices.
+//! A vertex is stored once and shared. So a closed surface is closed by its indices, not by a comparison of
+//! coordinates. Only GLB, which has one normal for each vertex, gets split vertices.
 
 mod audit;
 mod edges;

@@ -1,9 +1,9 @@
-//! How much there is of a mesh, and where.
+//! Bounds, volume and area of a mesh.
 
 use crate::vector::{add, cross, dot, scale, sub};
 use crate::{Mesh, facet, sum};
 
-/// The smallest box along the axes that holds a mesh.
+/// The smallest box along the axes that contains a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// The least of each coordinate, mm.
@@ -13,14 +13,46 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box's centre, mm.
+    /// The centre of the box.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_mesh::Bounds;
+    ///
+    /// let bounds = Bounds { min: [0.0, 2.0, -4.0], max: [6.0, 4.0, 4.0] };
+    /// assert_eq!(bounds.centre(), [3.0, 3.0, 0.0]);
+    /// ```
     pub fn centre(&self) -> [f64; 3] {
         scale(add(self.min, self.max), 0.5)
     }
 }
 
 impl Mesh {
-    /// The box that holds the mesh; none if it is empty.
+    /// The smallest box along the axes that contains the mesh; `None` if the mesh is empty.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// assert_eq!(mesh.bounds().map(|bounds| bounds.max), Some([6.0; 3]));
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn bounds(&self) -> Option<Bounds> {
         let (first, rest) = self.positions().split_first()?;
         Some(rest.iter().fold(Bounds { min: *first, max: *first }, |held, p| Bounds {
@@ -29,10 +61,34 @@ impl Mesh {
         }))
     }
 
-    /// The volume that the triangles enclose, mm³: negative where they face inwards, and without meaning
-    /// where the mesh is not watertight.
+    /// Computes the volume that the triangles enclose. It is negative if the triangles face inwards, and has no meaning
+    /// if the mesh is not watertight.
+    ///
+    /// # Units
+    ///
+    /// mm³.
+    ///
+    /// # References
+    ///
+    /// The divergence theorem: the sum of the signed tetrahedra over the triangles.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// assert!((mesh.volume() - 36.0).abs() < 1e-12);
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn volume(&self) -> f64 {
-        // Tetrahedra from the centre, not from the frame's origin: a mesh far from it would lose digits.
+        // The tetrahedra have their apex at the centre of the mesh, not at the frame's origin: a mesh far from the
+        // origin would lose digits.
         let apex = self.bounds().map_or([0.0; 3], |bounds| bounds.centre());
         let six_fold = self.triangles().iter().map(|triangle| {
             let [a, b, c] = self.corners(triangle).map(|corner| sub(corner, apex));
@@ -41,7 +97,27 @@ impl Mesh {
         sum::compensated(six_fold) / 6.0
     }
 
-    /// The area of all triangles, mm².
+    /// Computes the area of all triangles.
+    ///
+    /// # Units
+    ///
+    /// mm².
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// let (wall, slope) = (18.0, 18.0 * 3_f64.sqrt());
+    /// assert!((mesh.area() - 3.0 * wall - slope).abs() < 1e-12);
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn area(&self) -> f64 {
         sum::compensated(self.triangles().iter().map(|triangle| facet::area(self.corners(triangle))))
     }

@@ -1,4 +1,4 @@
-//! The mesh itself.
+//! The mesh type.
 
 use crate::{MeshFault, Swatch};
 
@@ -15,16 +15,45 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// A mesh of vertices, triangles, a tag for each triangle, and what the tags mean.
+    /// Makes a mesh of vertices, triangles, a tag for each triangle, and the palette that the tags index.
     ///
-    /// Only what would make the other functions meaningless is refused here; [`Mesh::audit`] tells the rest.
+    /// It refuses only input that makes other functions meaningless. [`Mesh::audit`] examines the topology.
+    ///
+    /// # Units
+    ///
+    /// `positions` are millimetres.
+    ///
+    /// # Errors
+    ///
+    /// - [`MeshFault::TooLarge`]: 32-bit numbers cannot count the vertices or the corners.
+    /// - [`MeshFault::TagCount`]: there are not as many tags as triangles.
+    /// - [`MeshFault::NoSuchTag`]: a tag has no swatch in the palette.
+    /// - [`MeshFault::NotFinite`]: a coordinate is infinite or NaN.
+    /// - [`MeshFault::NoSuchVertex`]: a triangle names a vertex that does not exist.
+    /// - [`MeshFault::Unused`]: no triangle uses some vertex.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_mesh::{Mesh, MeshFault, Swatch};
+    ///
+    /// let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// let palette = vec![Swatch { name: "stroke".to_owned(), rgb: [80, 80, 80] }];
+    /// let mesh = Mesh::new(corners.clone(), triangles.clone(), vec![0; 4], palette.clone())?;
+    /// assert!(mesh.audit().is_watertight());
+    ///
+    /// let refused = Mesh::new(corners, triangles, vec![0; 3], palette);
+    /// assert_eq!(refused, Err(MeshFault::TagCount { triangles: 4, tags: 3 }));
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn new(
         positions: Vec<[f64; 3]>,
         triangles: Vec<[u32; 3]>,
         tags: Vec<u8>,
         palette: Vec<Swatch>,
     ) -> Result<Self, MeshFault> {
-        // Corners are numbered, and the largest number is kept free to mean none.
+        // Corners are numbered. The largest number is reserved for none.
         if u32::try_from(positions.len()).is_err()
             || u32::try_from(triangles.len().saturating_mul(3)).is_err()
         {
@@ -44,26 +73,105 @@ impl Mesh {
     }
 
     /// The vertices.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// assert_eq!(mesh.positions()[1], [6.0, 0.0, 0.0]);
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn positions(&self) -> &[[f64; 3]] {
         &self.positions
     }
 
-    /// The triangles, each as three vertices.
+    /// The triangles: for each the numbers of its three vertices, counter-clockwise seen from outside.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// assert_eq!(mesh.triangles()[2], [1, 2, 3]);
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// Each triangle's tag.
+    /// Each triangle's tag: an index into the palette.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// assert_eq!(mesh.tags(), [0, 0, 1, 0]);
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn tags(&self) -> &[u8] {
         &self.tags
     }
 
-    /// What the tags mean.
+    /// The name and the colour of each tag.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// assert_eq!(mesh.palette()[1].name, "slope");
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn palette(&self) -> &[Swatch] {
         &self.palette
     }
 
-    /// A tag for each vertex: where several meet, the one that comes first in the palette.
+    /// Computes a tag for each vertex: of the tags of its triangles the first in the palette.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// assert_eq!(mesh.vertex_tags(), [0, 0, 0, 0], "every vertex belongs to a wall");
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn vertex_tags(&self) -> Vec<u8> {
         let mut lowest = vec![u8::MAX; self.positions.len()];
         for (triangle, &tag) in self.triangles.iter().zip(&self.tags) {

@@ -1,4 +1,4 @@
-//! A mesh as bytes to be kept and read back exactly: for ourselves, not for exchange.
+//! A compact binary form of a mesh that reads back exactly. It is for internal storage, not for exchange.
 
 use std::borrow::Cow;
 
@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Mesh, MeshFault, Swatch};
 
-/// Says that the bytes are these, and of which layout.
+/// Identifies the format and its layout.
 const LAYOUT: [u8; 8] = *b"verneM01";
 
-/// Why bytes are no packed mesh.
+/// The reason why bytes cannot be decoded.
 #[derive(Debug)]
 pub enum Unreadable {
-    /// They were never one, or not of this layout, or are damaged.
+    /// The bytes are not a packed mesh of this layout, or are damaged.
     Bytes(postcard::Error),
-    /// They hold something that is no mesh.
+    /// The bytes decode to data that is not a mesh.
     Mesh(MeshFault),
 }
 
@@ -39,7 +39,32 @@ struct Packed<'a> {
     palette: Cow<'a, [Swatch]>,
 }
 
-/// The mesh as bytes, some 30 a triangle.
+/// Encodes the mesh in about 30 bytes a triangle.
+///
+/// # Errors
+///
+/// The encoder's error. The encoder writes to memory only.
+///
+/// # References
+///
+/// [postcard](https://postcard.jamesmunns.com): the wire format.
+///
+/// # Examples
+///
+/// ```
+/// # use verne_mesh::{Mesh, MeshFault, Swatch};
+/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+/// # }
+/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+/// use verne_mesh::packed::{pack, unpack};
+///
+/// assert_eq!(unpack(&pack(&mesh)?)?, mesh);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn pack(mesh: &Mesh) -> Result<Vec<u8>, postcard::Error> {
     postcard::to_stdvec(&Packed {
         layout: LAYOUT,
@@ -50,7 +75,24 @@ pub fn pack(mesh: &Mesh) -> Result<Vec<u8>, postcard::Error> {
     })
 }
 
-/// The mesh that [`pack`] made these bytes of.
+/// Decodes the mesh that [`pack`] encoded. Numbers are the same to the last bit.
+///
+/// # Errors
+///
+/// - [`Unreadable::Bytes`]: `bytes` are not a packed mesh of this layout, or are damaged.
+/// - [`Unreadable::Mesh`]: they decode to data that is not a mesh.
+///
+/// # References
+///
+/// [postcard](https://postcard.jamesmunns.com): the wire format.
+///
+/// # Examples
+///
+/// ```
+/// use verne_mesh::packed::{Unreadable, unpack};
+///
+/// assert!(matches!(unpack(b"{}"), Err(Unreadable::Bytes(_))));
+/// ```
 pub fn unpack(bytes: &[u8]) -> Result<Mesh, Unreadable> {
     let packed: Packed<'_> = postcard::from_bytes(bytes).map_err(Unreadable::Bytes)?;
     if packed.layout != LAYOUT {

@@ -1,4 +1,4 @@
-//! What a tag means to a reader and how it is painted.
+//! Names and colours of tags.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,14 +7,14 @@ use crate::vector::single;
 /// One tag's name and colour. A mesh's tags index its list of swatches.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Swatch {
-    /// What the tag stands for.
+    /// The meaning of the tag.
     pub name: String,
-    /// The colour as screens show it: sRGB, eight bits a channel.
+    /// The colour in sRGB, eight bits a channel.
     pub rgb: [u8; 3],
 }
 
 impl Swatch {
-    /// The colour as a light's intensity, 0 to 1, which is what glTF means by a material's colour.
+    /// The colour as linear intensity, 0 to 1, as glTF defines a material's colour.
     pub(crate) fn linear(&self) -> [f32; 3] {
         single(self.rgb.map(|channel| {
             let encoded = f64::from(channel) / 255.0;

@@ -1,8 +1,8 @@
-//! Binary PLY, in millimetres and double precision: for what follows in other programs.
+//! Binary PLY in millimetres and double precision, for further processing in other programs.
 //!
-//! meshio and PyMesh read no face that has a scalar beside its list of vertices, and meshio reads no third element
-//! and takes `uchar` for a signed number. So the faces are ordered by tag, comments say where each tag's faces are,
-//! and types have the names with their widths.
+//! meshio and PyMesh cannot read faces with a scalar next to their list of vertices. meshio reads no third element,
+//! and takes `uchar` for a signed number. So the faces are ordered by tag, comments give the range of each tag's
+//! faces, and types have the names with their widths.
 
 use std::fmt::Write as _;
 use std::io::{self, BufWriter, Write};
@@ -12,9 +12,39 @@ use crate::groups::Groups;
 
 /// Writes the mesh as a little-endian PLY: vertices with colour and tag, then faces in the order of their tags.
 ///
-/// Each line of the comments becomes a comment. So does each swatch, as `tag NUMBER RED GREEN BLUE NAME`, and each
-/// tag that faces have, as `faces FIRST COUNT tag NUMBER`; faces count from 0. What does not fit into a comment
-/// continues in further ones, each of which begins with `+`.
+/// Each line of `comments` becomes a comment. Each swatch becomes a comment `tag NUMBER RED GREEN BLUE NAME`, and each
+/// tag that faces have a comment `faces FIRST COUNT tag NUMBER`, where faces count from 0. Text that is too long for a
+/// comment continues in further comments, each of which begins with `+`.
+///
+/// # Units
+///
+/// Millimetres, in double precision.
+///
+/// # Errors
+///
+/// The error of `out`.
+///
+/// # References
+///
+/// G. Turk, *The PLY Polygon File Format*, Stanford University 1994.
+///
+/// # Examples
+///
+/// ```
+/// # use verne_mesh::{Mesh, MeshFault, Swatch};
+/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+/// # }
+/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+/// let mut file = Vec::new();
+/// verne_mesh::ply::write(&mesh, "a tetrahedron", &mut file)?;
+/// let text = String::from_utf8_lossy(&file);
+/// assert!(text.contains("comment a tetrahedron") && text.contains("comment tag 1 80 80 80 slope"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write(mesh: &Mesh, comments: &str, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     let groups = Groups::of(mesh);
@@ -53,12 +83,12 @@ fn header(mesh: &Mesh, groups: &Groups, comments: &str) -> String {
     header
 }
 
-/// Characters of a comment. MeshLab refuses lines of 512 characters, VTK reads nothing after one of 4,096, and Open3D
-/// aborts at 1,024.
+/// Greatest number of characters of a comment. MeshLab refuses lines of 512 characters, VTK reads nothing after one
+/// of 4,096, and Open3D aborts at 1,024.
 const COMMENT: usize = 400;
 
 fn comment(header: &mut String, text: &str) {
-    // A line's end within the text would end the comment, and readers expect ASCII.
+    // A line break within the text would end the comment, and readers expect ASCII.
     let ascii: Vec<char> =
         text.chars().map(|c| if c == ' ' || c.is_ascii_graphic() { c } else { '?' }).collect();
     header.push_str("comment ");

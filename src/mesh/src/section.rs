@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::edges::Edges;
 use crate::{Mesh, sum};
 
-/// A closed polygon in the plane of the cut, the last point joined to the first.
+/// A closed polygon in the plane of the cut. The last point joins the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
     /// The corners (x, y), mm. The mesh's inside lies to the left, so that an outer contour runs
@@ -14,7 +14,20 @@ pub struct Contour {
 }
 
 impl Contour {
-    /// The area within, mm²: negative for a hole.
+    /// Computes the area inside; it is negative for a hole.
+    ///
+    /// # Units
+    ///
+    /// mm².
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_mesh::Contour;
+    ///
+    /// let square = Contour { points: vec![[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]] };
+    /// assert_eq!(square.area(), 4.0);
+    /// ```
     pub fn area(&self) -> f64 {
         let Some(&[x, y]) = self.points.first() else { return 0.0 };
         let following = self.points.iter().cycle().skip(1);
@@ -25,10 +38,32 @@ impl Contour {
 }
 
 impl Mesh {
-    /// The contours at the height `z` of a watertight mesh; of another, what closes by a straight line.
+    /// Cuts a watertight mesh at the height `z`. If the mesh is not watertight, a straight line closes each open
+    /// contour.
     ///
-    /// A vertex at the very height counts as above, as though the plane lay a hair lower in z: so every cut
-    /// is of whole edges, and a flat face in the plane shows if the inside lies on the lower side of it.
+    /// A vertex exactly at the height counts as above it, as if the plane lay infinitesimally lower in z. So every cut
+    /// crosses whole edges, and a flat face in the plane appears if the inside lies on its lower side.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
+    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+    /// # }
+    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    /// let contours = mesh.section(3.0);
+    /// assert_eq!(contours.len(), 1);
+    /// assert!((contours[0].area() - 4.5).abs() < 1e-12, "half a square of 3 mm");
+    /// # Ok::<(), MeshFault>(())
+    /// ```
     pub fn section(&self, z: f64) -> Vec<Contour> {
         let mut following = self.following(z);
         let mut contours = Vec::new();
@@ -45,7 +80,7 @@ impl Mesh {
             if points.first() == points.last() {
                 points.pop();
             }
-            // What only touches the plane leaves a point or a line.
+            // A part that only touches the plane leaves a point or a line.
             if points.len() > 2 {
                 contours.push(Contour { points });
             }
@@ -53,11 +88,11 @@ impl Mesh {
         contours
     }
 
-    /// From each side that passes down through the plane to the next such side along its contour, both named
-    /// by the corner they start from.
+    /// Maps each side that passes down through the plane to the next such side along its contour. Both are named by
+    /// the corner at which they start.
     ///
-    /// A triangle that is cut has one side down and one up, and the contour crosses it from the first to the
-    /// second. There it enters the neighbour, for which the same edge is the side down.
+    /// A cut triangle has one side down and one side up, and the contour crosses it from the first to the second.
+    /// There it enters the neighbour, for which the same edge is the side down.
     fn following(&self, z: f64) -> BTreeMap<u32, u32> {
         let mut following = BTreeMap::new();
         for sides in Edges::among(self, |from, to| self.above(from, z) != self.above(to, z)).iter() {
@@ -81,7 +116,7 @@ impl Mesh {
         self.above(from, z) && !self.above(to, z)
     }
 
-    /// Where a side that goes down meets the plane; exactly at its start if that is in the plane.
+    /// The point where a side that goes down meets the plane; exactly its start if that is in the plane.
     fn crossing(&self, corner: u32, z: f64) -> [f64; 2] {
         let [from, to] = self.side(corner).map(|vertex| self.positions()[vertex as usize]);
         let part = (from[2] - z) / (from[2] - to[2]);

@@ -1,4 +1,4 @@
-//! Normals for display: smooth over the surface, broken at its creases.
+//! Normals for display: smooth on the surface, discontinuous at its creases.
 
 use crate::edges::{Edges, Side};
 use crate::forest::Forest;
@@ -6,7 +6,7 @@ use crate::groups::Groups;
 use crate::vector::{add, dot, norm, scale};
 use crate::{Mesh, facet};
 
-/// A vertex of the mesh as one smooth patch sees it.
+/// A vertex of the mesh with the normal of one smooth patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ShadedVertex {
     /// The mesh's vertex.
@@ -28,10 +28,10 @@ pub(crate) struct Shading {
 const NONE: u32 = u32::MAX;
 
 impl Shading {
-    /// Splits the vertices along edges that bend by more than `crease` (radians) or that part two tags.
+    /// Splits the vertices along edges that bend by more than `crease` (radians) or that separate two tags.
     ///
-    /// A patch's normal at a vertex is the mean of its triangles' normals weighted by their angles there,
-    /// which does not depend on how a flat polygon is cut into triangles.
+    /// A patch's normal at a vertex is the mean of its triangles' normals, weighted by their angles there. It does
+    /// not depend on how a flat polygon is triangulated.
     pub(crate) fn of(mesh: &Mesh, crease: f64, groups: &Groups) -> Self {
         let normals: Vec<_> =
             mesh.triangles().iter().map(|triangle| facet::normal(mesh.corners(triangle))).collect();
@@ -94,8 +94,7 @@ fn split(mesh: &Mesh, fans: &mut Forest, groups: &Groups) -> Shading {
     shading
 }
 
-/// The direction of a vector; where there is none (all triangles flat, or facing each other) any direction
-/// does.
+/// The direction of a vector. A zero vector (all triangles flat, or facing each other) gets an arbitrary direction.
 fn unit(sum: [f64; 3]) -> [f64; 3] {
     let length = norm(sum);
     if length > 1e-9 { scale(sum, length.recip()) } else { [0.0, 0.0, 1.0] }

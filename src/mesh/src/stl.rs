@@ -1,4 +1,4 @@
-//! Binary STL, in millimetres: for slicers and CAD. It has neither vertices in common nor tags.
+//! Binary STL in millimetres, for slicers and CAD. It has neither shared vertices nor tags.
 
 use std::io::{self, BufWriter, Write};
 
@@ -7,7 +7,36 @@ use crate::{Mesh, facet};
 
 const HEADER: usize = 80;
 
-/// Writes the mesh as a binary STL. The header has room for some sixty bytes of the title.
+/// Writes the mesh as a binary STL. The header has room for about sixty bytes of the title.
+///
+/// # Units
+///
+/// Millimetres, in single precision; the format itself has no unit.
+///
+/// # Errors
+///
+/// The error of `out`.
+///
+/// # References
+///
+/// [Library of Congress, STL binary](https://www.loc.gov/preservation/digital/formats/fdd/fdd000505.shtml).
+///
+/// # Examples
+///
+/// ```
+/// # use verne_mesh::{Mesh, MeshFault, Swatch};
+/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
+/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
+/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
+/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
+/// # }
+/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+/// let mut file = Vec::new();
+/// verne_mesh::stl::write(&mesh, "tetrahedron", &mut file)?;
+/// assert_eq!(file.len(), 80 + 4 + 50 * mesh.triangles().len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write(mesh: &Mesh, title: &str, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     out.write_all(&header(title))?;
@@ -15,14 +44,14 @@ pub fn write(mesh: &Mesh, title: &str, out: impl Write) -> io::Result<()> {
     out.write_all(&count.to_le_bytes())?;
     for triangle in mesh.triangles() {
         let corners = mesh.corners(triangle);
-        // The format's custom for a triangle without a normal is zero.
+        // By convention the normal of a triangle without a normal is zero.
         let normal = facet::normal(corners).unwrap_or_default();
         out.write_all(&record([normal, corners[0], corners[1], corners[2]]))?;
     }
     out.flush()
 }
 
-/// Starts with what no reader can take for the word "solid", by which it would know a text file.
+/// Makes the header. It does not begin with "solid", by which readers recognise a text file.
 fn header(title: &str) -> [u8; HEADER] {
     let text = format!("binary STL, mm; {title}");
     let ascii = text.chars().map(|c| if c.is_ascii_graphic() { c } else { ' ' });
@@ -34,7 +63,7 @@ fn header(title: &str) -> [u8; HEADER] {
     header
 }
 
-/// Twelve numbers and two bytes that nobody agrees on, left zero.
+/// A record: twelve numbers and two attribute bytes. Their meaning is not standardised, so they are zero.
 fn record(vectors: [[f64; 3]; 4]) -> [u8; 50] {
     let mut bytes = [0; 50];
     for (slot, &number) in bytes.chunks_exact_mut(4).zip(vectors.map(single).as_flattened()) {

@@ -1,6 +1,6 @@
 //! Sums of many terms.
 
-/// The sum by Neumaier's compensation: as exact as one rounding of the true sum, unless the terms nearly
+/// The sum with Neumaier's compensation. It is as exact as one rounding of the true sum, unless the terms nearly
 /// cancel.
 pub(crate) fn compensated(terms: impl Iterator<Item = f64>) -> f64 {
     let (sum, lost) = terms.fold((0.0, 0.0), |(sum, lost): (f64, f64), term| {

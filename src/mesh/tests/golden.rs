@@ -1,6 +1,6 @@
-//! Every format's bytes, kept in files and read back by readers that are not ours.
+//! The bytes of every format, stored in files and read back by independent readers.
 //!
-//! A change of the bytes on purpose: run with `VERNE_BLESS=1`, look at the difference, commit the files.
+//! To change the bytes on purpose, run with `VERNE_BLESS=1`, check the difference, and commit the files.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -170,14 +170,14 @@ fn ply_rs_reads_the_ply() {
     }
 }
 
-/// First face, count and tag, if that is what the comment says.
+/// First face, count and tag, if the comment gives them.
 fn faces_of(comment: &str) -> Option<[usize; 3]> {
     let (faces, tag) = comment.strip_prefix("faces ")?.split_once(" tag ")?;
     let (first, count) = faces.split_once(' ')?;
     Some([first, count, tag].map(|number| number.parse().unwrap()))
 }
 
-/// MeshLab, VTK and Open3D have 512, 4,096 and 1,024 bytes for a line.
+/// MeshLab, VTK and Open3D allow 512, 4,096 and 1,024 bytes for a line.
 #[test]
 fn a_long_comment_is_continued() {
     let text = "0123456789 ".repeat(500);

@@ -1,4 +1,4 @@
-//! Volume, area, bounds and audit on solids whose figures are known.
+//! Volume, area, bounds and audit of solids whose figures are known.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 

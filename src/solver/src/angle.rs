@@ -1,14 +1,14 @@
-//! Angles and directions: the circular functions of the inner loops, without a call and with hardly
-//! a branch, so that a processor works on several at once. The library's take two to three times
-//! as long, as they round the last half a unit right, which no length here is the better for.
+//! Circular functions for the inner loops, without calls and almost without branches, so that a processor works on
+//! several at once. The standard library's functions take two to three times as long because they round the last half
+//! unit correctly. No length here needs that.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, PI};
 
-/// Up to this angle its quarter turns are split off exactly.
+/// Angle up to which its quarter turns are split off exactly.
 const MOST: f64 = 1e5;
 /// A quarter of a turn: its first 33 bits, and the rest.
 const QUARTER: [f64; 2] = [1.570_796_326_734_125_6, 6.077_100_506_506_192e-11];
-/// Added to a number below 2^51 it leaves the nearest integer in the last bits.
+/// A constant that, added to a number below 2^51, leaves the nearest integer in the last bits.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// (sin x - x) / x³ and (cos x - 1 + x²/2) / x⁴ in x² up to an eighth of a turn, lowest power
 /// first: the minimax polynomials of Sun's fdlibm.

@@ -12,14 +12,13 @@
 //!    no root, two, and a *touch* that the polynomial's own rounding cannot decide;
 //! 4. otherwise the arc is halved. The error falls sixteenfold each time.
 //!
-//! Every decision is certified, so no root is lost and none invented; the work is a few hundred
-//! multiplications, no iteration on companion matrices, no tan(θ/2) and no special angle. A
-//! companion matrix in tan(θ/2) costs 10 to 30 times as much, loses θ = π and splits double roots
-//! by the square root of the rounding; the benches measure it beside this one. Sturm sequences
-//! on such coefficients lose the close pairs that matter here.
+//! Every decision is certified, so the method neither loses nor invents a root. It takes a few hundred
+//! multiplications, without companion matrices, tan(θ/2) or special angles. A companion matrix in tan(θ/2) costs 10
+//! to 30 times as much, loses θ = π and splits double roots by the square root of the rounding; the benches compare
+//! both. Sturm sequences on such coefficients lose the close pairs that matter here.
 //!
-//! A touch is not decided on the polynomial, which is a product over the sheets of the loop
-//! closure and squares what is simple on each; [`crate::closure`] decides it on the sheets.
+//! A touch is not decided on the polynomial. The polynomial is a product over the sheets of the loop closure and
+//! squares a root that is simple on each; [`crate::closure`] decides it on the sheets.
 
 mod grid;
 mod isolate;

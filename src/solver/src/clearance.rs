@@ -19,8 +19,8 @@ use crate::machine::Machine;
 use crate::pose::{PlatformPose, TableAngles};
 use crate::table::part_pose;
 
-/// A tool, and the height over the table's plane that its end and the platform's joints keep. Lengths
-/// in mm.
+/// A tool, and the least height of its end and of the platform's joints over the table's plane. Lengths are
+/// millimetres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
     /// The least height.
@@ -32,13 +32,34 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// The clearance that a question asks for, or else the machine's; `None` where neither has one.
+    /// Takes the least height `asked` by the caller, or else the machine's. The answer is `None` if neither is given:
+    /// the table is then no limit.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): the height follows from Eqs
+    /// (7) and (26); the limit itself is not in the paper.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Clearance, Machine};
+    ///
+    /// let machine = Machine::verne();
+    /// assert!(Clearance::of(&machine, None, 150.0, 5.0).is_none());
+    /// let clearance = Clearance::of(&machine, Some(2.0), 150.0, 5.0);
+    /// assert_eq!(clearance.map(|clearance| clearance.least), Some(2.0));
+    /// ```
     pub fn of(machine: &Machine, asked: Option<f64>, tool_length: f64, tool_radius: f64) -> Option<Self> {
         let least = asked.or(machine.limits().table_clearance)?;
         Some(Self { least, tool_length, tool_radius })
     }
 
-    /// The margin of what is lowest.
+    /// The margin of the lowest point.
     #[inline]
     pub(crate) fn margin(&self, machine: &Machine, pose: &PlatformPose, table: TableAngles) -> Margin {
         let tool = part_pose(machine, pose, table, self.tool_length);
@@ -46,8 +67,8 @@ impl Clearance {
         Margin { constraint: Constraint::TableClearance, element, value: tool.z - depth - self.least }
     }
 
-    /// How far the lowest of tool and joints is below the tool centre point at an inclination, mm, and
-    /// which it is. The two joints of a parallelogram are equally high; the first stands for both.
+    /// The distance of the lowest of tool and joints below the tool centre point at an inclination, mm, and which of
+    /// them it is. The two joints of a parallelogram are equally high; the first represents both.
     #[inline]
     pub(crate) fn depth(&self, machine: &Machine, phi1: f64) -> (f64, Element) {
         let g = machine.geometry();

@@ -1,12 +1,11 @@
 //! The loop closure as two equations in (a, w), regular where its eliminated polynomial is not.
 //!
-//! Both directions of the kinematics come down to the platform angle a and one length-like
-//! unknown w (w1 itself for the inverse, λ = w1/u for the forward question) with one equation
-//! linear in w and one quadratic. Eliminating w gives a trigonometric polynomial whose factors
-//! are the two *sheets* w₊(a) and w₋(a). Where both sheets have a root at (nearly) the same angle
-//! (the symmetry plane; S = 2 rho1 - rho2 - rho3 ≈ 0) the polynomial has a (nearly) double root
-//! that double precision cannot resolve, but (a, w) are two well separated, simple solutions.
-//! Only where one sheet itself touches zero do two solutions really merge: a singularity.
+//! Both directions of the kinematics lead to the platform angle a and one length-like unknown w (w1 itself for the
+//! inverse problem, λ = w1/u for the forward problem), with one equation linear in w and one quadratic. Eliminating w
+//! gives a trigonometric polynomial whose factors are the two *sheets* w₊(a) and w₋(a). If both sheets have a root at
+//! (nearly) the same angle (the symmetry plane; S = 2 rho1 - rho2 - rho3 ≈ 0), the polynomial has a (nearly) double
+//! root that double precision cannot resolve, but (a, w) has two well separated, simple solutions. Only where one
+//! sheet itself touches zero do two solutions merge: a singularity.
 
 mod sheet;
 mod touch;
@@ -42,10 +41,10 @@ pub(crate) trait Closure<const M: usize> {
     fn unit(&self) -> f64;
     /// Positive where the sheets exist, zero where they meet, negative where there are none.
     fn discriminant(&self, c: f64, s: f64) -> f64;
-    /// Below this the linear equation is satisfied as far as residuals tell.
+    /// Value below which the linear equation is satisfied within its rounding error.
     fn noise(&self, c: f64, s: f64, w: f64) -> f64;
-    /// The Newton step at a root whose square, times the closure's curvature there, is nothing in
-    /// double precision.
+    /// The Newton step at a root whose square, times the closure's curvature there, is negligible in double
+    /// precision.
     fn last_step(&self, root: &Root) -> f64;
 }
 
@@ -70,7 +69,7 @@ impl Root {
         Self { a, c, s, w, merged: false }
     }
 
-    /// About the angle between two solutions.
+    /// The approximate angle between two solutions.
     #[inline]
     fn apart(&self, other: &Self) -> f64 {
         (self.c - other.c).abs() + (self.s - other.s).abs()
@@ -82,7 +81,7 @@ impl Root {
         self.apart(other) < SAME && (self.w - other.w).abs() <= 1e-6 * (self.w.abs() + other.w.abs())
     }
 
-    /// The angle by whole turns on an arc, if it lies there.
+    /// The angle shifted by whole turns into an arc, if it lies there.
     #[inline]
     fn turned_into(&self, low: f64, high: f64) -> Option<f64> {
         [self.a, self.a + TAU, self.a - TAU].into_iter().find(|a| (low..=high).contains(a))
@@ -94,12 +93,12 @@ pub(crate) type Roots = ArrayVec<Root, 8>;
 
 /// [`Closure::last_step`] of a closure whose curvature is of the order of one.
 pub(crate) const LAST_STEP: f64 = 3e-8;
-/// Relative error of the polynomial's coefficients, with a wide margin: a touch is decided on the
-/// sheets, which is always right and only slower.
+/// Relative error of the polynomial's coefficients, with a wide margin. A touch is decided on the sheets, which is
+/// always correct and only slower.
 const NOISE: f64 = 1e-10;
-/// Steps on the polynomial alone: Newton's few, or as many bisections as a double has bits.
+/// Steps on the polynomial alone: a few of Newton's, or as many bisections as a double has bits.
 const APPROACH: usize = 60;
-/// Angle within which two roots of one closure count as found twice.
+/// Angle within which two roots of one closure are the same root found twice.
 const SAME: f64 = 1e-9;
 /// Angle within which Newton's method may end beside a double root.
 const BESIDE: f64 = 1e-5;
@@ -112,8 +111,7 @@ pub(crate) fn from_level<const M: usize, C: Closure<M>>(closure: &C) -> Option<R
     polish(closure, Root::at(0.0, [1.0, 0.0], w))
 }
 
-/// Finds all solutions with |a| <= range beside `known`, which is one: a solution that is met
-/// again stays as it is known, to the last bit.
+/// Finds all solutions with |a| <= range. `known`, if given, is one of them; it is kept as it is, to the last bit.
 #[inline]
 pub(crate) fn find_roots<const M: usize, C: Closure<M>>(
     closure: &C,
@@ -158,8 +156,8 @@ pub(crate) fn find_roots<const M: usize, C: Closure<M>>(
     }
 }
 
-/// Adds the known solution, unless it was met at a touch. Newton's method creeps towards two merged
-/// solutions; what it finds beside them is none.
+/// Adds the known solution, unless a touch produced it. Newton's method converges slowly to two merged solutions; a
+/// result next to them is not another solution.
 #[cold]
 fn add_unmet(known: Root, found: &mut Roots) {
     if !found.iter().any(|root| root.merged && root.apart(&known) < BESIDE) {

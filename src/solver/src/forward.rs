@@ -14,7 +14,34 @@ use crate::posture::{Mode, Posture, Postures, Side, gathered};
 use crate::residual::{Checked, RESIDUAL_TOLERANCE, checked, size};
 use elimination::Assembly;
 
-/// All assembly modes (up to 8) for slider positions `rho`; at least one, or the refusal.
+/// Finds all assembly modes (up to 8) for slider positions `rho`.
+///
+/// # Units
+///
+/// `rho` is the sliders' z in the base frame, mm; z points down. The poses are in millimetres and radians.
+///
+/// # Errors
+///
+/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
+/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
+/// - [`Refusal::SelfMotion`]: the platform can move with all sliders locked.
+/// - [`Refusal::Blocked`]: no posture exists; the margin names the constraint that prevents it.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(6), (24), section III.D,
+/// Fig. 6.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Machine, Refusal, forward};
+///
+/// let modes = forward(&Machine::verne(), [674.0, 685.0, 250.0])?;
+/// assert_eq!(modes.len(), 4);
+/// assert_eq!(modes.iter().filter(|posture| posture.working).count(), 1);
+/// # Ok::<(), Refusal>(())
+/// ```
 pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, Refusal> {
     let assembly = question(machine, rho)?;
     let mut roots = Roots::new();
@@ -26,12 +53,39 @@ pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, Refusal> {
     )
 }
 
-/// The assembly mode in the working mode, found without a start value. Should there be two, which
-/// takes sliders far outside their strokes, it is the one whose `det_P` has the sign of home.
+/// Finds the assembly mode in the working mode. It needs no start value.
+///
+/// If there are two, which takes sliders far outside their strokes, it is the one whose det_P has the sign of home.
+///
+/// # Units
+///
+/// `rho` is the sliders' z in the base frame, mm; z points down. The poses are in millimetres and radians.
+///
+/// # Errors
+///
+/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
+/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
+/// - [`Refusal::SelfMotion`]: the platform can move with all sliders locked.
+/// - [`Refusal::Blocked`]: no assembly mode is in the working mode; the margin names the constraint that prevents it.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(6), section III.D.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Machine, Refusal, forward_working};
+///
+/// let posture = forward_working(&Machine::verne(), [674.0, 685.0, 250.0])?;
+/// assert!((posture.pose.z - 1316.470).abs() < 1e-3);
+/// assert!(posture.residual < 1e-9);
+/// # Ok::<(), Refusal>(())
+/// ```
 pub fn forward_working(machine: &Machine, rho: [f64; 3]) -> Result<Posture, Refusal> {
     let assembly = question(machine, rho)?;
-    // On the sheet λ > 0 from the level platform: the working mode's only basin in practice. What
-    // is found there counts only in the working mode and on home's side of the singularity.
+    // Newton's method on the sheet λ > 0 from the level platform finds the working mode in practice. Its result
+    // counts only if it is in the working mode and on home's side of the singularity.
     let level = from_level(&assembly);
     if let Some(root) = level
         && on_home_side(machine, &assembly, &root)
@@ -103,7 +157,7 @@ fn posture(machine: &Machine, assembly: &Assembly, rho: [f64; 3], root: &Root) -
     let legs = drops.map(Side::of);
     let working = u > 0.0 && w1 > v.abs() && drops[1] > 0.0 && drops[2] > 0.0;
     let mode = Mode { legs, crossed: u < 0.0 };
-    // A NaN is no residual either.
+    // A NaN is not a residual either.
     let holds = residual <= RESIDUAL_TOLERANCE * size(machine, pose.z);
     holds.then_some(Posture { pose, rho, mode, working, merged: root.merged, residual })
 }

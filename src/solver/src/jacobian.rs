@@ -1,9 +1,8 @@
 //! Differential kinematics: parallel and serial singularities (types 2 and 1).
 //!
-//! The derivative of Eqs (3)-(6), each a rod's squared length, is twice `b · d(B - A)`: with
-//! b = B - A the row of rod 11 is (bx, by, bz, -R1 sin a · by + R1 cos a · bz) against
-//! (x, y, z, a) and -bz against its slider; the other rods differ in the sign and length of the
-//! arm.
+//! Each of Eqs (3)-(6) is a rod's squared length, so its derivative is twice `b · d(B - A)` with b = B - A. The row
+//! of rod 11 is (bx, by, bz, -R1 sin a · by + R1 cos a · bz) against (x, y, z, a) and -bz against its slider. The
+//! other rods differ in the sign and length of the arm.
 
 use nalgebra::{Matrix4, Matrix4x3};
 
@@ -18,7 +17,7 @@ pub type ParallelMatrix = [[f64; 4]; 4];
 /// Below this ratio of singular values a matrix is singular to double precision.
 const SINGULAR: f64 = 1e-14;
 
-/// How a posture stands to singularities.
+/// The distance of a posture from singularities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conditioning {
     /// Determinant of the parallel matrix, `det_P`; zero at a parallel (type 2) singularity.
@@ -29,12 +28,56 @@ pub struct Conditioning {
     pub serial: [f64; 4],
 }
 
-/// The parallel matrix of a posture.
+/// Computes the parallel matrix of a posture: the derivative of Eqs (3)-(6) by x, y, z and R1 alpha.
+///
+/// # Units
+///
+/// None: each row is divided by its rod length, and the last column is per R1 alpha.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(6).
+/// Gosselin, Angeles 1990, [doi:10.1109/70.56660](https://doi.org/10.1109/70.56660): singularities of types 1 and 2.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::jacobian::parallel_matrix;
+/// use verne_solver::{Machine, Refusal, platform_working};
+///
+/// let machine = Machine::verne();
+/// let posture = platform_working(&machine, [0.0, 0.0, 1200.0])?;
+/// let rows = parallel_matrix(&machine, &posture);
+/// let [x, y, z, _] = rows[0];
+/// assert!((x * x + y * y + z * z - 1.0).abs() < 1e-12, "a rod's direction");
+/// # Ok::<(), Refusal>(())
+/// ```
 pub fn parallel_matrix(machine: &Machine, posture: &Posture) -> ParallelMatrix {
     matrix(machine.geometry(), &Rods::of(machine, &posture.pose, posture.rho))
 }
 
-/// Determinant and condition number of the parallel matrix, and the serial cosines.
+/// Computes the determinant and the condition number of the parallel matrix, and the serial cosines.
+///
+/// # Units
+///
+/// None: all numbers are dimensionless.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): section IV.A.
+/// Gosselin, Angeles 1990, [doi:10.1109/70.56660](https://doi.org/10.1109/70.56660): singularities of types 1 and 2.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::jacobian::conditioning;
+/// use verne_solver::{Machine, Refusal, platform_working};
+///
+/// let machine = Machine::verne();
+/// let state = conditioning(&machine, &platform_working(&machine, [0.0, 0.0, 1200.0])?);
+/// assert!(state.det.abs() > 0.05 && state.serial.iter().all(|cosine| *cosine > 0.1));
+/// # Ok::<(), Refusal>(())
+/// ```
 pub fn conditioning(machine: &Machine, posture: &Posture) -> Conditioning {
     let rods = Rods::of(machine, &posture.pose, posture.rho);
     let rows = matrix(machine.geometry(), &rods);
@@ -52,8 +95,31 @@ fn spread(matrix: &Matrix4<f64>) -> Option<f64> {
     (least > SINGULAR * most).then(|| most / least)
 }
 
-/// Rates d(x, y, z, alpha)/d(rho1, rho2, rho3), in mm/mm and rad/mm; `None` at a parallel
-/// singularity.
+/// Computes the rates d(x, y, z, alpha)/d(rho1, rho2, rho3): row for the coordinate, column for the slider. The answer
+/// is `None` at a parallel singularity.
+///
+/// # Units
+///
+/// mm/mm for x, y, z; rad/mm for alpha.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(6), differentiated.
+/// Gosselin, Angeles 1990, [doi:10.1109/70.56660](https://doi.org/10.1109/70.56660): singularities of types 1 and 2.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::jacobian::velocities;
+/// use verne_solver::{Machine, Refusal, platform_working};
+///
+/// let machine = Machine::verne();
+/// let posture = platform_working(&machine, [30.0, -80.0, 1200.0])?;
+/// let rates = velocities(&machine, &posture).expect("not singular");
+/// let [_, _, z, alpha] = rates.map(|row| row.iter().sum::<f64>());
+/// assert!((z - 1.0).abs() < 1e-9 && alpha.abs() < 1e-9, "sliders that move together carry the platform along");
+/// # Ok::<(), Refusal>(())
+/// ```
 pub fn velocities(machine: &Machine, posture: &Posture) -> Option<[[f64; 3]; 4]> {
     let rods = Rods::of(machine, &posture.pose, posture.rho);
     let rows = matrix(machine.geometry(), &rods);

@@ -1,4 +1,4 @@
-//! Names of the constraints, and a constraint's state.
+//! Constraints, margins, and the reasons why a request has no solution.
 
 use crate::machine::Machine;
 
@@ -61,33 +61,33 @@ pub enum Element {
 /// One constraint's margin: positive inside, zero on the limit, negative outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margin {
-    /// Which constraint.
+    /// The constraint.
     pub constraint: Constraint,
-    /// Where.
+    /// The part of the machine.
     pub element: Element,
-    /// How far from the limit, in the constraint's unit (mm, rad or none).
+    /// The distance from the limit, in the constraint's unit (mm, rad or none).
     pub value: f64,
 }
 
-/// Why a question has no posture for an answer.
+/// The reason why a request has no posture as its solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Refusal {
     /// A number is not finite or beyond [`DOMAIN`].
     OutOfDomain,
     /// A length is more than [`MOST_RATIO`] times [`Machine::longest`].
     TooFar,
-    /// No posture exists; the constraint that prevents it, with its (negative) margin.
+    /// No posture exists. The margin names the constraint that prevents it; its value is negative.
     Blocked(Margin),
     /// The sliders do not hold the platform: it can move with all of them locked.
     SelfMotion,
 }
 
-/// Largest magnitude of a length (mm) or an angle (rad) in a question.
+/// Largest magnitude of a length (mm) or an angle (rad) in a request.
 pub const DOMAIN: f64 = 1e7;
 
-/// Largest ratio of a length in a question, or of the table's offsets, to the machine's longest
-/// dimension. Measured with certified roots on random machines: up to a ratio of 1e4 no solution of
-/// 3,000 questions was lost; at 1e5 one question in 70 lost some, at 1e6 a third did.
+/// Largest ratio of a length in a request, or of the table's offsets, to the machine's longest dimension. A
+/// measurement with certified roots on random machines lost no solution of 3,000 requests up to a ratio of 1e4. At
+/// 1e5 one request in 70 lost some, at 1e6 a third did.
 pub const MOST_RATIO: f64 = 1e4;
 
 /// Refuses lengths outside the domain or out of proportion to the machine, and angles outside the

@@ -14,7 +14,7 @@ use crate::margins::cone::{Columns, columns};
 use crate::margins::interference;
 use crate::margins::weights::Weights;
 
-/// Rods that cross at home are measured against this distance, mm.
+/// Least distance, mm, that scales rod interference for machines whose rods cross at home.
 const SMALL_DISTANCE: f64 = 1e-3;
 
 /// Dimensions of the parallel module, in mm, with the paper's symbols (Fig. 3, Eqs (3)-(6)).
@@ -75,23 +75,23 @@ pub struct Limits {
     pub tilt: [f64; 2],
     /// Range of the rotary angle theta2.
     pub rotary: [f64; 2],
-    /// Least height of the tool's end and of the platform's joints over the plane Z = 0 of the part
-    /// frame, mm. `None`: the table is no limit, unless the question says so. See [`crate::Clearance`].
+    /// Least height of the tool's end and of the platform's joints over the plane Z = 0 of the part frame, mm.
+    /// `None`: the table is no limit unless the request gives a height. See [`crate::Clearance`].
     pub table_clearance: Option<f64>,
-    /// Axes of the slider cones in the base frame, for rod 11, rod 12, leg II, leg III;
-    /// any length but zero. `None`: the rods' own directions at home.
+    /// Axes of the slider cones in the base frame, for rod 11, rod 12, leg II, leg III; any length but zero. `None`
+    /// means the rods' own directions at home.
     pub slider_axes: Option<[[f64; 3]; 4]>,
-    /// Axes of the platform cones in the platform frame, in the same order and direction
-    /// (from slider to platform). `None`: the rods' own directions at home.
+    /// Axes of the platform cones in the platform frame, in the same order and direction (from slider to platform).
+    /// `None` means the rods' own directions at home.
     pub platform_axes: Option<[[f64; 3]; 4]>,
 }
 
-/// Plain numbers that may or may not make a machine; [`Machine::new`] decides.
+/// Plain numbers that may or may not describe a valid machine. [`Machine::new`] checks them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineData {
     /// Short name, as used in requests.
     pub name: String,
-    /// Where the numbers come from.
+    /// The origin of the numbers.
     pub description: String,
     /// The parallel module.
     pub geometry: Geometry,
@@ -101,15 +101,15 @@ pub struct MachineData {
     pub limits: Limits,
 }
 
-/// A valid machine: one that exists has positive lengths, ordered ranges, solvable elimination
-/// (e1 ≠ e2, R1 > r1) and a home pose in the working mode away from singularity.
+/// A valid machine. Every value of this type has positive lengths, ordered ranges, a solvable elimination (e1 ≠ e2,
+/// R1 > r1) and a home posture in the working mode away from singularity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
     data: MachineData,
     pub(crate) derived: Derived,
 }
 
-/// What the formulas use again and again, derived once from the data.
+/// Constants of the formulas, derived once from the data.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Derived {
     /// e1 = D1 - d1 and e2 = D2 - d2.
@@ -120,7 +120,7 @@ pub(crate) struct Derived {
     pub(crate) k: f64,
     /// (R1 - r1)².
     pub(crate) gap_square: f64,
-    /// What leg I has left for its drop is little below this, mm².
+    /// Threshold of the square of leg I's drop, mm². Below it the drop is computed with twice the digits.
     pub(crate) little: f64,
     /// 1/L of rod 11, rod 12, leg II, leg III.
     pub(crate) inverse_lengths: [f64; 4],
@@ -139,13 +139,38 @@ pub(crate) struct Derived {
     pub(crate) home_turn: f64,
     /// Least distance between two rods' axes at home, mm: the scale of rod interference.
     pub(crate) home_distance: f64,
-    /// What margins are compared by.
+    /// Factors that make margins comparable.
     pub(crate) weights: Weights,
 }
 
 impl Machine {
-    /// Checks the numbers and derives what the formulas need. The error lists every fault found,
-    /// each with its field.
+    /// Checks the numbers and derives from them what the formulas need.
+    ///
+    /// # Units
+    ///
+    /// Lengths are millimetres, angles radians.
+    ///
+    /// # Errors
+    ///
+    /// Every fault found, each with the path of its field, such as `limits/stroke/0`. A machine needs finite numbers,
+    /// positive lengths, ordered ranges, D1 - d1 different from D2 - d2, R1 greater than r1, and a home posture in the
+    /// working mode away from parallel singularity.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(7), Fig. 3; the
+    /// conditions e1 ≠ e2 and R1 ≠ r1 stem from the elimination (see the crate's documentation).
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    ///
+    /// let mut data = Machine::verne().data().clone();
+    /// data.geometry.L1 = -1.0;
+    /// let faults = Machine::new(data).unwrap_err();
+    /// assert!(faults.iter().any(|fault| fault.field == "geometry/L1"));
+    /// ```
     pub fn new(data: MachineData) -> Result<Self, Vec<MachineFault>> {
         let faults = validate::faults(&data);
         if !faults.is_empty() {
@@ -159,18 +184,47 @@ impl Machine {
         Ok(machine)
     }
 
-    /// The data the machine was made from.
+    /// The data from which the machine was made.
+    ///
+    /// # Units
+    ///
+    /// Millimetres and radians.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    ///
+    /// let data = Machine::verne().data().clone();
+    /// assert_eq!(Machine::new(data), Ok(Machine::verne()));
+    /// ```
     pub fn data(&self) -> &MachineData {
         &self.data
     }
 
-    /// The machine's name.
+    /// The machine's name, as requests use it.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// assert_eq!(verne_solver::Machine::verne().name(), "verne");
+    /// ```
     pub fn name(&self) -> &str {
         &self.data.name
     }
 
-    /// The longest dimension that the equations hold, mm: lengths in questions may be up to
+    /// The longest dimension that occurs in the equations. A length in a request may be up to
     /// [`MOST_RATIO`](crate::MOST_RATIO) times as long.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// assert_eq!(verne_solver::Machine::verne().longest(), 1050.0, "a rod");
+    /// ```
     pub fn longest(&self) -> f64 {
         self.derived.scale
     }

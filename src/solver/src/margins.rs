@@ -14,8 +14,8 @@ use crate::pose::{PlatformPose, TableAngles};
 use crate::posture::Posture;
 use crate::rods::Rods;
 
-/// All margins of one posture. Arrays of four are rod 11, rod 12, the rods of leg II, the rods of
-/// leg III (a parallelogram's two rods are parallel).
+/// All margins of one posture. Arrays of four are for rod 11, rod 12, the rods of leg II, the rods of leg III (the
+/// two rods of a parallelogram are parallel).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margins {
     /// `[rho - min, max - rho]` of each slider, mm.
@@ -36,23 +36,44 @@ pub struct Margins {
     pub rod_interference: f64,
     /// The two rods that are nearest to each other.
     pub nearest_rods: [u8; 2],
-    /// `[theta1 - min, max - theta1]`, where the table takes part, rad.
+    /// `[theta1 - min, max - theta1]`, rad. `None` if the table takes no part.
     pub tilt: Option<[f64; 2]>,
-    /// `[theta2 - min, max - theta2]`, where the table takes part, rad.
+    /// `[theta2 - min, max - theta2]`, rad. `None` if the table takes no part.
     pub rotary: Option<[f64; 2]>,
-    /// Height over the table's plane, less the least one, of what is lowest: the tool's end or a joint
-    /// of the platform. `None` where it is not checked.
+    /// Height of the lowest point (the tool's end or a joint of the platform) over the table's plane, less the least
+    /// height. `None` if it is not checked.
     pub table_clearance: Option<Margin>,
 }
 
 impl Margins {
-    /// The margins of a posture, with the table's ranges where it takes part. The table's plane is not
-    /// among them: see [`Self::above_table`].
+    /// Computes the margins of a posture. With `table` they include the ranges of theta1 and theta2. The height over
+    /// the table's plane is not among them: see [`Self::above_table`].
+    ///
+    /// # Units
+    ///
+    /// Each field of [`Margins`] states its unit: mm, rad, or none.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): section IV.A.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Machine, Margins, Refusal, platform_working};
+    ///
+    /// let machine = Machine::verne();
+    /// let posture = platform_working(&machine, [0.0, 0.0, 1200.0])?;
+    /// let margins = Margins::of(&machine, &posture, None);
+    /// assert_eq!(margins.stroke[0][0], posture.rho[0], "the first slider's stroke begins at 0");
+    /// assert!(margins.feasible() && margins.tilt.is_none());
+    /// # Ok::<(), Refusal>(())
+    /// ```
     pub fn of(machine: &Machine, posture: &Posture, table: Option<TableAngles>) -> Self {
         Self::of_solution(machine, &posture.pose, posture.rho, table)
     }
 
-    /// The same of a posture's pose and sliders.
+    /// Computes the margins from a posture's pose and sliders.
     #[inline]
     fn of_solution(
         machine: &Machine,
@@ -84,8 +105,31 @@ impl Margins {
         }
     }
 
-    /// The same with the margin of the table's plane, where there is a clearance to keep and the table
-    /// takes part.
+    /// Computes the same margins and, if `table` and `clearance` are given, that of the height over the table's plane.
+    ///
+    /// # Units
+    ///
+    /// Each field of [`Margins`] states its unit: mm, rad, or none.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): section IV.A and Eq (26); the
+    /// paper has no limit for the table's plane.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Clearance, Machine, Margins, Refusal, platform_working, table_angles};
+    ///
+    /// let machine = Machine::verne();
+    /// let posture = platform_working(&machine, [0.0, 0.0, 1200.0])?;
+    /// let table = table_angles(&machine, posture.pose.alpha, 0.0, 0.0);
+    /// let clearance = Clearance::of(&machine, Some(2.0), 150.0, 5.0);
+    /// let margins = Margins::above_table(&machine, &posture, Some(table), clearance.as_ref());
+    /// // P is 1500 - 1200 + 200 over the plane, the tool's end 150 lower, and 2 are kept.
+    /// assert_eq!(margins.table_clearance.map(|margin| margin.value.round()), Some(348.0));
+    /// # Ok::<(), Refusal>(())
+    /// ```
     pub fn above_table(
         machine: &Machine,
         posture: &Posture,
@@ -98,6 +142,21 @@ impl Margins {
     }
 
     /// Whether every margin is at least zero.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): section IV.A.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Machine, Margins, Refusal, platform_working};
+    ///
+    /// let machine = Machine::verne();
+    /// let posture = platform_working(&machine, [0.0, 0.0, 600.0])?;
+    /// assert!(!Margins::of(&machine, &posture, None).feasible(), "the sliders would be above their strokes");
+    /// # Ok::<(), Refusal>(())
+    /// ```
     pub fn feasible(&self) -> bool {
         let inside = |ends: &[f64; 2]| ends[0] >= 0.0 && ends[1] >= 0.0;
         let all = |margins: &[f64]| margins.iter().all(|margin| *margin >= 0.0);
@@ -111,8 +170,8 @@ impl Margins {
             && self.table_clearance.is_none_or(|margin| margin.value >= 0.0)
     }
 
-    /// What keeps a posture from being in the working mode: crossed rods, or the slider end that
-    /// lies lowest against its platform end.
+    /// The margin of the constraint that keeps a posture out of the working mode: crossed rods, or the slider end
+    /// that lies lowest relative to its platform end.
     pub(crate) fn out_of_mode(&self) -> Margin {
         if self.rod_crossing <= 0.0 {
             let (constraint, element) = (Constraint::RodCrossing, Element::Leg(1));

@@ -1,11 +1,11 @@
-//! A posture: platform pose and slider positions that satisfy Eqs (3)-(6), with its labels.
+//! A posture: platform pose and slider positions that satisfy Eqs (3)-(6), and its labels.
 
 use arrayvec::ArrayVec;
 
 use crate::limit::{Margin, Refusal};
 use crate::pose::PlatformPose;
 
-/// Which end of a leg is higher.
+/// The relative height of a leg's two ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Side {
     /// The slider is above the platform (s = +1).
@@ -22,6 +22,17 @@ impl Side {
     }
 
     /// +1 for above, -1 for below.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): the signs of the roots for
+    /// legs I, II and III in section III.C.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// assert_eq!(verne_solver::Side::Below.sign(), -1.0);
+    /// ```
     pub fn sign(self) -> f64 {
         match self {
             Self::Above => 1.0,
@@ -30,40 +41,41 @@ impl Side {
     }
 }
 
-/// Label of a solution: the sign of each leg's root, and whether leg I's rods cross.
+/// The label of a solution: the sign of each leg's root, and whether the rods of leg I cross.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Mode {
-    /// s1, s2, s3.
+    /// The signs s1, s2, s3.
     pub legs: [Side; 3],
-    /// R1 cos alpha < r1.
+    /// Whether R1 cos alpha < r1.
     pub crossed: bool,
 }
 
-/// A posture of the parallel module, put back into Eqs (3)-(6).
+/// A posture of the parallel module that satisfies Eqs (3)-(6).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Posture {
     /// Pose of the platform.
     pub pose: PlatformPose,
     /// Slider positions, mm.
     pub rho: [f64; 3],
-    /// Label.
+    /// The label.
     pub mode: Mode,
-    /// The working mode: every slider end above its platform end on all six rods, uncrossed.
+    /// Whether the posture is in the working mode: on all six rods the slider end is above the platform end, and the
+    /// rods of leg I do not cross.
     pub working: bool,
-    /// Two solutions have merged here, as closely as double precision can tell: a singularity.
+    /// Whether two solutions coincide here, within double precision: a singularity.
     pub merged: bool,
-    /// Largest error of a rod's length when pose and rho are put back into Eqs (3)-(6), mm.
+    /// Largest error of a rod's length in Eqs (3)-(6), mm.
     pub residual: f64,
 }
 
-/// The most postures that one question can have (whole machine, inverse).
+/// The greatest number of postures of one request (whole machine, inverse problem).
 pub const MOST: usize = 24;
 
-/// All postures that answer one question.
+/// All solutions of one request.
 pub type Postures = ArrayVec<Posture, MOST>;
 
-/// The postures that `fill` finds, or the obstacle where it finds none. They are built in place:
-/// moving them would cost as much as finding some of them.
+/// The postures that `fill` finds, or the obstacle if it finds none. They are built in place, because moving them
+/// would cost as much as finding some of them.
 #[inline]
 pub(crate) fn gathered(
     fill: impl FnOnce(&mut Postures),

@@ -1,4 +1,4 @@
-//! The check that every solution passes before it leaves the solver: back into Eqs (3)-(6).
+//! The check of every solution by Eqs (3)-(6) before the solver returns it.
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -9,18 +9,18 @@ use crate::machine::Machine;
 use crate::pose::PlatformPose;
 use crate::rods::{Rods, vectors_of};
 
-/// Largest rod-length error of a solution, relative to the size of its numbers. Evaluating the
-/// equations rounds by a few 1e-16 of that size; some hundred times as much is no solution.
+/// Largest rod-length error of a solution, relative to the size of its numbers. The rounding of the equations is a
+/// few 1e-16 of that size. An error of some hundred times as much means that it is no solution.
 pub const RESIDUAL_TOLERANCE: f64 = 1e-13;
-/// Relative error above which the elimination has lost digits that the equations still have: the
-/// solution is then corrected on Eqs (3)-(6) themselves.
+/// Relative error above which the elimination has lost digits that the equations still have. The solution is then
+/// corrected by Eqs (3)-(6) themselves.
 pub(crate) const FINE: f64 = 1e-15;
-/// Relative error above which nothing is corrected.
+/// Relative error above which a solution is not corrected.
 const ROUGH: f64 = 1e-9;
 /// Newton steps of a correction.
 const STEPS: usize = 4;
 
-/// A pose and how well it satisfies Eqs (3)-(6).
+/// A pose and its error in Eqs (3)-(6).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Checked {
     pub(crate) pose: PlatformPose,
@@ -28,18 +28,18 @@ pub(crate) struct Checked {
     pub(crate) residual: f64,
 }
 
-/// Puts a pose back into Eqs (3)-(6) with the sliders at `rho`, and corrects it there if the
-/// elimination left an error.
+/// Computes the error of a pose in Eqs (3)-(6) with the sliders at `rho`. If the elimination left an error, it
+/// corrects the pose.
 #[inline]
 pub(crate) fn checked(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
     let residual = worst(&errors(machine, &pose, rho));
     let size = size(machine, pose.z);
-    // What is further off is no rounded solution: correcting it would find another one.
+    // A larger error is not rounding: a correction would find another solution.
     let rounded = residual > FINE * size && residual < ROUGH * size;
     if rounded { corrected(machine, pose, rho) } else { Checked { pose, residual } }
 }
 
-/// Newton's method on (3)-(6) in (x, y, z, a), as long as it gains.
+/// Newton's method on (3)-(6) in (x, y, z, a), as long as the error decreases.
 #[cold]
 fn corrected(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
     let radius = machine.geometry().R1;
@@ -94,8 +94,7 @@ pub(crate) fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// The size of a pose's numbers, which scales all rounding: a pose far along z is rounded with
-/// its z.
+/// The size of a pose's numbers, which scales all rounding. A pose far along z is rounded with its z.
 #[inline]
 pub(crate) fn size(machine: &Machine, z: f64) -> f64 {
     machine.derived.scale + z.abs()

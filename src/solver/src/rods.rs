@@ -9,7 +9,7 @@ pub(crate) const RODS: [u8; 6] = [11, 12, 21, 22, 31, 32];
 /// Family of each rod: rod 11, rod 12, leg II, leg III. A parallelogram's two rods are parallel.
 pub(crate) const FAMILY: [usize; 6] = [0, 1, 2, 2, 3, 3];
 
-/// Rod vectors B - A by family, and what the posture's angle contributes.
+/// Rod vectors B - A by family, and cosine and sine of the posture's angle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rods {
     /// B - A of rod 11, rod 12, leg II, leg III, mm.

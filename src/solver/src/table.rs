@@ -6,13 +6,50 @@ use crate::angle::sin_cos;
 use crate::machine::Machine;
 use crate::pose::{PartPose, PlatformPose, Point, TableAngles};
 
-/// The tool centre point U in the base frame, for a tool of length `tool_length` from P (Eq (27)).
+/// Computes the tool centre point U in the base frame, for a tool of length `tool_length` from P.
+///
+/// # Units
+///
+/// Millimetres and radians; z points down.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eq (27).
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{PlatformPose, tool_point};
+///
+/// let pose = PlatformPose { x: 10.0, y: 20.0, z: 1000.0, alpha: 0.0 };
+/// assert_eq!(tool_point(&pose, 150.0), [10.0, 20.0, 1150.0]);
+/// ```
 pub fn tool_point(pose: &PlatformPose, tool_length: f64) -> Point {
     let (s, c) = sin_cos(pose.alpha);
     [pose.x, pose.y - tool_length * s, pose.z + tool_length * c]
 }
 
-/// The tool's pose in the table frame (Eq (26)).
+/// Computes the tool's pose in the part frame from the platform's pose and the table's angles.
+///
+/// # Units
+///
+/// Millimetres and radians; Z of the part frame points up from the table.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (7), (8), (26).
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Machine, PlatformPose, TableAngles, part_pose};
+///
+/// let pose = PlatformPose { x: 10.0, y: 20.0, z: 1000.0, alpha: 0.1 };
+/// let level = TableAngles { theta1: 0.0, theta2: 0.0 };
+/// let tool = part_pose(&Machine::verne(), &pose, level, 0.0);
+/// assert_eq!([tool.x, tool.y, tool.z], [10.0, -20.0, 700.0], "da = 1500 and dt = 200");
+/// assert_eq!(tool.phi1, 0.1);
+/// ```
 pub fn part_pose(machine: &Machine, pose: &PlatformPose, table: TableAngles, tool_length: f64) -> PartPose {
     let offsets = machine.table();
     let phi1 = pose.alpha - table.theta1;
@@ -29,36 +66,76 @@ pub fn part_pose(machine: &Machine, pose: &PlatformPose, table: TableAngles, too
     }
 }
 
-/// The table's angles that go with a platform angle and a tool orientation (Eqs (9), (14)), each
-/// turned by whole revolutions into the machine's range where one of its values lies there, and
-/// otherwise to the value nearest to zero.
+/// Computes the table's angles for a platform angle and a tool orientation: theta1 = alpha - phi1, theta2 = -phi2.
+///
+/// Each angle is moved by whole turns into the machine's range. An angle that has no value in its range is moved to its
+/// value nearest to zero.
+///
+/// # Units
+///
+/// Radians.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14).
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Machine, table_angles};
+///
+/// let table = table_angles(&Machine::verne(), 0.25, 0.75, 0.1);
+/// assert_eq!((table.theta1, table.theta2), (-0.5, -0.1));
+/// ```
 pub fn table_angles(machine: &Machine, alpha: f64, phi1: f64, phi2: f64) -> TableAngles {
     let asked = [alpha - phi1, -phi2].map(|angle| Winding { angle, turns: 0.0 });
     let [theta1, theta2] = table_windings(machine, asked, [None; 2]).map(|winding| winding.value);
     TableAngles { theta1, theta2 }
 }
 
-/// An angle in whole turns and the rest, which keeps the digits of both.
+/// An angle as whole turns and a remainder. Both keep their digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Winding {
-    /// The rest, rad.
+    /// The remainder, rad.
     pub angle: f64,
     /// Whole turns.
     pub turns: f64,
 }
 
-/// A table's angle on one of its windings.
+/// A table angle moved by whole turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wound {
-    /// Whole turns beside the angle that was asked for.
+    /// Whole turns in addition to the given angle.
     pub turns: f64,
-    /// The angle with its turns, rad; within the range, should rounding alone put it outside.
+    /// The angle including its turns, rad. It is clamped to the range if rounding alone puts it outside.
     pub value: f64,
 }
 
-/// The windings of theta1 and theta2 within the machine's ranges: of several, the one nearest to
-/// `near`, rad, where that is given; else the winding asked for; else the one nearest to zero. An
-/// angle without a winding in its range stays nearest to zero.
+/// Moves theta1 and theta2 by whole turns into the machine's ranges.
+///
+/// Of several values in a range the function takes the one nearest to `near` if that is given, else the given value,
+/// else the one nearest to zero. An angle that has no value in its range is moved to its value nearest to zero.
+///
+/// # Units
+///
+/// Radians, and whole turns.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14) determine the angles
+/// up to whole turns.
+///
+/// # Examples
+///
+/// ```
+/// use std::f64::consts::TAU;
+/// use verne_solver::{Machine, Winding, table_windings};
+///
+/// let asked = [0.5, 1.0].map(|angle| Winding { angle, turns: 0.0 });
+/// let [_, theta2] = table_windings(&Machine::verne(), asked, [None, Some(-5.0)]);
+/// assert_eq!(theta2.turns, -1.0, "1 - 2π is nearer to -5 and within ±2π");
+/// assert_eq!(theta2.value, 1.0 - TAU);
+/// ```
 pub fn table_windings(machine: &Machine, asked: [Winding; 2], near: [Option<f64>; 2]) -> [Wound; 2] {
     let limits = machine.limits();
     [wound(limits.tilt, asked[0], near[0]), wound(limits.rotary, asked[1], near[1])]

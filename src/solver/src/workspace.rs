@@ -1,8 +1,20 @@
-//! The workspace of the working mode: volumes, surfaces, slices and membership.
+//! The workspace of the working mode: volumes, surfaces, slices, membership and dexterity.
 //!
-//! All guideways are parallel to z, so alpha and every constraint but the strokes and the table's plane
-//! depend on (x, y) alone, and the workspace is a set of vertical columns over a plane domain: nothing
-//! is sampled in three dimensions. The height over the table is linear along a column. The domain's boundary is found by root-finding on the constraints.
+//! All guideways are parallel to z. Therefore alpha and every constraint but the strokes and the table's plane
+//! depend on (x, y) alone, and the workspace is a set of vertical columns over a plane domain. Root-finding on the
+//! constraints gives the domain's boundary. The third dimension is not sampled.
+//!
+//! - [`measure()`]: volume and area with errors, by integration.
+//! - [`surface()`], [`surface_within`]: the closed boundary surface within a tolerance; [`expected_triangles`] estimates
+//!   its size, and [`agree`] compares it with the volume.
+//! - [`slice()`]: the cut at a height, as polygons.
+//! - [`contains()`]: whether points belong to the workspace, without a mesh.
+//! - [`dexterity`]: the tool's inclinations that reach a part point.
+//!
+//! Every function takes a [`Request`] or a [`dexterity::DexterityRequest`]. Long computations report to an [`Observer`]
+//! and stop when it asks.
+//!
+#![doc = include_str!("workspace/derivation.md")]
 
 mod agreement;
 mod column;

@@ -1,4 +1,4 @@
-//! The workspace against outside truth: published figures, brute-force columns, its own margins.
+//! The workspace compared with independent truth: published figures, brute-force columns, its own margins.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 #![allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "counts are small")]

@@ -14,7 +14,7 @@ use super::layout::{Layout, Part, STRIDE};
 use super::placement::Placement;
 use crate::{Mesh, Swatch};
 
-/// A scene of nothing.
+/// An empty scene.
 pub(super) fn empty(options: &Options) -> serde_json::Result<Root> {
     let mut root =
         Root { asset: Asset { generator: Some("verne".to_owned()), ..Asset::default() }, ..Root::default() };
@@ -23,7 +23,7 @@ pub(super) fn empty(options: &Options) -> serde_json::Result<Root> {
     Ok(root)
 }
 
-/// A scene of one node that holds the mesh: a primitive with a material of its own for each tag that occurs.
+/// A scene of one node with the mesh: for each tag that occurs a primitive with its own material.
 pub(super) fn of(
     mesh: &Mesh,
     options: &Options,
@@ -136,7 +136,7 @@ fn accessor(view: Index<View>, count: usize, component: ComponentType, type_: Ty
     }
 }
 
-/// The tag's name and colour, rough. One-sided, since the surface is closed.
+/// The material of a tag: its name and colour, rough. It is one-sided, because the surface is closed.
 fn material(swatch: &Swatch) -> Material {
     let [red, green, blue] = swatch.linear();
     Material {

@@ -1,4 +1,4 @@
-//! What lies where in the binary chunk: the vertices, then the indices; of both those of one tag beside each other.
+//! The layout of the binary chunk: the vertices, then the indices; in both the data of one tag are contiguous.
 
 use std::ops::Range;
 
@@ -16,14 +16,14 @@ pub(super) struct Layout {
     pub(super) parts: Vec<Part>,
 }
 
-/// What is of one tag.
+/// The data of one tag.
 pub(super) struct Part {
     pub(super) tag: u8,
-    /// Which of the split vertices.
+    /// The range of its split vertices.
     pub(super) vertices: Range<usize>,
-    /// Which of the indices, three a triangle. They count from the part's first vertex.
+    /// The range of its indices, three a triangle. They count from the part's first vertex.
     pub(super) indices: Range<usize>,
-    /// The least and greatest coordinates of the vertices as they are written, m.
+    /// The least and greatest coordinates of the written vertices, m.
     pub(super) bounds: [[f32; 3]; 2],
 }
 

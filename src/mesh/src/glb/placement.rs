@@ -1,9 +1,9 @@
-//! From the mesh's frame to glTF's.
+//! The map from the mesh's frame to glTF's.
 
 use crate::Bounds;
 use crate::vector::single;
 
-/// Which way is up in the mesh's frame. Both turns into glTF's frame are about x, and proper.
+/// The direction that is up in the mesh's frame. Both rotations into glTF's frame are about x, without reflection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Up {
     /// z points up: (x, y, z) becomes (x, z, -y).
@@ -23,7 +23,7 @@ impl Up {
 
 /// The frame of a GLB's vertices: metres, Y up, about the mesh's middle.
 ///
-/// Single precision is finest near zero. So the node is moved to the middle, and the vertices are relative to
+/// Single precision is finest near zero. So the node is at the middle of the mesh, and the vertices are relative to
 /// it.
 pub(super) struct Placement {
     up: Up,
@@ -53,8 +53,8 @@ impl Placement {
 
 const METRES: f64 = 1e-3;
 
-/// Steps a metre in the node's translation. Sixty-fourths are exact as singles and in the few decimals that a
-/// single is written with; a thousandth is neither.
+/// Steps per metre of the node's translation. Sixty-fourths are exact in single precision and in the few decimals
+/// with which a single is written; thousandths are neither.
 const GRID: f64 = 64.0;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Solids whose measures are known, to try the crate on.
+//! Solids whose measures are known, for tests of the crate.
 
 #![allow(dead_code, reason = "each test takes the solids that it wants")]
 #![allow(clippy::unwrap_used, reason = "a solid that is no mesh ends the test")]

@@ -12,12 +12,12 @@ use crate::newton;
 use crate::table::missed;
 
 const ROWS: usize = 100_000;
-/// How many times as fast two threads should be.
+/// Factor by which two threads should be faster.
 const TWICE: f64 = 1.8;
 
-/// Times batches in interleaved rounds and prints their table. The second row writes no answers
-/// and shows what the two cores give at best; the target is met in the best rounds, because work
-/// of others on the second core slows two threads and not one.
+/// Times batches in interleaved rounds and prints their table. The second row writes no answers and shows the best
+/// that the two cores give. The target is met in the best rounds, because other work on the second core slows two
+/// threads and not one.
 pub(crate) fn print(machine: &Machine, inputs: &Inputs, rounds: usize) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("two threads");
     let rows: Vec<PartPose> = inputs.parts.iter().cycle().take(ROWS).copied().collect();

@@ -1,4 +1,4 @@
-//! The best of its kind: the same Newton-Raphson with its linear system eliminated by hand.
+//! The fastest Newton-Raphson: the same method with its linear system eliminated by hand.
 //!
 //! Difference and mean of Eqs (3) and (4) and difference of Eqs (5) and (6) leave x in two rows
 //! only; a 3×3 system in (y, z, a) remains, solved by cross products.

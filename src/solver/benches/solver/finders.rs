@@ -1,7 +1,7 @@
-//! General root finders of degree eight, on the forward question's polynomial in tan(a/2).
+//! General root finders of degree eight, on the polynomial of the forward problem in tan(a/2).
 //!
-//! They answer less than the solver does: roots of a polynomial that is already built, without
-//! poses, labels, polishing or a check.
+//! They compute less than the solver: roots of a polynomial that is already built, without poses, labels, polishing
+//! or a check.
 
 use aberth::aberth;
 use arrayvec::ArrayVec;
@@ -12,8 +12,8 @@ use verne_solver::{Machine, forward};
 use crate::inputs::Inputs;
 use crate::polynomial::{Octic, octic};
 
-/// Size of the last step asked of the iterative ones. Convergence is quadratic or better: their
-/// errors come out between 1e-11 and 1e-13, and neither is faster with less.
+/// Size of the last step of the iterative finders. Their convergence is quadratic or better: the errors are between
+/// 1e-11 and 1e-13, and none is faster with a larger step.
 const ACCURACY: f64 = 1e-8;
 /// Within this of the real axis a complex root counts as real.
 const REAL: f64 = 1e-6;
@@ -64,8 +64,8 @@ pub(crate) fn yuksel(octic: &Octic) -> Roots {
     roots
 }
 
-/// How many of the solver's assembly modes each finder's roots contain; stops if the polynomial
-/// has not the solver's roots.
+/// Counts how many of the solver's assembly modes each finder's roots contain. It stops if the polynomial does not
+/// have the solver's roots.
 pub(crate) fn check(machine: &Machine, inputs: &Inputs) -> Vec<(&'static str, usize, usize)> {
     let count = |finder: fn(&Octic) -> Roots| {
         let (mut modes, mut found) = (0, 0);

@@ -1,12 +1,12 @@
-//! Interleaved timing: every candidate once in every round, so that noise hits all alike.
+//! Interleaved timing: every candidate runs once in every round, so that noise affects all alike.
 
 use std::hint::black_box;
 use std::time::Instant;
 
-/// One thing to time, and its times.
+/// One candidate and its times.
 pub(crate) struct Candidate<'a> {
     pub(crate) name: &'static str,
-    /// The most that the ratio to the baseline should be.
+    /// The greatest ratio to the baseline that meets the target.
     pub(crate) target: Option<f64>,
     calls: usize,
     run: Box<dyn FnMut() + 'a>,
@@ -49,8 +49,8 @@ impl<'a> Candidate<'a> {
     }
 }
 
-/// Times all candidates in so many rounds, after one to warm up. Each round begins with another
-/// candidate: none always follows the same one.
+/// Times all candidates in this number of rounds, after one to warm up. Each round begins with another candidate, so
+/// that none always follows the same one.
 pub(crate) fn measure(candidates: &mut [Candidate<'_>], rounds: usize) {
     for candidate in &mut *candidates {
         candidate.time();

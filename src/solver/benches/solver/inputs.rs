@@ -1,4 +1,4 @@
-//! Random questions that the machine can answer, the same in every run.
+//! Random requests that the machine can satisfy, the same in every run.
 
 use verne_solver::{
     Machine, Margins, PartPose, PlatformPose, Point, Posture, TableAngles, part_pose, platform_working,
@@ -7,17 +7,16 @@ use verne_solver::{
 
 use crate::polynomial::{Octic, octic};
 
-/// How many poses: too many for a branch predictor to learn by heart.
+/// Number of poses: too many for a branch predictor to learn.
 const COUNT: usize = 768;
 /// Distance of an iterative solver's start from the pose it has to find, mm.
 const OFF: f64 = 20.0;
 /// Tool length, mm.
 pub(crate) const TOOL: f64 = 120.0;
-/// The box in which poses are looked for, mm; larger than the workspace.
+/// The box from which poses are drawn, mm; larger than the workspace.
 const BOX: [[f64; 2]; 3] = [[-800.0, 800.0], [-800.0, 800.0], [400.0, 1800.0]];
 
-/// One pose within all margins, as the question of each entry point, and where an iterative
-/// solver starts.
+/// One pose within all margins, as the request of each entry point, and the start of an iterative solver.
 #[derive(Clone, Debug)]
 pub(crate) struct Inputs {
     pub(crate) postures: Vec<Posture>,
@@ -53,7 +52,7 @@ impl Inputs {
         self.postures.len()
     }
 
-    /// Stops unless an iterative solver finds every pose that it is timed on, but for rounding.
+    /// Stops unless an iterative solver finds every pose on which it is timed, except for rounding.
     pub(crate) fn check(&self, solve: impl Fn([f64; 3], PlatformPose) -> Option<PlatformPose>) {
         for (posture, &(rho, start)) in self.postures.iter().zip(&self.starts) {
             let (pose, found) = (&posture.pose, solve(rho, start).expect("it converges from near by"));

@@ -1,8 +1,8 @@
 //! The solver's speed, as ratios to a Newton-Raphson forward kinematics in the same run.
 //!
-//! `cargo bench -p verne-solver --bench solver` prints the table as Markdown. Arguments after `--`: part of the
-//! names of the rows wanted, and `rounds=N`. Run as a test (`cargo test --benches`) it checks
-//! the yardsticks and times one round.
+//! `cargo bench -p verne-solver --bench solver` prints the table as Markdown. Arguments after `--` are parts of the
+//! names of the wanted rows, and `rounds=N`. Run as a test (`cargo test --benches`) it checks the yardsticks and
+//! times one round.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

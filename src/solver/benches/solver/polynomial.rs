@@ -1,6 +1,6 @@
-//! The forward question's polynomial of degree eight in t = tan(a/2), for general root finders.
+//! The polynomial of degree eight of the forward problem in t = tan(a/2), for general root finders.
 //!
-//! Built by convolution as the specification of F reads, apart from the solver's own elimination.
+//! It is built by convolution from the definition of F, independently of the solver's own elimination.
 
 use verne_solver::Machine;
 

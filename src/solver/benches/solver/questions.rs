@@ -10,7 +10,7 @@ use crate::harness::Candidate;
 use crate::inputs::{Inputs, TOOL};
 use crate::{eliminated, newton};
 
-/// The solver's row against which general root finders are set.
+/// The solver's row with which general root finders are compared.
 pub(crate) const FORWARD: &str = "FK, all assembly modes";
 
 /// All candidates in the order of the table, the baseline first.

@@ -4,10 +4,10 @@ use crate::finders::FINDERS;
 use crate::harness::Candidate;
 use crate::questions::FORWARD;
 
-/// How much faster than every general root finder the forward question should be.
+/// Factor by which the forward problem should be faster than every general root finder.
 const AHEAD: f64 = 5.0;
 
-/// Prints one row per candidate, and what the general root finders compare to.
+/// Prints one row per candidate, and the ratios of the general root finders.
 pub(crate) fn print(candidates: &[Candidate<'_>], found: &[(&'static str, usize, usize)]) {
     println!("| | ns | ratio | target |");
     println!("|---|---:|---:|---:|");

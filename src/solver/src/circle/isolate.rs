@@ -12,8 +12,8 @@ pub(crate) enum Site {
     Crossing { low: f64, high: f64, start: f64 },
     /// Two simple roots, one at either side of `at`.
     Pair { low: f64, high: f64, at: f64 },
-    /// The polynomial comes so close to zero at `at`, its only extremum on the arc, that its own
-    /// rounding cannot tell two roots from none.
+    /// The polynomial comes so close to zero at `at`, its only extremum on the arc, that its own rounding cannot
+    /// distinguish two roots from none.
     Touch { low: f64, high: f64, at: f64 },
 }
 
@@ -22,16 +22,16 @@ pub(crate) enum Site {
 const ERROR: [f64; 3] = [1.0 / 384.0, 0.008_02, 1.0 / 12.0];
 /// Arcs are not split below this width.
 const NARROWEST: f64 = 1e-7;
-/// Steps to an extremum: most arcs are certain after one or two, a touch takes them all.
+/// Steps to an extremum. Most arcs are certain after one or two; a touch takes them all.
 const EXTREMUM_STEPS: usize = 40;
-/// How far the grid is turned when a root lies on a node: ten distinct grids, while a polynomial
-/// has eight roots, so that one of them is free.
+/// Angle by which the grid is rotated if a root lies on a node. There are ten distinct grids and at most eight roots,
+/// so one grid is free of them.
 const TURN: f64 = STEP / 11.0;
-/// Where an arc is split: in the middle, or beside it if a root is just there.
+/// The point at which an arc is split: the middle, or next to it if a root is exactly there.
 const SPLITS: [f64; 4] = [0.5, 0.41, 0.59, 0.33];
 
-/// Shows all sites on the arcs of the grid that meet `|θ| <= range`, in rising order of the angle.
-/// `noise` bounds the polynomial's own error: what is smaller is not told from zero.
+/// Reports all sites on the arcs of the grid that meet `|θ| <= range`, by ascending angle. `noise` bounds the
+/// polynomial's own error: smaller values count as zero.
 #[inline]
 pub(crate) fn isolate<const M: usize>(
     poly: &TrigPolynomial<M>,
@@ -47,7 +47,7 @@ pub(crate) fn isolate<const M: usize>(
     }
 }
 
-/// As [`isolate`], for a polynomial with a root on a node of the grid.
+/// Like [`isolate`], for a polynomial with a root on a node of the grid.
 #[cold]
 fn isolate_turned<const M: usize>(
     poly: &TrigPolynomial<M>,
@@ -121,8 +121,8 @@ impl Arc {
         self.low + self.width
     }
 
-    /// Where the interpolant of a monotone arc crosses zero, to a few hundredths of the arc: the
-    /// secant, improved by one Newton step.
+    /// The crossing of zero of a monotone arc's interpolant, to a few hundredths of the arc: the secant, improved by
+    /// one Newton step.
     fn interpolated_root(&self) -> f64 {
         let [b0, b1, b2, b3] = self.control_points();
         let (c1, c2, c3) = (3.0 * (b1 - b0), 3.0 * (b2 - 2.0 * b1 + b0), b3 - b0 + 3.0 * (b1 - b2));
@@ -130,7 +130,7 @@ impl Arc {
         let value = b0 + t * (c1 + t * (c2 + t * c3));
         let slope = c1 + t * (2.0 * c2 + 3.0 * t * c3);
         let improved = t - value / slope;
-        // A flat interpolant divides by zero: the secant will do.
+        // A flat interpolant would divide by zero. The secant suffices.
         self.low + self.width * if improved > 0.0 && improved < 1.0 { improved } else { t }
     }
 
@@ -219,7 +219,7 @@ impl<const M: usize> Search<'_, M> {
         let (mut low, mut high) = ((arc.low, arc.slope[0]), (arc.high(), arc.slope[1]));
         let mut at = arc.low;
         for step in 1..EXTREMUM_STEPS {
-            // The secant, and a bisection now and then: the one is fast, the other sure.
+            // Secant steps, and a bisection now and then: the first are fast, the second is certain.
             let part = if step % 3 == 0 { 0.5 } else { low.1 / (low.1 - high.1) };
             at = low.0 + (high.0 - low.0) * part;
             let jet = self.poly.at(at);

@@ -3,9 +3,9 @@
 use super::{Closure, Root};
 use crate::angle::{angle_of, sin_cos};
 
-/// Newton steps until the last digit; convergence is quadratic, so few are ever used.
+/// Greatest number of Newton steps. Convergence is quadratic, so few are used.
 const STEPS: usize = 12;
-/// A step of this angle leads astray.
+/// Step, rad, above which the iteration diverges.
 const ASTRAY: f64 = 1.0;
 
 /// Newton's method in (a, w); `None` if it does not converge.
@@ -22,8 +22,8 @@ pub(crate) fn polish<const M: usize, C: Closure<M>>(closure: &C, start: Root) ->
     None
 }
 
-/// [`polish`] for two roots in step: a processor works on both at once, where two calls would
-/// wait for each division in turn.
+/// Applies [`polish`] to two roots in step. A processor works on both at once; two calls would wait for each division
+/// in turn.
 #[inline]
 fn polish_both<const M: usize, C: Closure<M>>(closure: &C, starts: [Root; 2]) -> Option<[Root; 2]> {
     let [mut first, mut second] = starts;
@@ -125,7 +125,7 @@ fn stepped(root: &Root, [step_a, step_w]: [f64; 2]) -> Option<Root> {
     (step_a.abs() < ASTRAY).then_some(Root { c, s, w: root.w + step_w, ..*root })
 }
 
-/// The root with the angle of its direction, which is told from the start's: it is continuous.
+/// The root with the angle of its direction. The angle continues that of the start.
 #[inline]
 fn arrived(start: &Root, root: Root) -> Root {
     let turned = angle_of(root.c * start.c + root.s * start.s, root.s * start.c - root.c * start.s);
@@ -137,7 +137,7 @@ fn arrived(start: &Root, root: Root) -> Root {
 pub(super) struct OnSheet {
     pub(super) value: f64,
     pub(super) slope: f64,
-    /// Below this the angle is a solution as far as residuals tell.
+    /// Value below which the angle is a solution within rounding errors.
     pub(super) noise: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Where the polynomial comes too close to zero to be trusted: its sheets decide.
+//! Roots where the polynomial is too close to zero to be trusted: its sheets decide.
 
 use arrayvec::ArrayVec;
 
@@ -9,10 +9,9 @@ use super::{Closure, Root, Roots, add};
 /// Bisections of an interval: as many as a double has bits.
 const BISECTIONS: u8 = 60;
 
-/// Adds the roots at a touch: one on each of two sheets, or two, one merged or none on one of
-/// them. The sheets are smooth where the polynomial is all rounding, so looking at them in a few
-/// dozen intervals, closer around the touch and where the sheets meet, misses nothing that double
-/// precision can show.
+/// Adds the roots at a touch: one on each of two sheets, or two, one merged or none on one of them. The sheets are
+/// smooth where the polynomial is only rounding error. A few dozen intervals, denser around the touch and where the
+/// sheets meet, show every root that double precision can resolve.
 #[cold]
 pub(super) fn add_roots<const M: usize, C: Closure<M>>(
     closure: &C,

@@ -1,4 +1,4 @@
-//! The part of the circle around a touch, and where the sheets exist on it.
+//! The part of the circle around a touch, and the stretches on which the sheets exist.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -7,15 +7,15 @@ use arrayvec::ArrayVec;
 use super::{Closure, Root};
 use crate::angle::sin_cos;
 
-/// Even intervals of the window in which the sheets are looked at.
+/// Number of even intervals of the window in which the sheets are examined.
 const EVEN: u8 = 16;
-/// Distances from the touch at which they are looked at besides.
+/// Further distances from the touch at which they are examined.
 const CLOSE: [f64; 6] = [1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
-/// Where two sheets meet or nearly meet, they are looked at in steps of this ratio.
+/// Ratio of the steps in which sheets are examined where they meet or nearly meet.
 const RATIO: f64 = 0.1;
 /// Number of these steps.
 const STEPS: i32 = 10;
-/// Below this part of its greatest value the discriminant is small: the sheets nearly meet.
+/// Fraction of its greatest value below which the discriminant is small: the sheets nearly meet.
 const SMALL: f64 = 1e-2;
 /// Steps of a golden-section search and of a bisection.
 const GOLDEN_STEPS: u8 = 80;
@@ -38,7 +38,7 @@ pub(super) struct Window {
 /// A stretch on which the sheets exist. At an end that is a fold, they meet.
 #[derive(Clone, Debug)]
 pub(super) struct Stretch {
-    /// Offsets to look at, the ends among them.
+    /// Offsets of the samples, including the ends.
     pub(super) offsets: Offsets,
     /// Whether the sheets meet at the lower and the upper end.
     pub(super) folds: [bool; 2],
@@ -162,8 +162,8 @@ impl Stretch {
     }
 }
 
-/// Where a function that is negative at `outside` and not at `inside` becomes zero: the last place
-/// at which it is not negative.
+/// Finds where a function that is negative at `outside` and not at `inside` becomes zero: the last place at which it
+/// is not negative.
 fn fold(height: &impl Fn(f64) -> f64, mut outside: f64, mut inside: f64) -> f64 {
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (outside + inside);

@@ -1,4 +1,4 @@
-//! The forward question's loop closure in (a, λ), and its polynomial of degree four.
+//! The loop closure of the forward problem in (a, λ), and its polynomial of degree four.
 
 use crate::circle::{TrigPolynomial, linear};
 use crate::closure::{Closure, Equations, LAST_STEP, Root};
@@ -12,9 +12,8 @@ use crate::residual::RESIDUAL_TOLERANCE;
 /// λ D - N = 0            X1² + (λ² + 1)(C - k cos a) - L1² = 0,   X1 = (λ u S + T) / d
 /// ```
 ///
-/// with S = 2 rho1 - rho2 - rho3, d = 2 (e1 - e2) and, of the first degree in cos a and sin a,
-/// D = 4 sin a (R2 r1 - R1 r4) + 2 (rho3 - rho2) u, N = K - m S and T (the spec's T plus
-/// (e1 - e2)²).
+/// with S = 2 rho1 - rho2 - rho3, d = 2 (e1 - e2) and, of the first degree in cos a and sin a, D = 4 sin a (R2 r1 -
+/// R1 r4) + 2 (rho3 - rho2) u, N = K - m S with m = rho3 - rho2 - 2 q, and T as in the crate's documentation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Assembly {
     r1_platform: f64,
@@ -65,7 +64,7 @@ impl Assembly {
         linear(self.n0, 0.0, self.n_sin)
     }
 
-    /// Whether D and N vanish at every angle: then λ is free, and the platform with it.
+    /// Whether D and N vanish at every angle. Then λ is free, and the platform can move.
     pub(super) fn is_free(&self, scale: f64) -> bool {
         self.d().bound(0) + self.n().bound(0) <= 1e-13 * scale * scale
     }

@@ -1,4 +1,4 @@
-//! Why slider positions have no assembly, or none in the working mode.
+//! The reason why slider positions have no assembly, or none in the working mode.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,11 +11,11 @@ use crate::machine::Machine;
 use crate::margins::Margins;
 use crate::posture::Posture;
 
-/// Angles at which a platform that cannot be assembled is tried.
+/// Number of angles at which the closure is evaluated.
 const TRIALS: u32 = 64;
 
-/// No assembly at all: the legs miss closing by at least about this much, as a negative length
-/// margin. It is the least root-mean error of the closure over the platform's angles, in mm.
+/// The margin if no assembly exists: about the distance by which the legs fail to close, as a negative length margin.
+/// It is the least root-mean-square error of the closure over the platform's angles, in mm.
 #[cold]
 pub(super) fn nearest(machine: &Machine, assembly: &Assembly) -> Margin {
     let miss = (0..TRIALS)
@@ -24,7 +24,7 @@ pub(super) fn nearest(machine: &Machine, assembly: &Assembly) -> Margin {
     Margin { constraint: Constraint::LegLength, element: Element::Platform, value: -miss }
 }
 
-/// How far the closure is from being satisfied at one angle, mm.
+/// The error of the closure at one angle, mm.
 fn miss_at(machine: &Machine, assembly: &Assembly, a: f64) -> f64 {
     let (s, c) = sin_cos(a);
     let size = 2.0 * machine.derived.scale;
@@ -38,7 +38,8 @@ fn miss_at(machine: &Machine, assembly: &Assembly, a: f64) -> f64 {
     }
 }
 
-/// Assemblies exist, but none in the working mode: the worst margin of the one that comes nearest.
+/// The margin if assemblies exist, but none in the working mode: the worst margin of the assembly that is nearest to
+/// it.
 #[cold]
 pub(super) fn out_of_mode(machine: &Machine, rho: [f64; 3], assembly: &Assembly) -> Margin {
     let mut roots = Roots::new();
@@ -53,7 +54,7 @@ pub(super) fn out_of_mode(machine: &Machine, rho: [f64; 3], assembly: &Assembly)
     }
 }
 
-/// The least of what the working mode needs positive, relative to the rods.
+/// The least of the quantities that must be positive in the working mode, relative to the rods.
 fn mode_margin(machine: &Machine, posture: &Posture) -> f64 {
     let margins = Margins::of(machine, posture, None);
     let uncrossed = margins.rod_crossing / machine.derived.scale;

@@ -19,16 +19,16 @@ use super::level;
 use crate::machine::Machine;
 use crate::residual::RESIDUAL_TOLERANCE;
 
-/// Newton steps: near a double root convergence is linear, a bit each.
+/// Newton steps. Near a double root convergence is linear, with one bit a step.
 const STEPS: usize = 60;
-/// Relative size of the next step at which a root stands.
+/// Relative size of the next step at which the iteration has converged.
 const SETTLED: f64 = 1e-16;
-/// Two roots closer than this are one: the square root of the rounding. Relative to the roots
-/// where both are near c = 1.
+/// Distance below which two roots are one: the square root of the rounding error. It is relative to the roots if both
+/// are near c = 1.
 const RESOLUTION: f64 = 4e-8;
 /// Constant terms of the cubic below this have lost digits to underflow: y is zero.
 const UNDERFLOW: f64 = 1e-280;
-/// Where w1² exceeds this part of L1², its root is the better formula for w1, else y u / v.
+/// Fraction of L1² above which the root of w1² is the better formula for w1. Below it y u / v is.
 const LARGE: f64 = 0.01;
 
 /// One angle of leg I with its slider above (s1 = +1); the mirror image (c, -s, -w1) is the
@@ -105,7 +105,7 @@ impl<'a> FirstLeg<'a> {
         cubic.newton(if inflection > 0.0 { inflection } else { cubic.guess() })
     }
 
-    /// The double root that rounding may have lifted off zero.
+    /// A double root that rounding may have made complex.
     #[cold]
     fn merged(&self, cubic: &Cubic) -> Option<LegAngle> {
         let t = cubic.maximum()?;
@@ -119,13 +119,13 @@ impl<'a> FirstLeg<'a> {
         inside.then(|| self.angle(1.0, t, true))
     }
 
-    /// The angle at which the leg misses least, where it does not reach.
+    /// The angle that misses the closure least, for a leg that does not reach.
     #[cold]
     pub(crate) fn closest(&self) -> LegAngle {
         self.angle(1.0, self.best(), true)
     }
 
-    /// How well the leg reaches: (15) at its greatest over R1² L1², negative out of reach.
+    /// The greatest value of (15), over R1² L1². It is negative out of reach.
     #[inline]
     pub(crate) fn slack(&self) -> f64 {
         let l1 = self.machine.geometry().L1;
@@ -227,7 +227,7 @@ impl Cubic {
             }
             let step = self.value(t) / slope;
             t -= step;
-            // What the next step would be, as far as convergence is quadratic.
+            // The size of the next step, if convergence is quadratic.
             let next = step * step * (a2 + 3.0 * a3 * t).abs();
             if next <= SETTLED * t * slope {
                 break;

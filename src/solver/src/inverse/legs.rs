@@ -1,4 +1,4 @@
-//! Legs II and III with the platform's pose known, and the postures that come of it.
+//! Legs II and III for a known pose of the platform, and the postures that follow.
 
 use std::f64::consts::PI;
 
@@ -11,7 +11,8 @@ use crate::pose::{PlatformPose, Point};
 use crate::posture::{Mode, Posture, Postures, Side};
 use crate::residual::{FINE, RESIDUAL_TOLERANCE, greater};
 
-/// Relative to L², what is left for a leg's drop is zero up to rounding: its two sides are one.
+/// Threshold relative to L² below which the square of a leg's drop is zero up to rounding. The two sides of the leg
+/// are then one.
 const FLAT: f64 = 8.0 * f64::EPSILON;
 
 /// A pose of the platform with leg I closed.
@@ -22,12 +23,12 @@ pub(super) struct Closed {
     alpha: f64,
     c: f64,
     s: f64,
-    /// cos and sin of `alpha` as it is given out, not as it was found: the check starts from them.
+    /// cos and sin of the returned `alpha`, not of the root that was found: the check starts from them.
     checked: [f64; 2],
     w1: f64,
     first: Leg,
     merged: bool,
-    /// The size of the numbers that P was found from: its rounding.
+    /// The size of the numbers from which P was computed: it scales their rounding.
     size: f64,
 }
 
@@ -39,7 +40,7 @@ struct Leg {
     error: f64,
 }
 
-/// What leg II or III has between its ends along z, mm: zero if its two sides have merged.
+/// Vertical extent of leg II or III, mm. Zero if its two sides have merged.
 #[derive(Clone, Copy, Debug)]
 struct Drop {
     size: f64,
@@ -47,7 +48,7 @@ struct Drop {
 }
 
 impl Closed {
-    /// The platform at `p` with leg I at a root; `size` is that of the numbers both come from.
+    /// The platform at `p` with leg I at a root. `size` is that of the numbers from which both were computed.
     #[inline]
     pub(super) fn new(machine: &Machine, p: Point, root: &Root, size: f64) -> Self {
         let alpha = wrapped(root.a);
@@ -57,8 +58,8 @@ impl Closed {
         Self { p, alpha, c: found_c, s: found_s, checked: [c, s], w1, first, merged, size }
     }
 
-    /// Leg I closed from the other side where P does not depend on the angle: (c, -s, -w1)
-    /// satisfies (A) with (c, s, w1).
+    /// Leg I closed from the other side, if P does not depend on the angle: (c, -s, -w1) satisfies (A) if (c, s, w1)
+    /// does.
     #[inline]
     fn mirrored(&self, machine: &Machine) -> Self {
         let alpha = if self.alpha == PI { PI } else { -self.alpha };
@@ -67,20 +68,20 @@ impl Closed {
         Self { alpha, s: -self.s, checked, w1: -self.w1, first, ..*self }
     }
 
-    /// Whether a rod length's error is one of a solution; not if it is a NaN.
+    /// Whether a rod-length error is small enough for a solution. A NaN is not.
     #[inline]
     fn holds(&self, error: f64) -> bool {
         error <= RESIDUAL_TOLERANCE * self.size
     }
 
-    /// Whether leg I closes to the last digits.
+    /// Whether leg I closes within the last digits.
     #[inline]
     pub(super) fn is_fine(&self) -> bool {
         self.first.error <= FINE * self.size
     }
 }
 
-/// Leg I with the platform's direction (c, s) as it is given out.
+/// Leg I with the returned direction (c, s) of the platform.
 #[inline]
 fn first_leg(machine: &Machine, [x, y, z]: Point, [c, s]: [f64; 2], w1: f64) -> Leg {
     let g = machine.geometry();
@@ -92,14 +93,14 @@ fn first_leg(machine: &Machine, [x, y, z]: Point, [c, s]: [f64; 2], w1: f64) -> 
     Leg { rho, side: Side::of(w1), error: greater(error(y + u, w + v), error(y - u, w - v)) }
 }
 
-/// Leg II or III with the platform closed.
+/// Leg II or III for a known pose of the platform.
 #[derive(Clone, Copy, Debug)]
 struct Other<'a> {
     closed: &'a Closed,
     length: f64,
     half_inverse: f64,
     x: f64,
-    /// p and q, signed, as they were found and from the angle that is given out.
+    /// p and q with their signs: from the root that was found, and from the returned angle.
     found: [f64; 2],
     checked: [f64; 2],
 }
@@ -120,14 +121,14 @@ impl<'a> Other<'a> {
         [leg(-1.0, g.L2, inverse2), leg(1.0, g.L3, inverse3)]
     }
 
-    /// What the leg has left for its drop, squared.
+    /// The square of the leg's drop.
     #[inline]
     fn left(&self) -> f64 {
         let y = self.closed.p[1] + self.found[0];
         (self.length - self.x) * (self.length + self.x) - y * y
     }
 
-    /// What rounding alone leaves of it.
+    /// The rounding error of that square.
     fn flat(&self) -> f64 {
         FLAT * self.length * self.length
     }
@@ -177,7 +178,7 @@ pub(super) fn mirrored_postures(machine: &Machine, above: &Closed, found: &mut P
     let legs = Other::both(machine, above);
     if let Some(drops) = drops(&legs) {
         add(machine, above, &legs, drops, found);
-        // A level leg I with a level platform is its own mirror image.
+        // A level leg I with a level platform equals its own mirror image.
         if above.s != 0.0 || above.w1 != 0.0 {
             let below = above.mirrored(machine);
             add(machine, &below, &Other::both(machine, &below), drops, found);
@@ -197,7 +198,7 @@ fn add(
     let merged = drops[0].merged || drops[1].merged;
     let holds = |leg: &Leg| closed.holds(leg.error);
     let all_hold = holds(&closed.first) && seconds.iter().chain(&thirds).all(holds);
-    // All four, and nothing to look at in each: nearly always.
+    // Nearly always all four exist, and none needs a special case.
     if !merged && all_hold && found.remaining_capacity() >= 4 {
         for leg2 in &seconds {
             for leg3 in &thirds {
@@ -215,7 +216,8 @@ fn add(
     );
 }
 
-/// As [`add`], where two sides have merged (and count once) or a posture does not satisfy Eqs (3)-(6).
+/// Like [`add`], for the case that two sides have merged (and count once) or that a posture does not satisfy Eqs
+/// (3)-(6).
 #[cold]
 fn add_those_that_hold(
     machine: &Machine,
@@ -227,7 +229,7 @@ fn add_those_that_hold(
     for leg2 in seconds {
         for leg3 in thirds {
             let holds = [&closed.first, leg2, leg3].iter().all(|leg| closed.holds(leg.error));
-            // At most six angles of leg I exist, and four postures of each: there is room.
+            // Leg I has at most six angles, and each has at most four postures: the capacity suffices.
             if holds && !found.is_full() {
                 found.push(posture(machine, closed, [leg2, leg3], merged));
             }
@@ -252,12 +254,12 @@ fn posture(machine: &Machine, closed: &Closed, [leg2, leg3]: [&Leg; 2], merged: 
     }
 }
 
-/// The posture with all sliders above, if it is in the working mode; else what prevents it.
+/// The posture with all sliders above, if it is in the working mode; otherwise the constraint that prevents it.
 #[inline]
 pub(super) fn working(machine: &Machine, closed: &Closed) -> Result<Posture, Refusal> {
     let [second, third] = Other::both(machine, closed);
     let (left2, left3) = (second.left(), third.left());
-    // A leg whose two sides have merged is in no mode.
+    // A leg whose two sides have merged belongs to no mode.
     if left2 <= second.flat() || left3 <= third.flat() {
         return Err(Refusal::Blocked(out_of_reach(left2 - second.flat(), left3 - third.flat())));
     }
@@ -270,15 +272,15 @@ pub(super) fn working(machine: &Machine, closed: &Closed) -> Result<Posture, Ref
     Err(Refusal::Blocked(out_of_mode(machine, closed).unwrap_or_else(|| out_of_reach(-0.0, -0.0))))
 }
 
-/// The leg that is short, or shorter of the two.
+/// The leg that is too short; of two the shorter one.
 #[cold]
 fn out_of_reach(second: f64, third: f64) -> Margin {
     let (leg, left) = if second <= third { (2, second) } else { (3, third) };
     Margin { constraint: Constraint::LegLength, element: Element::Leg(leg), value: level::signed_root(left) }
 }
 
-/// What keeps a closed leg I out of the working mode: its rods cross, or a slider end lies lower
-/// than its platform end; `None` if nothing does.
+/// The constraint that keeps a closed leg I out of the working mode: its rods cross, or a slider end lies lower than
+/// its platform end. `None` if there is none.
 #[cold]
 pub(super) fn out_of_mode(machine: &Machine, closed: &Closed) -> Option<Margin> {
     let g = machine.geometry();
@@ -292,7 +294,7 @@ pub(super) fn out_of_mode(machine: &Machine, closed: &Closed) -> Option<Margin> 
     (drop <= 0.0).then_some(margin)
 }
 
-/// What keeps legs II and III from reaching a pose at all, if anything does.
+/// The constraint that prevents legs II and III from reaching a pose, if there is one.
 #[cold]
 pub(super) fn reach_of_others(machine: &Machine, closed: &Closed) -> Option<Margin> {
     let [second, third] = Other::both(machine, closed).map(|leg| leg.left());

@@ -1,12 +1,12 @@
-//! What leg I has left for its drop, exactly enough for a leg that is nearly level.
+//! The square of leg I's drop, precise enough for a leg that is nearly level.
 //!
-//! E + k = L1² - X1² - (R1 - r1)² is w1² + y² at a = 0, and E - k = L1² - X1² - (R1 + r1)² the same
-//! at a = π. In double precision each has the rounding of L1². Where little is left, that rounding
-//! would decide whether the leg reaches at all.
+//! E + k = L1² - X1² - (R1 - r1)² is w1² + y² at a = 0, and E - k = L1² - X1² - (R1 + r1)² the same at a = π. In
+//! double precision each has the rounding error of L1². If the value itself is small, that error would decide whether
+//! the leg reaches at all.
 
 use crate::machine::Machine;
 
-/// Below this part of L1² what is left is computed anew with twice the digits.
+/// Fraction of L1² below which the value is computed again with twice the digits.
 pub(crate) const LITTLE: f64 = 1e-6;
 
 /// E + k at a given x, mm².
@@ -25,14 +25,14 @@ pub(super) fn at_half_a_turn(machine: &Machine, x: f64, at_zero: f64) -> f64 {
     if is_little(machine, found) { left(machine, x, 1.0) } else { found }
 }
 
-/// Whether what is left is so little that leg I may be level.
+/// Whether the value is so small that leg I may be level.
 #[inline]
 pub(super) fn is_little(machine: &Machine, left: f64) -> bool {
     left.abs() <= machine.derived.little
 }
 
-/// L1² - X1² - (R1 + `sign` r1)² from the machine's own numbers, with about twice the digits of a
-/// double: a + b and a b are taken with their rounding errors.
+/// L1² - X1² - (R1 + `sign` r1)² from the machine's own numbers, with about twice the digits of a double: sums and
+/// products are computed with their rounding errors.
 #[cold]
 fn left(machine: &Machine, x: f64, sign: f64) -> f64 {
     let g = machine.geometry();
@@ -48,7 +48,7 @@ fn left(machine: &Machine, x: f64, sign: f64) -> f64 {
     left + (left_rest + (reach_rest - square_rest))
 }
 
-/// √x with the sign of x: a length that goes through zero with it.
+/// √x with the sign of x: a length that changes its sign with x.
 pub(super) fn signed_root(x: f64) -> f64 {
     x.abs().sqrt().copysign(x)
 }
@@ -60,7 +60,7 @@ fn sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// The product of two numbers that are each given with a rest, and its own rest.
+/// The product of two numbers that are each given with a remainder, and its own remainder.
 fn product([a, a_rest]: [f64; 2], [b, b_rest]: [f64; 2]) -> (f64, f64) {
     let product = a * b;
     (product, a.mul_add(b, -product) + (a * b_rest + a_rest * b))

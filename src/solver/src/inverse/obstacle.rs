@@ -1,4 +1,4 @@
-//! Why a position has no inverse solution.
+//! The reason why a position has no inverse solution.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,12 +9,12 @@ use crate::closure::{Roots, find_roots};
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
 
-/// Angles at which leg I is tried.
+/// Number of angles at which leg I is evaluated.
 const TRIALS: u32 = 32;
 /// Golden-section steps around the best trial: the margin to about a micrometre.
 const STEPS: usize = 20;
 
-/// No posture in any mode: leg I does not close, or where it does another leg is too short.
+/// The margin if no mode has a posture: leg I does not close, or another leg is too short where it closes.
 #[cold]
 pub(super) fn of_all(machine: &Machine, track: &Track) -> Margin {
     let mut roots = Roots::new();
@@ -26,8 +26,8 @@ pub(super) fn of_all(machine: &Machine, track: &Track) -> Margin {
         .unwrap_or_else(|| of_leg_one(machine, track))
 }
 
-/// Leg I closes at no angle in the working mode: its rods cross or a slider end lies low where it
-/// closes, or it does not close and misses by so much at the best angle.
+/// The margin if leg I closes at no angle in the working mode: its rods cross or a slider end is too low where it
+/// closes, or it does not close and misses by this much at the best angle.
 #[cold]
 pub(super) fn of_leg_one(machine: &Machine, track: &Track) -> Margin {
     let leg = LegOne::new(machine, track);

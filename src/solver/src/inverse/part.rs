@@ -1,4 +1,4 @@
-//! The whole machine: the tool's pose given in the table frame.
+//! The whole machine: the tool's pose is given in the part frame.
 
 use super::track::Track;
 use crate::angle::sin_cos;
@@ -7,19 +7,110 @@ use crate::machine::Machine;
 use crate::pose::PartPose;
 use crate::posture::{Posture, Postures};
 
-/// All postures (up to 24) with the tool at `target` in the table frame. The table's angles of a
-/// posture are [`table_angles`](crate::table_angles) of its alpha and the target's phi1 and phi2.
+/// Finds all postures (up to 24) with the tool at `target` in the part frame.
+///
+/// [`table_angles`](crate::table_angles) of a posture's alpha and the target's phi1 and phi2 gives the table's angles.
+/// `tool_length` is measured from P.
+///
+/// # Units
+///
+/// `target`'s position, `tool_length` and the sliders `rho` are millimetres; Z of the part frame points up from the
+/// table. `target`'s phi1 and phi2 and the postures' alpha are radians.
+///
+/// # Errors
+///
+/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
+/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
+/// - [`Refusal::Blocked`]: no posture exists; the margin names the constraint that prevents it.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), with (15) as
+/// an equation of degree three on the circle; section III.C. The paper states sixteen solutions at most; the sextic in
+/// tan(alpha/2) gives up to twenty-four.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Machine, PartPose, Refusal, part};
+///
+/// let target = PartPose { x: 100.0, y: 50.0, z: 300.0, phi1: 0.35, phi2: 0.5 };
+/// let all = part(&Machine::verne(), &target, 150.0)?;
+/// assert_eq!(all.len(), 16);
+/// # Ok::<(), Refusal>(())
+/// ```
 pub fn part(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Postures, Refusal> {
     track(machine, target, tool_length)?.postures(machine)
 }
 
-/// The posture in the working mode with the tool at `target` in the table frame.
+/// Finds a posture in the working mode with the tool at `target` in the part frame.
+///
+/// Nearly always there is one at most; see [`part_every_working`].
+///
+/// # Units
+///
+/// `target`'s position, `tool_length` and the sliders `rho` are millimetres; Z of the part frame points up from the
+/// table. `target`'s phi1 and phi2 and the postures' alpha are radians.
+///
+/// # Errors
+///
+/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
+/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
+/// - [`Refusal::Blocked`]: the working mode does not reach `target`; the margin names the constraint that prevents it.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), with (15) as
+/// an equation of degree three on the circle; section III.C.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Machine, PartPose, Refusal, part_pose, part_working, table_angles};
+///
+/// let machine = Machine::verne();
+/// let target = PartPose { x: 100.0, y: 50.0, z: 300.0, phi1: 0.35, phi2: 0.5 };
+/// let posture = part_working(&machine, &target, 150.0)?;
+/// let table = table_angles(&machine, posture.pose.alpha, target.phi1, target.phi2);
+/// let back = part_pose(&machine, &posture.pose, table, 150.0);
+/// assert!((back.x - target.x).hypot(back.y - target.y).hypot(back.z - target.z) < 1e-9);
+/// # Ok::<(), Refusal>(())
+/// ```
 pub fn part_working(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Posture, Refusal> {
     track(machine, target, tool_length)?.working(machine)
 }
 
-/// All postures in the working mode with the tool at `target` in the table frame, that of [`part_working`] first. Nearly always
-/// there is one; a tool far from the tilting axis, or a long one, can have several.
+/// Finds all postures in the working mode with the tool at `target` in the part frame. The posture of [`part_working`]
+/// is the first.
+///
+/// Nearly always there is one. A tool far from the tilting axis, or a long one, can have several.
+///
+/// # Units
+///
+/// `target`'s position, `tool_length` and the sliders `rho` are millimetres; Z of the part frame points up from the
+/// table. `target`'s phi1 and phi2 and the postures' alpha are radians.
+///
+/// # Errors
+///
+/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
+/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
+/// - [`Refusal::Blocked`]: the working mode does not reach `target`; the margin names the constraint that prevents it.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), with (15) as
+/// an equation of degree three on the circle; section III.C.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Machine, PartPose, Refusal, part_every_working};
+///
+/// let target = PartPose { x: 100.0, y: 50.0, z: 300.0, phi1: 0.35, phi2: 0.5 };
+/// let all = part_every_working(&Machine::verne(), &target, 150.0)?;
+/// assert!(all.iter().all(|posture| posture.working));
+/// # Ok::<(), Refusal>(())
+/// ```
 pub fn part_every_working(
     machine: &Machine,
     target: &PartPose,

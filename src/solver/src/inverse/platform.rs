@@ -15,7 +15,33 @@ use crate::residual::size;
 /// Polishing moves an angle by less than this.
 const NEAR: f64 = 1e-4;
 
-/// All postures (up to 16) with the platform at `p` in the base frame; at least one, or the refusal.
+/// Finds all postures (up to 16) with the platform's reference point P at `p` in the base frame.
+///
+/// # Units
+///
+/// `p` and the sliders `rho` of the postures are millimetres; z points down. alpha is in radians.
+///
+/// # Errors
+///
+/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
+/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
+/// - [`Refusal::Blocked`]: no posture exists; the margin names the constraint that prevents it.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(6), the cubic (15) in cos
+/// alpha, section III.C, Fig. 5.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Machine, Refusal, platform};
+///
+/// let all = platform(&Machine::verne(), [-240.0, -86.0, 1000.0])?;
+/// assert_eq!(all.len(), 16);
+/// assert_eq!(all.iter().filter(|posture| posture.working).count(), 1);
+/// # Ok::<(), Refusal>(())
+/// ```
 pub fn platform(machine: &Machine, p: Point) -> Result<Postures, Refusal> {
     in_domain(machine, &p, &[])?;
     let angles = FirstLeg::new(machine, p[0], p[1]).both();
@@ -29,7 +55,35 @@ pub fn platform(machine: &Machine, p: Point) -> Result<Postures, Refusal> {
     )
 }
 
-/// The posture in the working mode with the platform at `p` in the base frame.
+/// Finds the posture in the working mode with the platform's reference point P at `p` in the base frame.
+///
+/// A position has at most one. The answer equals the working posture among those of [`platform`] to the last bit.
+///
+/// # Units
+///
+/// `p` and the sliders `rho` are millimetres; z points down. alpha is in radians.
+///
+/// # Errors
+///
+/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
+/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
+/// - [`Refusal::Blocked`]: the working mode does not reach `p`; the margin names the constraint that prevents it.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(6), (15), section III.C.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Machine, Refusal, forward_working, platform_working};
+///
+/// let machine = Machine::verne();
+/// let posture = platform_working(&machine, [-240.0, -86.0, 1000.0])?;
+/// let back = forward_working(&machine, posture.rho)?;
+/// assert!((back.pose.y - -86.0).abs() < 1e-9);
+/// # Ok::<(), Refusal>(())
+/// ```
 #[inline]
 pub fn platform_working(machine: &Machine, p: Point) -> Result<Posture, Refusal> {
     in_domain(machine, &p, &[])?;
@@ -43,8 +97,8 @@ pub fn platform_working(machine: &Machine, p: Point) -> Result<Posture, Refusal>
     second_choice(machine, p, &leg)
 }
 
-/// The cubic can have both roots where the rods do not cross, and the working mode is then at
-/// either; it is never at both.
+/// The posture in the working mode at either root of the cubic. Both roots can have uncrossed rods; at most one is in
+/// the working mode.
 #[cold]
 fn second_choice(machine: &Machine, p: Point, leg: &FirstLeg<'_>) -> Result<Posture, Refusal> {
     let mut refused = None;
@@ -65,7 +119,7 @@ fn closed(machine: &Machine, p: Point, angle: &LegAngle) -> Closed {
     if merged || closed.is_fine() { closed } else { polished(machine, p, &root).unwrap_or(closed) }
 }
 
-/// Newton's method on (A) itself, where the cubic has lost digits: w1 and y both near zero.
+/// Newton's method on (A) itself, if the cubic has lost digits because w1 and y are both near zero.
 #[cold]
 fn polished(machine: &Machine, p: Point, start: &Root) -> Option<Closed> {
     let track = Track::still(p);

@@ -14,11 +14,11 @@ use crate::pose::Point;
 use crate::posture::{Posture, Postures, gathered};
 use crate::residual::{RESIDUAL_TOLERANCE, size};
 
-/// Relative rounding of a leg that is nearly level: what is left for its drop has all its digits.
+/// Relative rounding error of a leg that is nearly level: its drop has all its digits.
 const LEVEL_NOISE: f64 = 1e-14;
 
-/// P = (x, y0 + yc cos a + ys sin a, z0 + zc cos a + zs sin a): where the platform has to be at
-/// each of its angles, for a tool given in the base or the table frame.
+/// P = (x, y0 + yc cos a + ys sin a, z0 + zc cos a + zs sin a): the position of the platform for each of its angles,
+/// for a tool given in the base or the part frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Track {
     pub(super) x: f64,
@@ -27,7 +27,7 @@ pub(super) struct Track {
 }
 
 impl Track {
-    /// A platform that stays where it is.
+    /// A platform that stays at one point.
     pub(super) fn still([x, y, z]: Point) -> Self {
         Self { x, y: [y, 0.0, 0.0], z: [z, 0.0, 0.0] }
     }
@@ -75,8 +75,8 @@ impl Track {
         self.among_all(machine, &leg, level).map(|postures| postures[0])
     }
 
-    /// All postures in the working mode along the track, that of [`Self::working`] first; at least
-    /// one, or the refusal.
+    /// All postures in the working mode along the track, that of [`Self::working`] first. There is at least one, or
+    /// the function refuses.
     pub(super) fn every_working(&self, machine: &Machine) -> Result<Postures, Refusal> {
         if let Some(p) = self.fixed() {
             return platform_working(machine, p).map(|posture| [posture].into_iter().collect());
@@ -129,7 +129,7 @@ pub(super) struct LegOne {
     e: f64,
     /// E + k and E - k.
     ends: [f64; 2],
-    /// One of them is little: leg I can be level at nearly this x, y and angle.
+    /// Whether one of them is small: leg I can then be level near this x, y and angle.
     level: bool,
     scale: f64,
     last_step: f64,
@@ -165,8 +165,8 @@ impl LegOne {
         end - y * y
     }
 
-    /// How far leg I is from closing at an angle, mm: |v| w1 - |y u| over the length of (u, v),
-    /// which is positive between the two roots; and the missing drop where w1 is imaginary.
+    /// The distance by which leg I fails to close at an angle, mm: |v| w1 - |y u| over the length of (u, v), which is
+    /// positive between the two roots; or the missing drop where w1 is imaginary.
     pub(super) fn slack(&self, c: f64, s: f64) -> f64 {
         let (u, v) = (self.r1_platform * c - self.r1_slider, self.r1_platform * s);
         let y = self.y[0] + self.y[1] * c + self.y[2] * s;

@@ -3,8 +3,28 @@
 use super::{Geometry, Limits, Machine, MachineData, Table};
 
 impl Machine {
-    /// The reference machine, `verne`. Its dimensions are round numbers chosen so that every
-    /// solution count printed in the paper comes out; they are not Fatronik's.
+    /// The reference machine, `verne`. Its dimensions are round numbers chosen so that every solution count printed in
+    /// the paper comes out. They are not Fatronik's.
+    ///
+    /// # Units
+    ///
+    /// Millimetres and radians.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Figs 5 and 6, whose counts it
+    /// reproduces.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Machine, Refusal, forward, platform};
+    ///
+    /// let machine = Machine::verne();
+    /// assert_eq!(platform(&machine, [-240.0, -86.0, 1000.0])?.len(), 16);
+    /// assert_eq!(forward(&machine, [674.0, 685.0, 250.0])?.len(), 4);
+    /// # Ok::<(), Refusal>(())
+    /// ```
     pub fn verne() -> Self {
         let data = MachineData {
             name: "verne".into(),

@@ -8,19 +8,19 @@ use crate::limit::MOST_RATIO;
 
 /// Largest length accepted in a machine, mm.
 const LARGEST: f64 = 1e6;
-/// Smallest length accepted where a length must be positive, mm.
+/// Least length that is accepted where a length must be positive, mm.
 const SMALLEST: f64 = 1e-3;
 /// How much longer than needed a leg must be at home, relative to what is needed.
 const LONGER: f64 = 1e-6;
-/// Least R1/r1 - 1, and least |e1 - e2| relative to the longest leg, at which the forward problem
-/// keeps its solutions: with R1 = r1 the double root a = 0 of its polynomial stands for a whole
-/// branch, and with e1 = e2 two solutions in mirror image share each root. Beside these machines
-/// solutions of the polynomial are too close together for double precision.
+/// Least R1/r1 - 1, and least |e1 - e2| relative to the longest leg, at which the forward problem keeps its
+/// solutions. With R1 = r1 the double root a = 0 of its polynomial represents a whole branch. With e1 = e2 two
+/// mirror-image solutions share each root. Near these machines the solutions of the polynomial are too close together
+/// for double precision.
 const DISTINCT: f64 = 1e-3;
 /// Least |`det_P`| at home.
 pub(super) const LEAST_HOME_DET: f64 = 1e-9;
 
-/// All faults of the data; the home pose is looked at only where the numbers themselves are sound.
+/// Finds all faults of the data. It examines the home posture only if the numbers themselves are valid.
 pub(super) fn faults(data: &MachineData) -> Vec<MachineFault> {
     let mut faults = Faults(Vec::new());
     faults.check(!data.name.is_empty() && data.name.len() <= 64, "name", "must have 1 to 64 characters");
@@ -37,13 +37,13 @@ pub(super) fn faults(data: &MachineData) -> Vec<MachineFault> {
     faults.0
 }
 
-/// The longest dimension that the equations hold.
+/// The longest dimension that occurs in the equations.
 pub(super) fn longest(g: &Geometry) -> f64 {
     let (e1, e2) = (g.D1 - g.d1, g.D2 - g.d2);
     [g.L1, g.L2, g.L3, g.R1, g.r1, g.R2, g.r4, e1.abs(), e2.abs()].into_iter().fold(0.0, f64::max)
 }
 
-/// The table's offsets turn with the platform, as lengths in questions do.
+/// The table's offsets. They rotate with the platform, like lengths in requests.
 fn proportions(data: &MachineData, faults: &mut Faults) {
     let most = MOST_RATIO * longest(&data.geometry);
     for (field, value) in [("table/da", data.table.da), ("table/dt", data.table.dt)] {

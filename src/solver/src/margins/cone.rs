@@ -8,10 +8,10 @@ use crate::rods::Rods;
 
 /// (angle² / chord² - 1 - chord² / 12) / chord⁴ at a right angle, rounded up.
 const REST: f64 = 0.016_759;
-/// More than a chord's square is off when it is computed from a cosine.
+/// Upper bound of the rounding error of a squared chord that is computed from a cosine.
 const ROUNDING: f64 = 1e-12;
 
-/// Four unit vectors by coordinate, so that four angles are computed at once.
+/// Four unit vectors by coordinate. So four angles are computed at once.
 pub(crate) type Columns = [[f64; 4]; 3];
 
 /// Vectors by coordinate.
@@ -21,7 +21,7 @@ pub(crate) fn columns(vectors: &[[f64; 3]; 4]) -> Columns {
     [column(0), column(1), column(2)]
 }
 
-/// Columns turned back by alpha about x: from the base frame into the platform's.
+/// Rotates the columns back by alpha about x: from the base frame into the platform frame.
 #[inline]
 pub(super) fn in_platform(rods: &Rods, [x, y, z]: &Columns) -> Columns {
     let (c, s) = (rods.c, rods.s);
@@ -35,9 +35,9 @@ pub(super) fn in_platform(rods: &Rods, [x, y, z]: &Columns) -> Columns {
 
 /// Half-angle less each direction's angle from its axis, rad.
 ///
-/// The angle between two unit vectors by their chord: unlike the arc cosine of their product it
-/// keeps its digits near home, where the angle is zero. Of two that point apart it is the chord to
-/// the opposite of the one, and what is missing to half a turn.
+/// The angle between two unit vectors follows from their chord. Unlike the arc cosine of their product, this keeps
+/// its digits near home, where the angle is zero. For vectors more than a right angle apart the chord to the opposite
+/// of one vector is used, and the angle is subtracted from half a turn.
 #[inline]
 pub(super) fn margins(half_angle: f64, a: &Columns, b: &Columns) -> [f64; 4] {
     let mut margins = [0.0; 4];
@@ -52,7 +52,7 @@ pub(super) fn margins(half_angle: f64, a: &Columns, b: &Columns) -> [f64; 4] {
     margins
 }
 
-/// Positive only if all four rods' angles from their axes at the sliders are clearly below an
+/// A number that is positive only if the angles of all four rods from their axes at the sliders are clearly below an
 /// angle.
 #[inline]
 pub(super) fn room(axes: &Columns, rods: &Rods, angle: f64) -> f64 {
@@ -63,7 +63,7 @@ pub(super) fn room(axes: &Columns, rods: &Rods, angle: f64) -> f64 {
     below(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
 }
 
-/// The same at the platform: the axes turn with it.
+/// The same at the platform. The axes rotate with it.
 #[inline]
 pub(super) fn room_on_platform(axes: &Columns, rods: &Rods, angle: f64) -> f64 {
     let (c, s) = (rods.c, rods.s);
@@ -74,9 +74,9 @@ pub(super) fn room_on_platform(axes: &Columns, rods: &Rods, angle: f64) -> f64 {
     below(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
 }
 
-/// Positive only if an angle is clearly below another, from its cosine. An upper bound of its
-/// square, if it is acute: the beginning of the power series in the square of the chord, whose
-/// terms are all positive, and the rest as it is at a right angle.
+/// A number that is positive only if an angle, given by its cosine, is clearly below another. For an acute angle it
+/// uses an upper bound of its square: the beginning of the power series in the square of the chord, whose terms are
+/// all positive, with the remainder that it has at a right angle.
 #[inline]
 fn below(cosine: f64, angle: f64) -> f64 {
     let square = 2.0 - 2.0 * cosine + ROUNDING;

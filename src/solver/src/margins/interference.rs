@@ -5,10 +5,10 @@ use crate::pose::PlatformPose;
 use crate::residual::{greater, lesser};
 use crate::rods::{FAMILY, RODS, Rods};
 
-/// Of two rods whose directions differ by less than the square root of this, any point of the one
-/// will do to start from: the distance does not depend on where along them it is measured.
+/// Square of the difference of two rods' directions below which they count as parallel. Any point of the one then
+/// serves as the start: the distance does not depend on it.
 const PARALLEL: f64 = 1e-14;
-/// Room for rounding in the square of a distance that is looked for.
+/// Allowance for rounding in the square of a distance, as a factor.
 const WITHIN: f64 = 1.0 + 1e-12;
 /// The nearest pair so far: square of the distance, and the rods as indices of the six.
 type Nearest = (f64, usize, usize);
@@ -17,8 +17,8 @@ type Nearest = (f64, usize, usize);
 #[inline]
 pub(crate) fn nearest(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     let ends = rods.platform_ends(g);
-    // A leg's own rods first: they are usually the nearest, and the rest is then seen to be
-    // further apart at a glance.
+    // Leg I's own rods come first: they are usually the nearest, and the other pairs are then quickly seen to be
+    // further apart.
     let gap = difference(ends[0], ends[1]);
     let mut nearest = (square_distance(&gap, &rods.vectors[0], &rods.vectors[1]), 0, 1);
     meet_others(&mut nearest, g, &ends, rods);
@@ -65,7 +65,7 @@ fn apart([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
     greater(lesser(a, b) - greater(c, d), lesser(c, d) - greater(a, b))
 }
 
-/// All pairs but the first leg's. Rods 22 and 32 stand to each other as 21 and 31 do.
+/// All pairs except leg I's. Rods 22 and 32 are at the same distance as 21 and 31.
 #[inline]
 fn meet_others(nearest: &mut Nearest, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
     meet_parallelograms(nearest, g, rods);
@@ -101,9 +101,9 @@ fn meet_between_legs(nearest: &mut Nearest, g: &Geometry, ends: &[[f64; 3]; 6], 
     }
 }
 
-/// Whether two rods are at least as far apart as the nearest pair, by what can be told without
-/// their nearest points, wherever one of them is shifted along x by up to `shift` either way: the
-/// segments' projections on the gap's direction are at least so far apart, times |gap|.
+/// Whether two rods are at least as far apart as the nearest pair, decided without their nearest points, if one of
+/// them is shifted along x by up to `shift` either way: the segments' projections on the gap's direction are at least
+/// so far apart, times |gap|.
 #[inline]
 fn far(nearest: &Nearest, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
     let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);

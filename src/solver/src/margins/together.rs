@@ -1,4 +1,4 @@
-//! The worst margins of many postures, a fraction of what one after the other costs.
+//! The worst margins of many postures, at a fraction of the cost of one after the other.
 
 use arrayvec::ArrayVec;
 
@@ -13,14 +13,14 @@ use crate::posture::Posture;
 use crate::residual::{greater, lesser};
 use crate::rods::Rods;
 
-/// Postures that are looked at together.
+/// Number of postures that are examined together.
 pub(crate) const TOGETHER: usize = 32;
-/// More than a part of a range is off by rounding.
+/// Upper bound of the rounding error of a fraction of a range.
 const ROUNDING: f64 = 1e-12;
 
-/// Poses and sliders by coordinate, so that a processor takes several postures at a time.
+/// Poses and sliders by coordinate. So the processor computes several postures at a time.
 pub(crate) struct Together {
-    /// What the caller knows the postures by.
+    /// The caller's numbers of the postures.
     places: ArrayVec<usize, TOGETHER>,
     x: [f64; TOGETHER],
     y: [f64; TOGETHER],
@@ -39,7 +39,7 @@ impl Together {
         self.places.clear();
     }
 
-    /// Adds a posture; there is room for [`TOGETHER`].
+    /// Adds a posture. The caller adds at most [`TOGETHER`].
     #[inline]
     pub(crate) fn push(&mut self, place: usize, posture: &Posture) {
         let i = self.places.len();
@@ -52,10 +52,9 @@ impl Together {
         }
     }
 
-    /// [`Margins::worst`] of [`Margins::of`] for each posture, the same to the last bit: a stroke
-    /// is usually the worst, and that it is can be seen without the margins of the others. The
-    /// table's angles, where it takes part, are those of alpha; the clearance over the table is checked
-    /// where there is one.
+    /// Computes [`Margins::worst`] of [`Margins::of`] for each posture, the same to the last bit. A stroke is usually
+    /// the worst, and often that can be decided without the other margins. If the table takes part, its angles are
+    /// those of alpha. The height over the table's plane is checked if there is a clearance.
     #[inline]
     pub(crate) fn worst(
         &self,
@@ -85,7 +84,7 @@ impl Together {
         (pose, [self.rho[0][i], self.rho[1][i], self.rho[2][i]])
     }
 
-    /// [`glance`] at each.
+    /// Applies [`glance`] to each posture.
     fn glances(&self, machine: &Machine) -> ([f64; TOGETHER], [f64; TOGETHER]) {
         let (mut crossing, mut clear) = ([0.0; TOGETHER], [0.0; TOGETHER]);
         for i in 0..TOGETHER {
@@ -101,8 +100,8 @@ fn of_all(machine: &Machine, pose: &PlatformPose, rho: [f64; 3], table: Option<T
     Worst::of(machine, &Margins::of_solution(machine, pose, rho, table))
 }
 
-/// The margin of crossed rods, and a number that is positive only if that or a stroke is certainly
-/// the worst of the parallel module's margins. Without a branch.
+/// The margin of crossed rods, and a number that is positive only if that margin or a stroke's is certainly the worst
+/// of the parallel module. The computation has no branch.
 #[inline]
 fn glance(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> (f64, f64) {
     let (g, limits, derived) = (machine.geometry(), machine.limits(), &machine.derived);
@@ -115,8 +114,8 @@ fn glance(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> (f64, f64) {
     };
     let strokes = lesser(lesser(stroke(0), stroke(1)), stroke(2));
     let part = lesser(crossing * weights.rod_crossing, strokes);
-    // A leg's drop is a part of its length that is its rod's cosine, or the mean of its two rods';
-    // the cosine's own margin is less.
+    // A leg's drop over its length is its rod's cosine, or the mean of those of its two rods. The cosine's own margin
+    // is less.
     let [a, b, c, d] = rods.directions.map(|direction| direction[2]);
     let serial = lesser(lesser(a, b), lesser(c, d)) - limits.serial_margin - part - ROUNDING;
     let parallel = det(machine, &rods) * weights.parallel_singularity - part - ROUNDING;

@@ -1,9 +1,9 @@
-//! What a margin is multiplied by so that lengths, angles and numbers compare.
+//! Factors that make margins comparable: lengths, angles and plain numbers.
 
 use crate::machine::MachineData;
 
-/// One over each constraint's own range: the stroke, the rod's length, the cone's half-angle, the
-/// value at home, the table's range; for heights over the table, the longest stroke.
+/// The reciprocal of each constraint's own range: the stroke, the rod's length, the cone's half-angle, the value at
+/// home, the table's range. For heights over the table it is that of the longest stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Weights {
     pub(super) stroke: [f64; 3],
@@ -20,7 +20,7 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// Of a machine with this conditioning and this distance between rods at home.
+    /// The factors of a machine with this determinant and this distance between rods at home.
     pub(crate) fn new(data: &MachineData, home_det: f64, home_distance: f64) -> Self {
         let (g, limits) = (&data.geometry, &data.limits);
         let over = |[low, high]: [f64; 2]| 1.0 / (high - low);

@@ -1,4 +1,4 @@
-//! The worst of all margins, made comparable by each constraint's own range.
+//! The worst of all margins. Each margin is divided by its constraint's own range.
 
 use super::{Margins, between};
 use crate::limit::{Constraint, Element, Margin};
@@ -9,7 +9,7 @@ use crate::residual::lesser;
 /// The rod that stands for each family.
 pub(super) const ROD: [Element; 4] = [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
 
-/// The least number and its place.
+/// The least number and its index.
 #[inline]
 pub(super) fn least(margins: &[f64]) -> (usize, f64) {
     let mut found = (0, f64::INFINITY);
@@ -21,7 +21,7 @@ pub(super) fn least(margins: &[f64]) -> (usize, f64) {
     found
 }
 
-/// The margin that is worst so far, and its part of its constraint's range.
+/// The worst margin so far, and its fraction of its constraint's range.
 pub(super) struct Worst {
     pub(super) margin: Margin,
     part: f64,
@@ -46,7 +46,7 @@ impl Worst {
         worst
     }
 
-    /// The worst of all but the table's plane.
+    /// The worst of all margins except that of the table's plane.
     pub(super) fn of(machine: &Machine, margins: &Margins) -> Self {
         let weights = &machine.derived.weights;
         let mut worst = Self::new(margins.rod_crossing, weights.rod_crossing);
@@ -68,7 +68,7 @@ impl Worst {
         worst
     }
 
-    /// The worst with the margin of the table's plane, where it is checked.
+    /// The worst margin including that of the table's plane, if it is checked.
     #[inline]
     pub(super) fn with_clearance(mut self, machine: &Machine, clearance: Option<Margin>) -> Self {
         if let Some(Margin { constraint, element, value }) = clearance {
@@ -77,7 +77,7 @@ impl Worst {
         self
     }
 
-    /// Crossed rods first.
+    /// Starts with the margin of crossed rods.
     #[inline]
     fn new(rod_crossing: f64, weight: f64) -> Self {
         let (constraint, element) = (Constraint::RodCrossing, Element::Leg(1));
@@ -93,7 +93,7 @@ impl Worst {
         }
     }
 
-    /// Without a branch on what is as good as random.
+    /// Compares without branches, because their outcomes are unpredictable.
     #[inline]
     fn meet_strokes(&mut self, machine: &Machine, stroke: &[[f64; 2]; 3]) {
         let weights = &machine.derived.weights.stroke;
@@ -134,8 +134,30 @@ impl Worst {
 }
 
 impl Margins {
-    /// The worst margin: the least one as a fraction of its constraint's own range (stroke, rod
-    /// length, cone half-angle, value at home, ...), so that lengths and angles compare.
+    /// Finds the worst margin. Margins are compared as fractions of their constraint's own range (stroke, rod length,
+    /// cone half-angle, value at home, ...), so that lengths and angles compare.
+    ///
+    /// # Units
+    ///
+    /// `value` of the answer has the unit of its constraint: mm, rad, or none.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): section IV.A; the comparison
+    /// is ours.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::{Constraint, Machine, Margins, Refusal, platform_working};
+    ///
+    /// let machine = Machine::verne();
+    /// let posture = platform_working(&machine, [0.0, 0.0, 600.0])?;
+    /// let worst = Margins::of(&machine, &posture, None).worst(&machine);
+    /// assert_eq!(worst.constraint, Constraint::Stroke);
+    /// assert!(worst.value < 0.0);
+    /// # Ok::<(), Refusal>(())
+    /// ```
     pub fn worst(&self, machine: &Machine) -> Margin {
         self.weighed(machine).0
     }

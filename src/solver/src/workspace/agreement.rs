@@ -1,18 +1,54 @@
-//! Volume by integration against the volume that the surface encloses.
+//! Comparison of the integrated volume with the volume that the surface encloses.
 
 use super::measure::{Measure, Volume};
 use super::observer::{Observer, Pace};
 use super::request::WorkspaceError;
 use super::surface::Surface;
 
-/// Most that a surface's volume may be off, over its area times its tolerance.
+/// Greatest difference of the volumes beyond the stated error, over the surface's area times its tolerance.
 const ALLOWED: f64 = 2.0;
 
-/// Checks that a surface of this tolerance encloses the measured volume: an error if they disagree by
-/// more than the volume's error and the tolerance on both sides of the surface allow.
+/// Checks that a surface of this tolerance encloses the measured volume.
 ///
-/// A folded workspace has no volume to compare. An empty surface stands for any volume: that the
-/// workspace is empty or thinner than the tolerance is seen to where the surface is made.
+/// The two may differ by the volume's error plus twice the surface's area times the tolerance. A folded workspace has
+/// no volume to compare and passes. An empty surface passes too: [`surface`](super::surface()) itself checks that the
+/// workspace is empty or thinner than the tolerance.
+///
+/// # Units
+///
+/// mm for the tolerance; mm² and mm³ within.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::Disagreement`]: the volumes differ by more: one of the two computations is wrong.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): constraints of section IV; the
+/// [module's documentation](crate::workspace) derives the rest.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, agree, measure, surface};
+///
+/// let request = Request {
+///     kind: Kind::Platform,
+///     tool_length: 0.0,
+///     phi1: 0.0,
+///     phi2: 0.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     tolerance: 20.0,
+/// };
+/// let machine = Machine::verne();
+/// let measured = measure(&machine, &request, &Unobserved)?;
+/// let boundary = surface(&machine, &request, &Unobserved)?;
+/// agree(&measured, &boundary, request.tolerance, &Unobserved)?;
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn agree(
     measure: &Measure,
     surface: &Surface,

@@ -1,13 +1,13 @@
-//! One vertical column of the workspace: what (x, y) alone decides.
+//! One vertical column of the workspace: the quantities that (x, y) alone determines.
 //!
-//! The guideways are parallel to z, so alpha, the rods' directions and the sliders' distances
-//! `f_i` = z - `rho_i` are the same all along a column.
+//! The guideways are parallel to z. So alpha, the rods' directions and the sliders' distances `f_i` = z - `rho_i` are
+//! constant along a column.
 
 use crate::inverse::first_leg::{FirstLeg, LegAngle};
 use crate::machine::Machine;
 
-/// The platform at (x, y) in the working mode, or its continuation where that mode ends: there
-/// every number still varies continuously, so that a limit's curve can be bracketed from outside.
+/// The platform at (x, y) in the working mode, or a continuation beyond that mode. The continuation lets root-finding
+/// bracket a limit from outside.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column {
     pub(super) x: f64,
@@ -33,8 +33,8 @@ impl Column {
         }
     }
 
-    /// The working mode may be at the cubic's other root; beyond both, the root that is nearer to
-    /// it; beyond the leg's reach, the angle that misses least.
+    /// Takes the cubic's other root if the working mode is there. Beyond both it takes the root that is nearer to the
+    /// working mode, and beyond the leg's reach the angle that misses least.
     #[cold]
     fn elsewhere(machine: &Machine, [x, y]: [f64; 2], leg: &FirstLeg<'_>) -> Self {
         let angles = leg.both();
@@ -95,7 +95,8 @@ impl Column {
     }
 }
 
-/// By how much leg I is in the working mode: rods uncrossed and both sliders above, over its size.
+/// A number that is positive if leg I is in the working mode: the least of its rods' distance from crossing and its
+/// drops, relative to its size.
 #[inline]
 fn lead(machine: &Machine, angle: &LegAngle) -> f64 {
     let g = machine.geometry();

@@ -1,4 +1,4 @@
-//! Membership by the inverse solution and its margins; no mesh.
+//! Membership: the inverse problem's solution and its margins decide. No mesh is used.
 
 use rayon::prelude::*;
 
@@ -14,21 +14,60 @@ use crate::pose::{PartPose, Point};
 use crate::posture::Posture;
 use crate::table::table_angles;
 
-/// Points between two looks at the observer.
+/// Points between two calls of the observer.
 const BATCH: usize = 1024;
 
-/// How a point stands to a workspace.
+/// Whether a point belongs to a workspace, and its worst margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Membership {
-    /// Whether the working mode reaches the point and keeps every limit, with one of its solutions
-    /// if there are several.
+    /// Whether the working mode reaches the point with a solution that keeps every limit.
     pub inside: bool,
-    /// The worst margin, as [`Margins::worst`](crate::Margins::worst) has it: not negative inside; `None` where the point
-    /// is out of domain or the platform would move with its sliders locked.
+    /// The worst margin by [`Margins::worst`](crate::Margins::worst); not negative inside. `None` if the point is out
+    /// of domain, or if the platform could move with its sliders locked.
     pub margin: Option<Margin>,
 }
 
-/// Whether each point, in the frame of the request's kind, belongs to the workspace; in order.
+/// Decides for each point, in the frame of the request's kind, whether it belongs to the workspace. The answers have
+/// the order of the points.
+///
+/// The function solves the inverse problem and reads the margins. It uses no mesh, and folds do not matter to it. A
+/// point that the solver refuses is outside; it is not an error.
+///
+/// # Units
+///
+/// Points are millimetres. A margin has the unit of its constraint: mm, rad, or none.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
+///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (15), (26), (27), constraints
+/// of section IV.A.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, contains};
+///
+/// let request = Request {
+///     kind: Kind::Platform,
+///     tool_length: 0.0,
+///     phi1: 0.0,
+///     phi2: 0.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     tolerance: 20.0,
+/// };
+/// let points = [[0.0, 0.0, 1200.0], [0.0, 0.0, 600.0]];
+/// let members = contains(&Machine::verne(), &request, &points, &Unobserved)?;
+/// assert!(members[0].inside && !members[1].inside);
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn contains(
     machine: &Machine,
     request: &Request,
@@ -42,7 +81,7 @@ pub fn contains(
     let mut members = Pace::new(observer).filled(&nothing, points.len())?;
     points.par_chunks(BATCH).zip(members.par_chunks_mut(BATCH)).try_for_each(|(points, members)| {
         go_on(observer)?;
-        // All solutions, then all margins: a processor overlaps what is alike and short.
+        // All solutions first, then all margins: the processor overlaps similar short computations.
         let mut solved = Together::new();
         for (points, places) in points.chunks(TOGETHER).zip(members.chunks_mut(TOGETHER)) {
             solved.clear();
@@ -84,8 +123,8 @@ fn solution(machine: &Machine, request: &Request, point: Point) -> Result<Postur
     }
 }
 
-/// Where the working mode has several solutions, a point belongs to the workspace if one of them
-/// keeps every limit. The margin is that of the solution whose worst margin is best.
+/// Decides a point for which the working mode has several solutions. The point is inside if one of them keeps every
+/// limit. The reported margin is that of the solution with the best worst margin.
 fn others(
     machine: &Machine,
     request: &Request,

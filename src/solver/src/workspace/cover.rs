@@ -1,11 +1,11 @@
 //! Boxes that cover the plane domain: outside, inside, or crossed by known limits.
 //!
-//! The rectangle that the legs reach is halved again and again. Bounds of every limit over a box
-//! prove it outside, prove it inside, or leave the limits that may vanish there. A box is `simple`
-//! if each of these rises or falls all along y: then every line x = const crosses the domain in at
-//! most one interval there. It is `open` if all of them rise in one common direction: then from
-//! every point of the domain one stays in it in that direction as far as the box's end, and no
-//! piece of the domain, and no hole, lies hidden inside.
+//! The rectangle that the legs reach is halved again and again. Bounds of every limit over a box prove that it is
+//! outside, prove that it is inside, or leave the limits that may vanish there. A box is `simple` if each of these
+//! limits rises or falls throughout along y. Then every line x = const crosses the domain in at most one interval in
+//! the box. A box is `open` if all of them rise in one common direction. Then a walk in that direction from a point
+//! of the domain stays in the domain as far as the box reaches, and no piece and no hole of the domain is hidden
+//! inside the box.
 
 mod first;
 mod interval;
@@ -21,22 +21,22 @@ mod tests;
 pub(super) use rectangle::Rectangle;
 use rectangle::meets;
 
-/// What the boxes are for.
+/// The purpose of the boxes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Purpose {
-    /// Integration over lines x = const: wherever a line's structure may change, the boxes are so
-    /// small that their area can be neglected, or given as an error.
+    /// Integration over lines x = const. Where a line's structure may change, the boxes become so small that their
+    /// area is negligible, or is part of the error.
     Lines,
-    /// No piece and no hole of the domain that is wider than this is hidden in a box.
+    /// Detection of pieces and holes: none that is wider than this is hidden in a box.
     Pieces(f64),
 }
 
-/// What is known of a box.
+/// The state of a box.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum State {
-    /// Some limit is not kept anywhere.
+    /// Some limit is violated everywhere in the box.
     Outside,
-    /// Every limit is kept everywhere.
+    /// Every limit is kept everywhere in the box.
     Inside,
     /// The limits, a bit each, that may vanish in the box; the others are kept.
     Crossed {
@@ -54,7 +54,7 @@ struct Node {
     state: State,
     /// The first of the two halves.
     halves: Option<usize>,
-    /// Size down to which pieces of the domain may be hidden around here.
+    /// Size down to which pieces of the domain may be hidden near this box.
     grain: f64,
     /// A bound of a column's volume over its area.
     weight: f64,
@@ -83,7 +83,7 @@ impl Cover {
         self.nodes.iter().filter(|node| node.halves.is_none() && !node.is_outside()).map(leaf)
     }
 
-    /// Whether some box that is inside is at least so wide.
+    /// Whether the cover has an inside box that is at least this wide.
     pub(super) fn holds(&self, width: f64) -> bool {
         self.leaves().any(|leaf| {
             let [low, high] = leaf.place;
@@ -121,8 +121,8 @@ impl Cover {
         }
     }
 
-    /// The least size, among the boxes that a segment crosses, down to which something may be
-    /// hidden from it: a piece of the domain if it is `outside`, else a hole or a limit.
+    /// The least size down to which something may be hidden near a segment, among the boxes that it crosses: a piece
+    /// of the domain if the segment is `outside`, else a hole or a limit.
     pub(super) fn grain(&self, ends: [[f64; 2]; 2], outside: bool) -> f64 {
         self.roots.iter().map(|&root| self.grain_from(root, ends, outside)).fold(f64::INFINITY, f64::min)
     }

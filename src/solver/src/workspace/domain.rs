@@ -19,34 +19,33 @@ use floor::Floor;
 
 /// Number of limits.
 pub(super) const LIMITS: usize = 27;
-/// First of the limits that stem from the rods' distances: of leg I's, of a parallelogram's, between
-/// legs.
+/// First of the limits for rod distances: of leg I's rods, of a parallelogram's rods, between legs.
 pub(super) const INTERFERENCE: usize = 15;
-/// First of the limits that stem from the strokes, and their number.
+/// First of the limits for the strokes.
 pub(super) const STROKES: usize = 18;
-/// First of the two limits that stem from the table.
+/// First of the two limits for the table's tilt.
 pub(super) const TILT: usize = 24;
-/// The limit that stems from the table's plane.
+/// The limit for the table's plane.
 pub(super) const TABLE: usize = 26;
-/// Number of the table among what may bind a sheet: it comes after the sliders.
+/// The table's number among the bounds of a sheet, after the three sliders.
 pub(super) const BY_TABLE: u8 = 3;
 /// Pairs of sliders (i, j): `z_hi` of slider i over `z_lo` of slider j.
 pub(super) const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
 const RODS: [u8; 4] = [11, 12, 21, 31];
 
-/// What limits a piece of the workspace's boundary.
+/// The constraint that bounds a piece of the workspace, and the part of the machine that it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Binding {
     /// The constraint.
     pub constraint: Constraint,
-    /// The part of the machine it belongs to.
+    /// The part of the machine.
     pub element: Element,
 }
 
 /// All limits' values at a point.
 pub(super) type Values = [f64; LIMITS];
 
-/// One request's domain: where columns exist, or where they meet a plane of the image's frame.
+/// The domain of one request: the (x, y) with columns, or those whose columns meet a plane of the image's frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Domain<'a> {
     pub(super) machine: &'a Machine,
@@ -55,11 +54,12 @@ pub(super) struct Domain<'a> {
     pub(super) height: Option<f64>,
     /// Squared chords of the cones' half-angles at the sliders and at the platform.
     pub(super) chords: [f64; 2],
-    /// Middle and half of the tilting range, moved by phi1 so that it holds for alpha.
+    /// Middle and half of the tilting range, shifted by phi1 so that it applies to alpha.
     tilt: Option<[f64; 2]>,
-    /// The table's plane, where it is a limit.
+    /// The table's plane, if it is a limit.
     floor: Option<Floor>,
-    /// The rotary angle, which is constant, is out of its range; or a slice lies below the floor.
+    /// Whether the domain is empty because the constant rotary angle is out of its range, or because a slice lies
+    /// below the floor.
     pub(super) empty: bool,
 }
 
@@ -138,8 +138,8 @@ impl<'a> Domain<'a> {
         }
     }
 
-    /// Of columns, that their highest end over slider i lies over their lowest over slider j; of a
-    /// slice, the ends of the strokes themselves.
+    /// For columns, the height of slider i's highest end over slider j's lowest. For a slice, the distances from the
+    /// ends of the strokes.
     #[inline]
     fn stroke(&self, number: usize, column: &Column) -> f64 {
         let stroke = &self.machine.limits().stroke;
@@ -157,12 +157,12 @@ impl<'a> Domain<'a> {
         }
     }
 
-    /// Middle and half of the range of alpha that the tilting range leaves; `None` for a whole turn.
+    /// Middle and half of the range of alpha that the tilting range allows; `None` for a whole turn.
     pub(super) fn tilted(&self) -> Option<[f64; 2]> {
         self.tilt
     }
 
-    /// How far theta1 is above its least value, or below its greatest.
+    /// The distance of theta1 from its least value, or from its greatest.
     fn tilt(&self, end: usize, column: &Column) -> f64 {
         let alpha = column.alpha();
         let [a, b] = self.tilt_pieces(end).map(|[sign, offset]| sign * alpha + offset);
@@ -171,10 +171,9 @@ impl<'a> Domain<'a> {
 
     /// A tilt limit as the greater of two linear functions of alpha, each a slope and an offset.
     ///
-    /// In the working mode |alpha| is below a right angle, so that of the range's copies, a turn
-    /// apart, at most two matter: the one around the middle nearest to 0, and of a range of more
-    /// than half a turn the copy on the other side of 0. It joins the limit whose end it is next to,
-    /// so that no limit jumps.
+    /// In the working mode |alpha| is below a right angle. So at most two of the range's copies, a turn apart,
+    /// matter: the copy whose middle is nearest to 0 and, for a range of more than half a turn, the copy on the other
+    /// side of 0. The second copy joins the limit whose end is next to it, so that no limit jumps.
     pub(super) fn tilt_pieces(&self, end: usize) -> [[f64; 2]; 2] {
         let Some([middle, half]) = self.tilt else { return [[0.0, half_turn()]; 2] };
         let middle = middle - TAU * (middle / TAU).round();
@@ -215,14 +214,14 @@ impl<'a> Domain<'a> {
         Binding { element: Element::Rods(a, b), ..found }
     }
 
-    /// One sheet's height at each slider's end of stroke, and at the table.
+    /// One sheet's height by each slider's end of stroke, and by the table.
     #[inline]
     pub(super) fn sheet(&self, column: &Column, upper: bool) -> [f64; 4] {
         let [a, b, c] = if upper { self.highs(column) } else { self.lows(column) };
         [a, b, c, self.table_bound(column, upper)]
     }
 
-    /// The slider whose end of stroke is the sheet, or the table; the first of equal ones.
+    /// The slider, or the table, that binds the sheet; the first of equal ones.
     #[inline]
     pub(super) fn binding_slider([a, b, c, table]: [f64; 4], upper: bool) -> usize {
         let before = |a: f64, b: f64| if upper { a < b } else { a > b };
@@ -253,7 +252,7 @@ impl<'a> Domain<'a> {
         self.height.is_some()
     }
 
-    /// A rectangle, `[least, greatest]`, that holds the domain: no leg reaches beyond it.
+    /// A rectangle, `[least, greatest]`, that contains the domain: no leg reaches beyond it.
     pub(super) fn rectangle(&self) -> [[f64; 2]; 2] {
         let (g, d) = (self.machine.geometry(), &self.machine.derived);
         let second = g.L2.min(g.L3);
@@ -265,7 +264,7 @@ impl<'a> Domain<'a> {
     }
 }
 
-/// A limit that is never met.
+/// The value of a limit that is never violated.
 const fn half_turn() -> f64 {
     PI
 }
@@ -281,8 +280,8 @@ fn chord(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum()
 }
 
-/// The binding constraint of a limit; strokes as in a slice. Which rods are nearest is not known
-/// without a column: see [`Domain::binding_at`].
+/// The binding constraint of a limit, with strokes as in a slice. The nearest rods need a column: see
+/// [`Domain::binding_at`].
 pub(super) fn binding(limit: u8) -> Binding {
     let limit = usize::from(limit);
     let number = limit.saturating_sub(STROKES);

@@ -1,4 +1,4 @@
-//! How many triangles a surface will have, before it is made.
+//! An estimate of the number of triangles of a surface.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -9,21 +9,52 @@ use super::plane::{ATTEMPTS, Plane};
 use super::request::{Request, WorkspaceError};
 use crate::machine::Machine;
 
-/// Triangles from which a coarse surface tells the number of a fine one.
+/// Number of triangles from which a coarse surface predicts the number of a fine one.
 const ENOUGH: usize = 4_000;
-/// By how much the tolerance is lowered until there are enough.
+/// Factor by which the tolerance is lowered until there are enough triangles.
 const STEP: f64 = 4.0;
-/// Looks at the observer after which a trace is given up: one that ends by itself has a few for each triangle.
+/// Calls of the observer after which a trace is abandoned. A trace that ends has a few for each triangle.
 const MOST_LOOKS: usize = 100_000;
-/// First tolerance, as a part of the workspace's greatest possible size.
+/// First tolerance, as a fraction of the workspace's greatest possible size.
 const COARSE: f64 = 0.02;
 
-/// About how many triangles [`surface`](super::surface) makes; where they are few, the number before short edges are
-/// contracted. It takes the time of some thousand triangles. Where that is not enough, the number is a guess.
+/// Estimates how many triangles [`surface`](super::surface()) makes. If they are few, it is the number before short
+/// edges are contracted. The estimate takes about as long as some thousand triangles. If that does not suffice, the
+/// number is a guess.
 ///
-/// The domain is traced at tolerances that are too coarse, ever finer, until there are enough triangles. From there their
-/// number grows as 1/tolerance: curved sheets and walls along which columns turn need so many. The chords of a curve
-/// grow as the root only, so the estimate is rather too high.
+/// The function traces the domain at tolerances that are too coarse, ever finer, until there are enough triangles. From
+/// there their number grows as 1/tolerance: curved sheets and walls along which columns turn need so many. The chords
+/// of a curve grow only as the root of it, so the estimate is rather too high.
+///
+/// # Units
+///
+/// The request's tolerance is in mm.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
+///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, expected_triangles};
+///
+/// let request = Request {
+///     kind: Kind::Platform,
+///     tool_length: 0.0,
+///     phi1: 0.0,
+///     phi2: 0.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     tolerance: 20.0,
+/// };
+/// let count = expected_triangles(&Machine::verne(), &request, &Unobserved)?;
+/// assert!(count > 100.0 && count < 10_000.0, "{count}");
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn expected_triangles(
     machine: &Machine,
     request: &Request,
@@ -45,7 +76,7 @@ pub fn expected_triangles(
             return Ok(count(found));
         }
         if let Some(before) = last.filter(|_| found >= ENOUGH) {
-            // What was added by the last step grows so; what was there at any tolerance stays.
+            // The triangles that the last step added grow as 1/tolerance. The others were there at any tolerance.
             let added = count(found.saturating_sub(before)) * STEP / (STEP - 1.0);
             return Ok(count(found) + added * (tolerance / request.tolerance - 1.0));
         }
@@ -60,7 +91,8 @@ fn traced(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Resul
     Plane::trace(domain, &cover, squares, tolerance, usize::MAX, observer)
 }
 
-/// Stops what takes far longer than an estimate should: on some domains a trace refines much that it drops again.
+/// Stops a trace that takes far longer than an estimate should. On some domains a trace refines many triangles that
+/// it discards later.
 struct Bounded<'a> {
     observer: &'a dyn Observer,
     looks: AtomicUsize,

@@ -1,9 +1,8 @@
-//! Whether a workspace is covered twice by two parts of the platform's domain.
+//! Detection of a workspace that two parts of the platform's domain cover.
 //!
-//! The map from the platform's position to the tool's or the part's keeps x, and turns or shifts
-//! the plane x = const by what depends on alpha. Its Jacobian determinant can have one sign on all
-//! of the workspace, and two separate parts can map onto the same set all the same. So points of
-//! the workspace are put into the inverse problem: a second feasible solution is a second platform
+//! The map from the platform's position to the tool's or the part's keeps x, and rotates or shifts the plane x =
+//! const depending on alpha. Two separate parts can have the same image although the Jacobian determinant has one
+//! sign. So the inverse problem is solved at points of the workspace: a second feasible solution is a second platform
 //! position.
 
 use super::domain::Domain;
@@ -15,40 +14,40 @@ use crate::margins::Margins;
 use crate::pose::{PartPose, Point};
 use crate::table::table_angles;
 
-/// Places of the rectangle that are looked at, at most.
+/// Greatest number of sample positions in the rectangle.
 const PLACES: u32 = 50_000;
-/// Points of the workspace that are looked at.
+/// Number of points of the workspace that are examined.
 const POINTS: u32 = 2_000;
-/// How many times as many where some point has a second solution that breaks a limit.
+/// Factor for the number of points if some point has a second solution that violates a limit.
 const SUSPECTED: u32 = 10;
-/// A part of the workspace of which none of n points is has less than this over n of its volume,
-/// in 95 of 100 cases.
+/// If none of n points lies in a part of the workspace, the part's fraction of the volume is less than this over n in
+/// 95 of 100 cases.
 const UNSEEN: f64 = 3.0;
-/// Two platform positions are one within this part of the machine's size.
+/// Distance below which two platform positions are the same, as a fraction of the machine's size.
 const SAME: f64 = 1e-7;
 /// Additive recurrence in three dimensions with the least discrepancy (the powers of the inverse
 /// of the real root of x⁴ = x + 1).
 const STEPS: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3];
 
-/// How often the points of a workspace are covered.
+/// The number of times that the map covers a workspace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Covering {
-    /// Once, but for a part of this share of the volume that may have been missed.
+    /// Once, except for a part of this fraction of the volume that may have been missed.
     Once { unseen: f64 },
     /// A point has two feasible solutions.
     Twice,
 }
 
-/// What a point's other working solutions say.
+/// The other working solutions of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Others {
     None,
-    /// Some are within the table's range and break another limit.
+    /// Some are within the table's range and violate another limit.
     Infeasible,
     Feasible,
 }
 
-/// Looks at points that are spread evenly over the domain's columns.
+/// Examines points that are spread evenly over the domain's columns.
 pub(super) fn covering(
     machine: &Machine,
     request: &Request,
@@ -97,7 +96,7 @@ fn feasible_place(domain: &Domain<'_>, [low, high]: [[f64; 2]; 2], number: u32) 
     (inside && bottom <= top).then(|| Place { platform: [x, y, z], image: domain.image.point(&column, z) })
 }
 
-/// The solutions at a point of the workspace beside the one that is known.
+/// Classifies the solutions at a point of the workspace other than the known one.
 fn others(machine: &Machine, request: &Request, known: Point, [x, y, z]: Point) -> Others {
     let Request { kind, tool_length, phi1, phi2, .. } = *request;
     let found = match kind {

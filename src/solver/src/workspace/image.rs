@@ -1,16 +1,16 @@
-//! The map from the platform's position to the positions that the workspace is made of.
+//! The map from the platform's position to the workspace.
 
 use super::column::Column;
 use super::request::{Kind, Request};
 use crate::machine::{Machine, Table};
 use crate::pose::Point;
 
-/// Least |cos theta1| at which a plane Z = const of the table frame cuts a column at one point.
+/// Least |cos theta1| at which a plane Z = const of the part frame cuts a column at one point.
 const UPRIGHT: f64 = 1e-12;
-/// Where a plane that does not cut a column meets it, mm: beyond every stroke.
+/// The z, mm, that stands for a plane that does not meet a column: beyond every stroke.
 pub(super) const NOWHERE: f64 = 1e15;
 
-/// Each map is linear in z on a column, and so is its Jacobian determinant.
+/// The map of each kind. It is linear in z along a column, and so is its Jacobian determinant.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Image {
     /// P itself.
@@ -37,7 +37,7 @@ impl Image {
         }
     }
 
-    /// Whether columns that are parallel have images that are not.
+    /// Whether the images of parallel columns are not parallel.
     pub(super) fn turns(&self) -> bool {
         matches!(self, Self::Part { .. })
     }
@@ -73,7 +73,7 @@ impl Image {
         }
     }
 
-    /// Whether a column's points with less z are the higher ones over the table.
+    /// Whether a column's points with less z are higher over the table.
     #[inline]
     pub(super) fn upright(&self, column: &Column) -> bool {
         match self {
@@ -92,7 +92,7 @@ impl Image {
         }
     }
 
-    /// d(point) for a displacement (dx, dy, dz) with the turn da of the platform.
+    /// d(point) for a displacement (dx, dy, dz) with the rotation da of the platform.
     #[inline]
     pub(super) fn push(&self, column: &Column, z: f64, [dx, dy, dz]: Point, da: f64) -> Point {
         match self {

@@ -1,11 +1,10 @@
 //! Volume and area by integration over the plane domain.
 //!
-//! V = ∬ (`z_hi` - `z_lo`)(j0 + j1 (`z_hi` + `z_lo`)/2), where j0 + j1 z is the Jacobian determinant of the
-//! kind's map. The inner integral runs over the intervals of a line x = const, which are found from
-//! the domain's cover, cut where another slider begins to bind; the outer one over panels between
-//! the x at which the line's structure changes: the cover proves where it may. There the inner integral
-//! goes like a square root, which the
-//! substitution x = x0 + (x1 - x0)(3 t² - 2 t³) makes smooth.
+//! V = ∬ (`z_hi` - `z_lo`)(j0 + j1 (`z_hi` + `z_lo`)/2), where j0 + j1 z is the Jacobian determinant of the kind's
+//! map. The inner integral runs over the intervals of a line x = const. They follow from the domain's cover and are
+//! cut where another slider begins to bind. The outer integral runs over panels between the x at which the structure
+//! of the line changes; the cover proves where it may change. The inner integral goes like a square root there. The
+//! substitution x = x0 + (x1 - x0)(3 t² - 2 t³) makes it smooth.
 
 mod crossing;
 mod line;
@@ -21,21 +20,21 @@ use crate::machine::Machine;
 /// The volume of a workspace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Volume {
-    /// The volume, and a bound of its error, mm³.
+    /// The volume and its error.
     Value {
         /// mm³.
         value: f64,
-        /// mm³; the true volume lies within `value ± error`.
+        /// mm³. The true volume is within `value ± error`, as far as the quadrature's estimate holds (see
+        /// [`measure`]).
         error: f64,
     },
-    /// Some positions are reached from two platform positions, and the integral is not the volume
-    /// of the set. It is known in two ways: the map's Jacobian determinant has both signs on the
-    /// columns that the integration looks at; or one of 2,000 points, spread evenly over the
-    /// columns, has two feasible inverse solutions. So two parts of the platform's domain that map
-    /// onto the same set are found if that set is more than about 0.15 % of the workspace, and may
-    /// be missed if it is less. Where a second working solution exists at one of the points, though
-    /// not a feasible one, 20,000 points are looked at, and a [`Volume::Value`]'s error includes
-    /// what may have been missed.
+    /// Two platform positions reach the same position somewhere, so the integral is not the volume of the set.
+    /// [`measure`] detects it in two ways: the Jacobian determinant has both signs on the columns that the
+    /// integration visits, or one of 2,000 points, spread evenly over the columns, has two feasible inverse
+    /// solutions. It thus finds two parts of the domain with the same image if that image is more than about 0.15 %
+    /// of the workspace, and may miss a smaller one. If one of the points has a second working solution that is not
+    /// feasible, it examines 20,000 points, and the error of [`Volume::Value`] includes the part that it may have
+    /// missed.
     Folded,
 }
 
@@ -44,23 +43,58 @@ pub enum Volume {
 pub struct Measure {
     /// The volume.
     pub volume: Volume,
-    /// Area of the plane domain over which columns exist, mm².
+    /// Area of the plane domain, mm²: of all (x, y) with columns.
     pub area: f64,
-    /// Bound of the area's error, mm².
+    /// Error of the area, mm²; see [`measure`].
     pub area_error: f64,
-    /// Least and greatest Jacobian determinant met; `None` for an empty workspace.
+    /// Least and greatest Jacobian determinant of the columns that the integration visited. `None` for an empty
+    /// workspace.
     pub jacobian: Option<[f64; 2]>,
-    /// Greatest |alpha| met, rad; `None` for an empty workspace.
+    /// Greatest |alpha| of these columns, rad. `None` for an empty workspace.
     pub inclination: Option<f64>,
 }
 
-/// Volume and area of the workspace, with bounds of their errors: relative 1e-6 or better as a rule.
+/// Computes the volume and the area of a workspace, with errors: as a rule 1e-6 of the value or better.
 ///
-/// Where so much of the domain's boundary cannot be decided at reasonable cost that a part of the
-/// domain might be missed, the errors include it: the undecided area, and it times a bound of the
-/// columns' volume. The quadrature's own errors are estimated by refinement.
+/// The error consists of the area, and a bound of the volume, of the boxes that the cover leaves undecided, of the
+/// places of structural changes, and of four times the quadrature's estimate. The last is an estimate, not a bound; the
+/// [module's documentation](super) lists what is proved. The request's tolerance has no effect.
 ///
-/// The tolerance of the request is without effect: it belongs to surfaces and slices.
+/// # Units
+///
+/// mm², mm³; the inclination is in radians.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
+///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (26) and (27) as maps,
+/// constraints of section IV.A; the integral over columns is ours.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, Volume, measure};
+///
+/// let request = Request {
+///     kind: Kind::Platform,
+///     tool_length: 0.0,
+///     phi1: 0.0,
+///     phi2: 0.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     tolerance: 20.0,
+/// };
+/// let measured = measure(&Machine::verne(), &request, &Unobserved)?;
+/// let Volume::Value { value, error } = measured.volume else { panic!("the platform's map does not fold") };
+/// assert!((value - 2.336_92e8).abs() < 1e3 && error < 1e-6 * value);
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn measure(
     machine: &Machine,
     request: &Request,
@@ -79,7 +113,26 @@ pub fn measure(
 }
 
 impl Measure {
-    /// Whether the map folds.
+    /// Whether the map folds; see [`Volume::Folded`] for what is detected.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, measure};
+    ///
+    /// let request = Request {
+    ///     kind: Kind::Platform,
+    ///     tool_length: 0.0,
+    ///     phi1: 0.0,
+    ///     phi2: 0.0,
+    ///     table_clearance: None,
+    ///     tool_radius: 0.0,
+    ///     tolerance: 20.0,
+    /// };
+    /// assert!(!measure(&Machine::verne(), &request, &Unobserved)?.folded());
+    /// # Ok::<(), WorkspaceError>(())
+    /// ```
     pub fn folded(&self) -> bool {
         self.volume == Volume::Folded
     }

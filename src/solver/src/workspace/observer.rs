@@ -1,17 +1,17 @@
-//! How a long computation is watched and stopped.
+//! Progress and cancellation of long computations.
 
 use super::request::WorkspaceError;
 
-/// Watches a computation from outside; called from the threads that compute, at least every few
-/// milliseconds of work.
+/// Receives the progress of a computation and can stop it. The computing threads call it at least every few
+/// milliseconds.
 pub trait Observer: Sync {
-    /// Part of the work that is done, from 0 to 1, never falling on one thread.
+    /// Receives the fraction of the work that is done, from 0 to 1. On one thread it never decreases.
     fn progress(&self, part: f64);
-    /// Whether to stop; the computation then returns [`WorkspaceError::Cancelled`].
+    /// Whether the computation must stop. It then returns [`WorkspaceError::Cancelled`].
     fn cancelled(&self) -> bool;
 }
 
-/// Nobody watches.
+/// An observer that ignores the progress and never stops the computation.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unobserved;
 
@@ -23,10 +23,10 @@ impl Observer for Unobserved {
     }
 }
 
-/// Short steps between two looks: each is far below a microsecond.
+/// Steps of a loop between two calls of the observer. Each step takes far less than a microsecond.
 const STEPS: u32 = 4_096;
 
-/// Counts the short steps of a loop and looks at the observer every so many.
+/// Counts the steps of a loop and calls the observer after every [`STEPS`].
 pub(super) struct Pace<'a> {
     pub(super) observer: &'a dyn Observer,
     left: u32,
@@ -47,7 +47,8 @@ impl<'a> Pace<'a> {
         Ok(())
     }
 
-    /// `count` copies of a value: the first touch of much memory takes its time.
+    /// Makes `count` copies of a value. It calls the observer in between, because the first write to new memory takes
+    /// time.
     pub(super) fn filled<T: Clone>(&mut self, value: &T, count: usize) -> Result<Vec<T>, WorkspaceError> {
         let mut all = Vec::with_capacity(count);
         while all.len() < count {

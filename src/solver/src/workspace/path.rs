@@ -4,19 +4,19 @@ use super::column::Column;
 use super::domain::{Domain, LIMITS, Values};
 use super::root;
 
-/// Resolution of an interval's end, as a part of the segment it is found on.
+/// Resolution of an interval's end, as a fraction of its segment.
 const RESOLUTION: f64 = 1e-13;
 /// Halvings of a segment on which a limit may vanish twice.
 const DEPTH: u32 = 10;
-/// How much of the deviation from a straight line is added to be safe against what a parabola
-/// through three points does not show.
+/// Fraction of the deviation from a straight line that is added to allow for what a parabola through three points
+/// does not show.
 const CAUTION: f64 = 1.5;
 
 /// Functions of one parameter, positive where a limit holds.
 pub(super) trait Limits<const N: usize> {
-    /// All of them.
+    /// The values of all functions.
     fn all(&self, t: f64) -> [f64; N];
-    /// One of them.
+    /// The value of one function.
     fn one(&self, limit: usize, t: f64) -> f64;
 }
 
@@ -27,11 +27,11 @@ pub(super) struct Cut {
     pub(super) limit: Option<usize>,
 }
 
-/// The intervals of a range on which every limit holds, looked for on `pieces` segments.
+/// Finds the intervals of a range on which every limit holds, on `pieces` segments.
 ///
-/// On a segment each limit is taken for the parabola through its ends and its middle, bent by half
-/// as much again; where that may vanish twice the segment is halved. What turns twice between two
-/// looks, a segment's half apart, is not seen.
+/// On a segment each limit is approximated by the parabola through its ends and its middle, with half as much
+/// curvature again. If that may vanish twice, the segment is halved. A limit that turns twice between two samples,
+/// half a segment apart, is not detected.
 pub(super) fn intervals<const N: usize>(
     limits: &impl Limits<N>,
     [from, to]: [f64; 2],
@@ -48,7 +48,7 @@ pub(super) fn intervals<const N: usize>(
     found
 }
 
-/// A value of the parameter that was looked at.
+/// A sample: the parameter and the values there.
 #[derive(Clone, Copy, Debug)]
 struct Stop<const N: usize> {
     t: f64,
@@ -85,7 +85,7 @@ fn segment<const N: usize>(
     }
 }
 
-/// Every limit vanishes at most once between a and b.
+/// Finds the interval between a and b, where every limit vanishes at most once.
 fn clip<const N: usize>(limits: &impl Limits<N>, a: &Stop<N>, b: &Stop<N>, found: &mut Vec<[Cut; 2]>) {
     let (mut low, mut high) = (*a, *b);
     let (mut ends, mut inside) = ([None, None], true);
@@ -150,14 +150,14 @@ impl<F: Fn(f64) -> [f64; 2]> Limits<LIMITS> for Path<'_, F> {
     }
 }
 
-/// What a limit does between two points.
+/// The behaviour of a limit between two points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {
     /// Negative throughout.
     Outside,
     /// Not negative throughout, or of different signs at the ends.
     Simple,
-    /// Of one sign at the ends, and perhaps not between.
+    /// The same sign at both ends, and possibly another between.
     Doubtful,
 }
 

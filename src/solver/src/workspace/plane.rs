@@ -1,7 +1,7 @@
 //! The plane domain as triangles, or as the sides of its boundary.
 //!
-//! A lattice of squares, two triangles each, is refined and cut; every square on its own, so that
-//! threads share the work and the result does not depend on them.
+//! A lattice of squares, two triangles each, is refined and cut. Each square is independent of the others, so threads
+//! share the work and the result does not depend on their number.
 
 mod bend;
 mod ears;
@@ -25,13 +25,13 @@ pub(super) use patch::{Rim, Triangle, Vertex};
 use refine::Refinement;
 use site::Site;
 
-/// Squares along the longer side of the rectangle that holds the domain, in turn until the result
+/// Numbers of squares along the longer side of the domain's rectangle. They are tried in turn until the result
 /// closes.
 pub(super) const ATTEMPTS: [u32; 3] = [12, 24, 29];
-/// Room between the domain and the lattice's border, as a part of the lattice.
+/// Margin between the domain and the lattice's border, as a fraction of the lattice.
 const BORDER: f64 = 0.017;
 
-/// The domain's triangles and its sides, the domain to their left.
+/// The triangles of the domain, and the sides of its boundary with the domain to their left.
 pub(super) struct Plane {
     pub(super) vertices: Vec<Vertex>,
     pub(super) triangles: Vec<Triangle>,
@@ -39,7 +39,8 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// The domain on a lattice, cut to tolerance; an error if a surface over it would have more than `most` triangles.
+    /// Traces the domain on a lattice, within the tolerance. It is an error if a surface over it would have more than
+    /// `most` triangles.
     pub(super) fn trace(
         domain: &Domain<'_>,
         cover: &Cover,
@@ -133,7 +134,7 @@ impl Lattice {
         [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]
     }
 
-    /// Whether a point lies on the lattice's lines, where two squares may have it.
+    /// Whether a point lies on the lattice's lines, where it may belong to two squares.
     fn shared(&self, [x, y]: [f64; 2]) -> bool {
         self.lines[0].binary_search_by(|line| line.total_cmp(&x)).is_ok()
             || self.lines[1].binary_search_by(|line| line.total_cmp(&y)).is_ok()

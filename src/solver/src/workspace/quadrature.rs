@@ -25,7 +25,7 @@ const KRONROD: [f64; 8] = [
 const GAUSS: [f64; 4] =
     [0.129_484_966_168_869_7, 0.279_705_391_489_276_7, 0.381_830_050_505_118_9, 0.417_959_183_673_469_4];
 
-/// Integrals and bounds of their errors.
+/// Integrals and estimates of their errors.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Integral<const N: usize> {
     pub(super) value: [f64; N],
@@ -48,7 +48,7 @@ impl<const N: usize> Integral<N> {
     }
 }
 
-/// One application of the rule to `[a, b]`. A function's own error, if it has one, is carried on.
+/// Applies the rule once to `[a, b]`. It adds the function's own error, if it has one.
 pub(super) fn rule<const N: usize, E>(
     [a, b]: [f64; 2],
     mut f: impl FnMut(f64) -> Result<Integral<N>, E>,
@@ -77,8 +77,8 @@ pub(super) fn rule<const N: usize, E>(
     Ok(Integral { value: kronrod.map(|k| k * half), error: error.map(|e| e * scale) })
 }
 
-/// QUADPACK's estimate of Kronrod's error: the difference from Gauss's result is Gauss's error,
-/// and Kronrod's is smaller by half the digits more.
+/// QUADPACK's estimate of the Kronrod rule's error. The difference from the Gauss rule's result is the error of the
+/// Gauss rule; the error of the Kronrod rule is estimated by a multiple of its power 1.5.
 fn estimate(difference: f64, magnitude: f64) -> f64 {
     let rounding = 50.0 * f64::EPSILON * magnitude;
     if magnitude == 0.0 {

@@ -1,4 +1,4 @@
-//! The question: which workspace, of which tool, how exactly.
+//! The request of a workspace: which positions, of which tool, within which tolerance; and the errors.
 
 use std::fmt;
 
@@ -6,57 +6,57 @@ use crate::clearance::Clearance;
 use crate::limit::DOMAIN;
 use crate::machine::Machine;
 
-/// Whose positions the workspace is made of.
+/// The reference point and the frame of a workspace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
-    /// The platform's origin P in the base frame (Fig. 7).
+    /// The platform's reference point P in the base frame (Fig. 7).
     Platform,
     /// The tool centre point U in the base frame (Eq (27)).
     Tool,
-    /// The tool centre point U in the table frame, for a fixed tool orientation (Eq (26)); with
-    /// phi1 = phi2 = 0 the manufacturing workspace (Fig. 8).
+    /// The tool centre point U in the part frame, for a fixed tool orientation (Eq (26)). With phi1 = phi2 = 0 it is
+    /// the paper's manufacturing workspace (Fig. 8).
     Part,
 }
 
-/// One workspace. Lengths in mm, angles in radians.
+/// The request of one workspace. Lengths are millimetres, angles radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
-    /// Whose positions.
+    /// The reference point and the frame.
     pub kind: Kind,
-    /// Tool length from P; without effect on [`Kind::Platform`].
+    /// Tool length, measured from P. It does not affect [`Kind::Platform`].
     pub tool_length: f64,
-    /// Inclination of the tool in the table frame; only [`Kind::Part`] depends on it.
+    /// Inclination of the tool in the part frame. It affects only [`Kind::Part`].
     pub phi1: f64,
-    /// Azimuth of the tool in the table frame; only [`Kind::Part`] depends on it.
+    /// Azimuth of the tool in the part frame. It affects only [`Kind::Part`].
     pub phi2: f64,
-    /// Least height of the tool's end and the platform's joints over the table's plane; `None`: the
-    /// machine's own, if it has one. Only [`Kind::Part`] depends on it: the height depends on theta1,
-    /// which the other kinds leave open.
+    /// Least height of the tool's end and of the platform's joints over the table's plane. `None` means the machine's
+    /// own value, if it has one. It affects only [`Kind::Part`]: the height depends on theta1, which the other kinds
+    /// leave open.
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, for the height over the table.
+    /// Radius of the tool's end, for the height over the table's plane.
     pub tool_radius: f64,
-    /// Greatest distance between a mesh or a slice and the true surface, both ways.
+    /// Greatest distance between a surface or a slice and the true boundary, in both directions.
     pub tolerance: f64,
 }
 
-/// Finest tolerance, mm: below it vertices are no longer distinct in single precision files.
+/// Least tolerance, mm. Below it vertices are no longer distinct in single-precision files.
 pub(super) const FINEST: f64 = 1e-3;
 
-/// Why a workspace was not computed.
+/// The reason why a workspace was not computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WorkspaceError {
-    /// A number is not finite, beyond [`DOMAIN`] or, for the tolerance, below 0.001 mm.
+    /// A number is not finite, is beyond [`DOMAIN`] or, if it is the tolerance, is below 0.001 mm.
     OutOfDomain {
         /// The request's field.
         field: &'static str,
     },
-    /// The observer asked for the end.
+    /// The observer asked the computation to stop.
     Cancelled,
-    /// The tolerance asks for more vertices than 32 bits can number.
+    /// The tolerance needs more vertices than 32 bits can number.
     TooFine,
-    /// The surface has more triangles than it may.
+    /// The surface has more triangles than the caller allows.
     TooManyTriangles {
-        /// How many it may have.
+        /// The number that the caller allows.
         most: usize,
     },
     /// A grid would have more nodes than [`MOST_NODES`](super::dexterity::MOST_NODES).
@@ -64,11 +64,9 @@ pub enum WorkspaceError {
         /// Their number.
         nodes: f64,
     },
-    /// The volume and the surface of one workspace disagree by more than their errors: a fault of
-    /// the computation.
+    /// The volume and the surface of a workspace differ by more than their errors: one computation is wrong.
     Disagreement,
-    /// The surface or the slice could not be closed: nothing is answered rather than a mesh with
-    /// a gap.
+    /// The surface or the slice could not be closed. The function does not return a mesh with a gap.
     Open,
 }
 
@@ -89,7 +87,7 @@ impl fmt::Display for WorkspaceError {
 impl std::error::Error for WorkspaceError {}
 
 impl Request {
-    /// The clearance over the table that is checked.
+    /// The least height over the table's plane, if it is a limit of this request.
     pub(super) fn clearance(&self, machine: &Machine) -> Option<Clearance> {
         let part = self.kind == Kind::Part;
         Clearance::of(machine, self.table_clearance, self.tool_length, self.tool_radius).filter(|_| part)

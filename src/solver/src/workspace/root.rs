@@ -1,6 +1,6 @@
 //! Zero of a function between two points where its signs differ.
 
-/// Steps before the bracket is given up to bisection's result; bisection alone needs 52.
+/// Greatest number of steps. Bisection alone needs 52.
 const STEPS: usize = 100;
 
 /// The zero of `f` in [0, 1], where f(0) = `start` and f(1) = `end` have different signs, to
@@ -35,7 +35,8 @@ pub(super) fn zero(start: f64, end: f64, resolution: f64, mut f: impl FnMut(f64)
     if fa.abs() < fb.abs() { a } else { b }
 }
 
-/// A fraction at least so far from both ends; half where values of the function that are not finite give none.
+/// Clamps a fraction to this distance from both ends; a half if the function's values are not finite and give no
+/// fraction.
 fn within(t: f64, least: f64) -> f64 {
     if t.is_nan() { 0.5 } else { t.clamp(least, 1.0 - least) }
 }

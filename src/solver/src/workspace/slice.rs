@@ -1,4 +1,4 @@
-//! A workspace cut at a height of its own frame.
+//! The cut of a workspace at a height of its own frame.
 
 mod contour;
 mod loops;
@@ -13,7 +13,7 @@ use crate::machine::Machine;
 
 pub use contour::Contour;
 
-/// A closed polygon with holes; the last corner joins the first.
+/// A closed polygon with holes. The last corner of a ring joins the first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polygon {
     /// Counter-clockwise.
@@ -22,19 +22,58 @@ pub struct Polygon {
     pub holes: Vec<Vec<[f64; 2]>>,
 }
 
-/// The cut of a workspace at one height: (x, y) of the frame of the request's kind, mm.
+/// The cut of a workspace at one height: (x, y) in the frame of the request's kind, mm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slice {
-    /// Parts of the cut; none where the plane misses the workspace.
+    /// Parts of the cut. Empty if the plane misses the workspace.
     pub polygons: Vec<Polygon>,
     /// Lines of constant alpha within the cut.
     pub contours: Vec<Contour>,
 }
 
-/// The cut at z = `height` of the kind's own frame, within the request's tolerance of the true
-/// one, with the lines on which alpha has one of the values `alphas` (rad).
+/// Cuts the workspace at z = `height` of the frame of the request's kind. The polygons are within the request's
+/// tolerance of the true cut; this is checked at sample points, not proved. Lines show where alpha has one of the
+/// values `alphas`.
 ///
-/// Where the request's map folds, polygons may overlap.
+/// If the request's map folds, polygons may overlap.
+///
+/// # Units
+///
+/// `height` and all points are millimetres; `alphas` are radians.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: `height` or a number of the request is not finite, beyond [`DOMAIN`] or, for the
+///   tolerance, below 0.001 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+/// - [`WorkspaceError::TooFine`]: the cut has more vertices than 32 bits can number.
+/// - [`WorkspaceError::Open`]: the outlines could not be closed on any of three lattices.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eq (16) for the lines of constant
+/// alpha; the cut is ours.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, slice};
+///
+/// let request = Request {
+///     kind: Kind::Platform,
+///     tool_length: 0.0,
+///     phi1: 0.0,
+///     phi2: 0.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     tolerance: 20.0,
+/// };
+/// let cut = slice(&Machine::verne(), &request, 1200.0, &[0.1], &Unobserved)?;
+/// assert_eq!(cut.polygons.len(), 1);
+/// assert!(!cut.contours.is_empty());
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn slice(
     machine: &Machine,
     request: &Request,
@@ -73,7 +112,31 @@ fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Resul
 }
 
 impl Slice {
-    /// Area of the polygons, mm².
+    /// The area of the polygons less that of their holes.
+    ///
+    /// # Units
+    ///
+    /// mm².
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, slice};
+    ///
+    /// let request = Request {
+    ///     kind: Kind::Platform,
+    ///     tool_length: 0.0,
+    ///     phi1: 0.0,
+    ///     phi2: 0.0,
+    ///     table_clearance: None,
+    ///     tool_radius: 0.0,
+    ///     tolerance: 20.0,
+    /// };
+    /// let cut = slice(&Machine::verne(), &request, 1200.0, &[], &Unobserved)?;
+    /// assert!(cut.area() > 1e5 && cut.area() < 657_682.0, "the domain's area bounds it");
+    /// # Ok::<(), WorkspaceError>(())
+    /// ```
     pub fn area(&self) -> f64 {
         let rings = self.polygons.iter().flat_map(|polygon| polygon.holes.iter().chain([&polygon.outer]));
         rings.map(|ring| loops::area(ring)).sum()

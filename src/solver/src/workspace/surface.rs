@@ -12,33 +12,72 @@ use super::request::{Request, WorkspaceError};
 use crate::machine::Machine;
 use crate::pose::Point;
 
-/// Parts of the work that are done when the plane's patches are joined, when the surface is a manifold and when its short
-/// edges are contracted.
+/// Fractions of the work that are done when the patches are joined, when the surface is a manifold, and when its
+/// short edges are contracted.
 const JOINED: f64 = 0.93;
 const PARTED: f64 = 0.95;
 const TIDIED: f64 = 0.98;
 
-/// A closed surface of triangles, oriented outwards; empty for an empty workspace.
+/// A closed surface of triangles that face outwards. An empty workspace has no triangles.
 ///
-/// Every edge belongs to two triangles, which run along it in opposite directions, and the
-/// triangles at a vertex are one ring: where parts of the workspace touch, each has vertices of
-/// its own. Where the slider or the constraint that binds changes, the change is an edge.
+/// Every edge belongs to two triangles, which run along it in opposite directions. The triangles at a vertex form one
+/// ring: where parts of the workspace touch, each part has its own vertices. An edge marks each change of the binding
+/// slider or constraint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
-    /// Positions in the frame of the request's kind, mm.
+    /// Positions of the vertices in the frame of the request's kind, mm.
     pub positions: Vec<Point>,
-    /// Numbers of the corners, counter-clockwise seen from outside.
+    /// Vertex numbers of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// What limits the workspace there, for each triangle.
+    /// For each triangle the constraint that bounds the workspace there.
     pub bindings: Vec<Binding>,
 }
 
-/// The boundary surface, within the request's tolerance of the true one, both ways.
+/// Computes the boundary surface, within the request's tolerance of the true one, in both directions. The tolerance is
+/// checked at sample points (see the [module's documentation](super)), not proved.
 ///
-/// A workspace that is nowhere as thick as the tolerance has no triangles.
+/// A workspace that is nowhere as thick as the tolerance has no triangles. If the request's map folds (see
+/// [`super::Measure::folded`]), the surface is the image of the platform workspace's boundary and passes through
+/// itself.
 ///
-/// Where the request's map folds (see [`super::Measure::folded`]), the surface is the image of the
-/// platform workspace's boundary and passes through itself.
+/// # Units
+///
+/// Millimetres, in the frame of the request's kind.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
+///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+/// - [`WorkspaceError::TooFine`]: the surface has more vertices than 32 bits can number.
+/// - [`WorkspaceError::Open`]: the surface could not be closed on any of three lattices.
+/// - [`WorkspaceError::Disagreement`]: the surface is empty although the cover proves that the domain holds a box as
+///   wide as the tolerance.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Figs 7 and 8; Eqs (26) and (27) as
+/// maps; the construction is ours.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, surface};
+///
+/// let request = Request {
+///     kind: Kind::Platform,
+///     tool_length: 0.0,
+///     phi1: 0.0,
+///     phi2: 0.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     tolerance: 20.0,
+/// };
+/// let surface = surface(&Machine::verne(), &request, &Unobserved)?;
+/// assert_eq!(surface.triangles.len(), surface.bindings.len());
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn surface(
     machine: &Machine,
     request: &Request,
@@ -47,7 +86,46 @@ pub fn surface(
     surface_within(machine, request, usize::MAX, observer)
 }
 
-/// The same, or an error as soon as there are more triangles than `most`.
+/// Computes the same surface as [`surface()`], but stops as soon as it has more triangles than `most`.
+///
+/// # Units
+///
+/// Millimetres, in the frame of the request's kind.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
+///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+/// - [`WorkspaceError::TooFine`]: the surface has more vertices than 32 bits can number.
+/// - [`WorkspaceError::Open`]: the surface could not be closed on any of three lattices.
+/// - [`WorkspaceError::Disagreement`]: the surface is empty although the cover proves that the domain holds a box as
+///   wide as the tolerance.
+/// - [`WorkspaceError::TooManyTriangles`]: there are more than `most`.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): as for [`surface()`].
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, surface_within};
+///
+/// let request = Request {
+///     kind: Kind::Platform,
+///     tool_length: 0.0,
+///     phi1: 0.0,
+///     phi2: 0.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     tolerance: 20.0,
+/// };
+/// let refused = surface_within(&Machine::verne(), &request, 10, &Unobserved);
+/// assert_eq!(refused, Err(WorkspaceError::TooManyTriangles { most: 10 }));
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn surface_within(
     machine: &Machine,
     request: &Request,
@@ -75,7 +153,7 @@ pub fn surface_within(
     Ok(surface)
 }
 
-/// The surface over the first lattice on which it closes.
+/// Makes the surface over the first lattice on which it closes.
 fn closed(
     domain: &Domain<'_>,
     tolerance: f64,
@@ -108,13 +186,37 @@ fn made_one(mut surface: Surface, tolerance: f64, pace: &mut Pace<'_>) -> Result
     pace.observer.progress(PARTED);
     tidy::contract(&mut surface, tolerance, pace)?;
     pace.observer.progress(TIDIED);
-    // Contraction keeps a manifold one; this looks at the result, and costs little.
+    // Contraction preserves manifolds. This checks the result at little cost.
     part::part(&mut surface, pace)?;
     Ok(surface)
 }
 
 impl Surface {
-    /// Volume enclosed, mm³.
+    /// The volume that the surface encloses.
+    ///
+    /// # Units
+    ///
+    /// mm³.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, surface};
+    ///
+    /// let request = Request {
+    ///     kind: Kind::Platform,
+    ///     tool_length: 0.0,
+    ///     phi1: 0.0,
+    ///     phi2: 0.0,
+    ///     table_clearance: None,
+    ///     tool_radius: 0.0,
+    ///     tolerance: 20.0,
+    /// };
+    /// let volume = surface(&Machine::verne(), &request, &Unobserved)?.volume();
+    /// assert!((volume - 2.336_92e8).abs() < 0.05 * volume, "{volume} at a tolerance of 20 mm");
+    /// # Ok::<(), WorkspaceError>(())
+    /// ```
     pub fn volume(&self) -> f64 {
         self.triangles.iter().map(|triangle| self.six_volumes(triangle)).sum::<f64>() / 6.0
     }
@@ -138,7 +240,32 @@ impl Surface {
             + a[2] * (b[0] * c[1] - b[1] * c[0])
     }
 
-    /// Least and greatest coordinates, mm; `None` if the surface is empty.
+    /// The least and the greatest coordinates; `None` if the surface is empty.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, surface};
+    ///
+    /// let request = Request {
+    ///     kind: Kind::Platform,
+    ///     tool_length: 0.0,
+    ///     phi1: 0.0,
+    ///     phi2: 0.0,
+    ///     table_clearance: None,
+    ///     tool_radius: 0.0,
+    ///     tolerance: 20.0,
+    /// };
+    /// let surface = surface(&Machine::verne(), &request, &Unobserved)?;
+    /// let [low, high] = surface.bounds().expect("not empty");
+    /// assert!(low[0] < 0.0 && high[0] > 0.0 && high[2] - low[2] < 757.0);
+    /// # Ok::<(), WorkspaceError>(())
+    /// ```
     pub fn bounds(&self) -> Option<[Point; 2]> {
         let first = *self.positions.first()?;
         Some(self.positions.iter().fold([first; 2], |[least, greatest], position| {
@@ -184,8 +311,8 @@ impl Surface {
         Ok(sheets)
     }
 
-    /// The wall over a side, by the shorter of its diagonals. Of rods that are too near, it names
-    /// the two that are nearest half-way along the side.
+    /// Adds the wall over a side, split by the shorter of its diagonals. If it stems from rod interference, its
+    /// binding names the two rods that are nearest half-way along the side.
     fn wall(&mut self, domain: &Domain<'_>, plane: &Plane, rim: &Rim, [a, b]: [[u32; 2]; 2]) {
         let [from, to] = rim.ends.map(|end| plane.vertices[end as usize].at);
         let limit = domain.binding_at(rim.limit, [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])]);

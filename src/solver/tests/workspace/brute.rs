@@ -1,9 +1,9 @@
-//! Columns over the points of a lattice that is aligned with nothing, by inverse solution and
+//! Columns over the points of a lattice that is aligned with nothing, computed by the inverse solution and the
 //! margins alone.
 
 use verne_solver::{Machine, Margins, platform_working};
 
-/// Where a column is looked at: every z serves but for the strokes.
+/// The z at which a column is examined. Any z will do, except for the strokes.
 const Z: f64 = 1_000.0;
 
 /// `z_lo` and `z_hi` at (x, y), if the column exists.

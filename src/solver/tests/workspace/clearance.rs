@@ -1,4 +1,4 @@
-//! The table as a limit of workspaces, against columns, slices and the margins.
+//! The table as a limit of workspaces, compared with columns, slices and the margins.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -21,7 +21,7 @@ fn volume(machine: &Machine, request: &Request) -> [f64; 2] {
     }
 }
 
-/// Machines and questions whose workspaces the table cuts, tilts beyond a quarter turn among them.
+/// Machines and requests whose workspaces the table cuts, including tilts beyond a quarter turn.
 fn cut_ones() -> Vec<(Machine, Request)> {
     let tilting = |machine: &Machine| {
         let mut data = machine.data().clone();
@@ -43,8 +43,8 @@ fn cut_ones() -> Vec<(Machine, Request)> {
     all
 }
 
-/// Volume by columns: each ends where the lowest point, by the frames, comes down to the table. The
-/// volume of the part's space that a column fills is (1 + da/dy (z - da)) dz, da/dy by differences.
+/// Volume by columns. Each ends where the lowest point, computed with the frames, reaches the table. A column fills
+/// the volume (1 + da/dy (z - da)) dz of the part's space, with da/dy by differences.
 fn by_columns(machine: &Machine, question: &Request, [low, high]: [[f64; 2]; 2], n: u32) -> f64 {
     let sizes = [0, 1].map(|axis| (high[axis] - low[axis]) / f64::from(n));
     let tool = Clearance {
@@ -116,7 +116,7 @@ fn volumes_are_those_of_columns_cut_at_the_table() {
     assert!(cut > 10 && beyond > 3, "{beyond} of {cut}");
 }
 
-/// Between two clearances lies what slices between them add up to.
+/// The volumes for two clearances differ by the sum of the slices between them.
 #[test]
 fn volumes_differ_by_the_slices_between() {
     let machine = Machine::verne();
@@ -142,7 +142,7 @@ fn volumes_differ_by_the_slices_between() {
     }
 }
 
-/// A slice below the table is empty, one above it as without.
+/// A slice below the table is empty. One above it is the same as without the table.
 #[test]
 fn slices_end_at_the_table() {
     let machine = Machine::verne();
@@ -170,7 +170,7 @@ fn floor(machine: &Machine, question: &Request) -> f64 {
     question.table_clearance.unwrap() + (question.tool_radius * s.abs()).max(joint)
 }
 
-/// Meshes are closed, enclose the volume, stand on the table, and what stands there says so.
+/// Meshes are closed, enclose the volume and end at the table, and their triangles there name the table.
 #[test]
 fn meshes_stand_on_the_table() {
     let mut stood = 0;
@@ -203,7 +203,7 @@ fn meshes_stand_on_the_table() {
     assert!(stood > 1_000, "{stood}");
 }
 
-/// Random machines and questions, many of them with the table vertical somewhere.
+/// Random machines and requests. The table is vertical somewhere for many of them.
 #[test]
 fn any_mesh_is_closed() {
     let mut numbers = Random(0x5eed_0013);
@@ -225,9 +225,9 @@ fn any_mesh_is_closed() {
     assert!(made_ones > 15, "{made_ones}");
 }
 
-/// Inside by membership exactly where the inverse solution keeps every margin, the table's included; a
-/// point whose tool or joint is too low is outside; a member of the uncut workspace is one of the cut
-/// one exactly above the floor.
+/// Membership says inside exactly if the inverse solution keeps every margin, including the table's. A point whose
+/// tool or joint is too low is outside. A member of the uncut workspace is a member of the cut one exactly if it is
+/// above the floor.
 #[test]
 fn membership_is_margins() {
     let mut numbers = Random(0xfeed_0007);
@@ -263,7 +263,7 @@ fn membership_is_margins() {
     assert!(inside > 5_000 && by_table > 5_000, "{inside} {by_table}");
 }
 
-/// The machine's own clearance counts where the question names none.
+/// The machine's own clearance applies if the request gives none.
 #[test]
 fn a_question_overrides_the_machine() {
     let machine = changed(|data| data.limits.table_clearance = Some(100.0));

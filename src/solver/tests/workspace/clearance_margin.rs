@@ -1,4 +1,4 @@
-//! The margin of the table's plane, against the frames themselves.
+//! The margin of the table's plane, compared with the frames themselves.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -8,8 +8,8 @@ use verne_solver::{
 
 use crate::machines::{Random, changed, random};
 
-/// Z over the table of a point of the base frame: trans(z, da) rot(x, theta1) trans(z, dt) rot(x, pi)
-/// undone, one after the other.
+/// Z over the table of a point of the base frame: the inverses of trans(z, da) rot(x, theta1) trans(z, dt) rot(x,
+/// pi), one after the other.
 pub(crate) fn height(machine: &Machine, [_, y, z]: [f64; 3], theta1: f64) -> f64 {
     let table = machine.data().table;
     let (s, c) = theta1.sin_cos();

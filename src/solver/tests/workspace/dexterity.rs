@@ -1,4 +1,4 @@
-//! Grids, regions and volumes of dexterity against membership, measure and each other.
+//! Grids, regions and volumes of dexterity, compared with membership, measure and each other.
 
 use verne_solver::Machine;
 use verne_solver::workspace::dexterity::{
@@ -32,7 +32,7 @@ fn value(volume: Volume) -> [f64; 2] {
     [value, error]
 }
 
-/// The mesh as a surface, to be looked at.
+/// The mesh as a surface, for the topology checks.
 fn surface(region: &Region) -> Surface {
     let binding = verne_solver::workspace::Binding {
         constraint: verne_solver::Constraint::Stroke,
@@ -45,7 +45,7 @@ fn surface(region: &Region) -> Surface {
     }
 }
 
-/// With one inclination asked, both regions are the part's workspace for it.
+/// With a range of one inclination, both regions are the part's workspace for it.
 #[test]
 fn of_one_inclination_is_the_workspace() {
     let mut machines = vec![changed(|data| data.limits.tilt = [-0.2, 0.6])];
@@ -105,7 +105,8 @@ fn nodes_have_their_own_orientations() {
     }
 }
 
-/// Wider ranges make more reachable and less dexterous; the dexterous is reachable.
+/// A wider range makes the reachable region larger and the dexterous region smaller. The dexterous region lies in the
+/// reachable one.
 #[test]
 fn regions_nest() {
     let machine = Machine::verne();

@@ -1,4 +1,4 @@
-//! Strokes many times as long as the legs: walls that turn along their curves, of very many narrow triangles.
+//! Strokes many times as long as the legs: walls turn along their curves and have very many narrow triangles.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -14,7 +14,7 @@ fn with_strokes(length: f64) -> Machine {
     changed(|data| data.limits.stroke = [[0.0, length]; 3])
 }
 
-/// A triangle of the plane is cut in a time that is quadratic in its points: there may be thousands of triangles, but no
+/// The time to cut a triangle of the plane is quadratic in its points. There may be thousands of triangles, but not
 /// thousands at one vertex.
 #[test]
 fn no_vertex_has_very_many_triangles() {
@@ -31,7 +31,7 @@ fn no_vertex_has_very_many_triangles() {
     }
 }
 
-/// Any machine with any strokes; the tolerance is a part of them, so that there are not too many triangles.
+/// Any machine with any strokes. The tolerance is a fraction of them, so that there are not too many triangles.
 fn any(numbers: &mut Random) -> Option<(Machine, Request)> {
     let mut data = random(numbers)?.data().clone();
     let longest = 200.0 * 450_f64.powf(numbers.next());
@@ -61,7 +61,7 @@ fn the_expected_number_is_within_a_factor_of_the_made_one() {
     }
 }
 
-/// The estimate takes a few thousand triangles' time, whatever it tells.
+/// The estimate takes the time of a few thousand triangles, whatever its result.
 #[test]
 fn an_estimate_is_cheap() {
     struct Looks(AtomicUsize);

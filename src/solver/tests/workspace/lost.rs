@@ -1,4 +1,4 @@
-//! Workspaces of which much was lost, or that were found where there is none.
+//! Workspaces of which earlier versions lost a large part, or found one where there is none.
 
 use verne_solver::Machine;
 use verne_solver::workspace::{Kind, Request, Unobserved, Volume, agree, contains, measure, surface};
@@ -13,7 +13,7 @@ fn volume(volume: Volume) -> [f64; 2] {
     }
 }
 
-/// The table's jump from one end of its turn to the other is no boundary: nothing is there.
+/// The jump of the table's angle from one end of its turn to the other is no boundary.
 #[test]
 fn tools_beyond_the_tilting_range_reach_nothing() {
     let narrow = changed(|data| data.limits.tilt = [-20_f64, -5.0].map(f64::to_radians));
@@ -26,8 +26,8 @@ fn tools_beyond_the_tilting_range_reach_nothing() {
     }
 }
 
-/// A tilting range of more than half a turn leaves the platform two ranges of alpha, on both sides of
-/// those that it excludes: together with these they are the whole.
+/// A tilting range of more than half a turn allows the platform two ranges of alpha, on both sides of those that it
+/// excludes. Together with the excluded ones they are the whole.
 #[test]
 fn a_wide_tilting_range_leaves_two_parts() {
     let question = request(Kind::Part, 50.0, 180.0, 1.0);
@@ -42,7 +42,7 @@ fn a_wide_tilting_range_leaves_two_parts() {
     assert!((parts[0][0] + parts[1][0] - parts[2][0]).abs() <= claimed, "{parts:?}");
 }
 
-/// Rod interference bounds a strip apart from the rest, 8 % of the whole; the truth is by Monte Carlo.
+/// Rod interference separates a strip from the rest, 8 % of the whole. The truth is by Monte Carlo.
 #[test]
 fn a_strip_between_rods_is_found() {
     let machine = changed(|data| {
@@ -124,7 +124,7 @@ fn very_unlike_legs_are_measured() {
     assert!((answer.area / area - 1.0).abs() < 2e-3 && (value / brute - 1.0).abs() < 2e-3, "{area} {brute}");
 }
 
-/// Columns over all that the legs reach, machines of any kind: integration and mesh lose no piece.
+/// Columns over all that the legs reach, for machines of any kind: integration and mesh lose no piece.
 #[test]
 fn any_machine_is_measured() {
     let mut numbers = Random(0x6a09_e667_f3bc_c909);

@@ -8,7 +8,7 @@ pub(crate) fn request(kind: Kind, tool_length: f64, phi1: f64, tolerance: f64) -
     Request { kind, tool_length, phi1, phi2: 0.0, table_clearance: None, tool_radius: 0.0, tolerance }
 }
 
-/// The same with the table as a limit.
+/// The same request with the table as a limit.
 pub(crate) fn above(least: f64, tool_radius: f64, request: Request) -> Request {
     Request { table_clearance: Some(least), tool_radius, ..request }
 }
@@ -35,7 +35,7 @@ impl Random {
     }
 }
 
-/// Machines unlike the reference machine, each in another way.
+/// Machines unlike the reference machine, each in a different way.
 pub(crate) fn others() -> Vec<(&'static str, Machine)> {
     vec![
         ("thick rods", changed(|data| data.geometry.rod_radius = 60.0)),
@@ -80,7 +80,7 @@ pub(crate) fn others() -> Vec<(&'static str, Machine)> {
     ]
 }
 
-/// Any machine, feasible anywhere or not.
+/// Any machine, whether anything is feasible or not.
 pub(crate) fn random(random: &mut Random) -> Option<Machine> {
     let mut data = Machine::verne().data().clone();
     let g = &mut data.geometry;
@@ -110,8 +110,8 @@ pub(crate) fn random(random: &mut Random) -> Option<Machine> {
     Machine::new(data).ok()
 }
 
-/// Any machine: dimensions up to e^1.4 times the reference machine's, or as small, cones of 30° to
-/// 180°, rods of 5 to 90 mm.
+/// Any machine: dimensions up to e^1.4 times as large or as small as the reference machine's, cones of 30° to 180°,
+/// rods of 5 to 90 mm.
 pub(crate) fn spread(random: &mut Random) -> Option<Machine> {
     let mut data = Machine::verne().data().clone();
     let spread = random.between(0.2, 1.4);

@@ -17,7 +17,7 @@ fn volume(measure: &Measure) -> (f64, f64) {
     }
 }
 
-/// Figures of a lattice of 2400² columns, to the digits that it holds.
+/// Figures of a lattice of 2400² columns, to the digits that it resolves.
 #[test]
 fn reference_figures() {
     let machine = Machine::verne();
@@ -60,7 +60,7 @@ fn brute_force_agrees() {
     }
 }
 
-/// Where the Jacobian changes its sign there is no volume to give.
+/// If the Jacobian determinant changes its sign, there is no volume.
 #[test]
 fn folds_are_told() {
     let answer = measured(&Machine::verne(), &request(Kind::Tool, -650.0, 0.0, 1.0));
@@ -69,7 +69,7 @@ fn folds_are_told() {
     assert!(least < 0.0 && greatest > 0.0);
 }
 
-/// Two separate parts of the platform's domain map onto one set, and the determinant has one sign on both.
+/// Two separate parts of the platform's domain have the same image, and the determinant has one sign on both.
 #[test]
 fn sets_covered_twice_are_told() {
     let covered = |size: f64, cone: f64| {

@@ -1,4 +1,4 @@
-//! Membership against solution and margins.
+//! Membership compared with solution and margins.
 
 use verne_solver::workspace::{Kind, Request, Unobserved, contains};
 use verne_solver::{
@@ -52,7 +52,7 @@ fn of_parts_uses_the_table() {
     assert!(answers.iter().any(|answer| answer.inside));
 }
 
-/// The worst of all margins of each working solution, computed.
+/// The worst margin of each working solution, computed in full.
 fn worst_of_all(machine: &Machine, request: &Request, [x, y, z]: [f64; 3]) -> Vec<Margin> {
     let Request { tool_length, phi1, phi2, .. } = *request;
     let found = match request.kind {
@@ -69,8 +69,8 @@ fn worst_of_all(machine: &Machine, request: &Request, [x, y, z]: [f64; 3]) -> Ve
     found.iter().flatten().map(worst).collect()
 }
 
-/// A member's margin is computed with most constraints left out. It is the worst of all of one
-/// working solution, to the last bit, whichever constraint that is; of several, of a feasible one.
+/// A member's margin is computed without most constraints. It is the worst margin of one working solution, to the
+/// last bit, whichever constraint that is. Of several solutions it is that of a feasible one.
 #[test]
 fn names_the_worst_of_all_margins() {
     let mut numbers = Random(0x5851_f42d);

@@ -1,4 +1,4 @@
-//! Inclinations of a point against solution and margins.
+//! Inclinations of a point compared with solution and margins.
 
 use verne_solver::workspace::Binding;
 use verne_solver::workspace::dexterity::{DexterityRequest, Interval, orientations};
@@ -15,7 +15,7 @@ fn margins(machine: &Machine, [x, y, z]: [f64; 3], phi1: f64, asked: &DexterityR
     Some(Margins::above_table(machine, &posture, Some(table), clearance.as_ref()))
 }
 
-/// The margins' own answer.
+/// The decision by the margins.
 fn reached(machine: &Machine, point: [f64; 3], phi1: f64, asked: &DexterityRequest) -> bool {
     margins(machine, point, phi1, asked).is_some_and(|margins| margins.feasible())
 }
@@ -34,10 +34,10 @@ fn machines() -> Vec<Machine> {
     machines
 }
 
-/// Less than this beside an end the point is reached on the one side and not on the other.
+/// Distance from an end at which the point is reached on the one side and not on the other.
 const SHARP: f64 = 2e-9;
 
-/// An end is where the margins say it is, and what they say ends it.
+/// An end is where a margin is zero, and names that margin's constraint.
 fn ends_hold(machine: &Machine, point: [f64; 3], asked: &DexterityRequest, interval: &Interval) {
     let [from, to] = interval.ends;
     for (end, sign, binding) in [(from, -1.0, interval.bindings[0]), (to, 1.0, interval.bindings[1])] {
@@ -57,7 +57,7 @@ fn ends_hold(machine: &Machine, point: [f64; 3], asked: &DexterityRequest, inter
     }
 }
 
-/// Every inclination of a dense scan is in an interval exactly if the margins say so.
+/// An inclination of a dense scan is in an interval exactly if every margin is kept.
 #[test]
 fn a_dense_scan_finds_the_same() {
     const SCAN: u32 = 720;

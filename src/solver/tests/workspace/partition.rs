@@ -1,4 +1,4 @@
-//! Parts of a workspace against the whole: areas and volumes sum within the claimed errors.
+//! Parts of a workspace compared with the whole: areas and volumes sum within the claimed errors.
 
 use verne_solver::workspace::{Kind, Measure, Request, Unobserved, Volume, measure};
 use verne_solver::{Machine, MachineData};
@@ -9,7 +9,7 @@ fn measured(machine: &Machine, request: &Request) -> Measure {
     measure(machine, request, &Unobserved).unwrap()
 }
 
-/// Sums of areas and volumes, and of their claimed errors; the volume is left out once a part folds.
+/// Sums of areas and volumes, and of their claimed errors. The volume is omitted if a part folds.
 #[derive(Default)]
 struct Sum {
     area: [f64; 2],
@@ -80,8 +80,7 @@ fn bands_of_tilt() {
     }
 }
 
-/// A tilting range of `width` and tools inclined by its multiples: bands of alpha, next to each
-/// other. Most of them are empty.
+/// A tilting range of `width` and tools inclined by its multiples: adjacent bands of alpha. Most of them are empty.
 #[test]
 fn bands_of_phi1() {
     let mut numbers = Random(0x77aa_0913);
@@ -97,7 +96,7 @@ fn bands_of_phi1() {
     }
 }
 
-/// One slider's stroke in parts: each column is cut, and the volumes of its parts sum.
+/// One slider's stroke in parts: each column is divided, and the volumes of its parts sum.
 #[test]
 fn bands_of_stroke() {
     let mut numbers = Random(0x4432_9907);

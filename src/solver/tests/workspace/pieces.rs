@@ -7,7 +7,7 @@ use crate::brute;
 use crate::machines::{Random, changed, request};
 use crate::topology::Topology;
 
-/// Verne with other legs: D1, d1, D2, d2, R1, r1, R2, r4, L1, L2 = L3, half width, rod radius.
+/// The reference machine with other legs: D1, d1, D2, d2, R1, r1, R2, r4, L1, L2 = L3, half width, rod radius.
 fn crossing(numbers: [f64; 12]) -> Machine {
     changed(|data| legs(data, numbers))
 }
@@ -59,13 +59,13 @@ fn made(machine: &Machine, tolerance: f64) -> (Surface, Topology) {
     (mesh, topology)
 }
 
-/// A rectangle that holds a mesh of a few millimetres' tolerance and what it stands for.
+/// A rectangle that contains a mesh of a few millimetres' tolerance and its workspace.
 fn around(mesh: &Surface) -> [[f64; 2]; 2] {
     let [low, high] = mesh.bounds().unwrap();
     [[low[0] - 9.0, low[1] - 9.0], [high[0] + 9.0, high[1] + 9.0]]
 }
 
-/// A lattice of columns is off by about its cells cut: these pieces have long boundaries.
+/// The error of a lattice of columns is about the area of its cut cells: these pieces have long boundaries.
 fn columns_agree(machine: &Machine, mesh: &Surface, tolerance: f64) {
     let [area, brute] = brute::area_and_volume(machine, around(mesh), 500);
     let off = (mesh.volume() - brute).abs();
@@ -84,7 +84,7 @@ fn several_are_closed_and_of_the_right_volume() {
     }
 }
 
-/// Pieces narrower than the first look's lines are apart are measured all the same.
+/// Pieces narrower than the distance between the first lines are measured as well.
 #[test]
 fn the_measure_misses_no_piece() {
     for legs in [TOUCHING, SEVEN] {
@@ -97,7 +97,7 @@ fn the_measure_misses_no_piece() {
     }
 }
 
-/// Strips between pieces that are narrower than the tolerance may be bridged: the rest of them are
+/// The mesh may bridge strips between pieces that are narrower than the tolerance. The remainder of the strips are
 /// holes.
 #[test]
 fn holes_are_holes() {
@@ -136,7 +136,7 @@ fn holes_are_holes() {
     assert!((cut.area() - area).abs() < 0.05 * area, "{} against {area}", cut.area());
 }
 
-/// Legs of every kind, those that cross too: none is answered with a surface that is not one.
+/// Legs of every kind, including those that cross: every surface that is returned is a manifold.
 #[test]
 fn any_machine_has_a_manifold() {
     let mut numbers = Random(7_046_029_254_386_353_131);

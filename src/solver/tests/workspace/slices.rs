@@ -1,4 +1,4 @@
-//! Slices against membership and volume.
+//! Slices compared with membership and volume.
 
 use verne_solver::Machine;
 use verne_solver::workspace::{Kind, Slice, Unobserved, contains, slice};
@@ -18,7 +18,7 @@ fn inside(slice: &Slice, [x, y]: [f64; 2]) -> bool {
     rings.map(crossings).sum::<usize>() % 2 == 1
 }
 
-/// Points of the cut are members and the others are not, but for those near the cut's boundary.
+/// Points of the cut are members and other points are not, except near the cut's boundary.
 #[test]
 fn are_sections_of_the_set() {
     let thin = changed(|data| data.limits.stroke = [[0.0, 150.0], [0.0, 200.0], [0.0, 150.0]]);

@@ -1,4 +1,4 @@
-//! Meshes: closed, oriented, near enough, and the same every time.
+//! Meshes are closed, oriented, within the tolerance, and the same every time.
 
 use std::collections::HashMap;
 
@@ -13,7 +13,7 @@ fn made(machine: &Machine, request: &Request) -> Surface {
     surface(machine, request, &Unobserved).unwrap()
 }
 
-/// Directed edges that are not met by exactly one opposite edge.
+/// Directed edges without exactly one opposite edge.
 pub(crate) fn open_edges(surface: &Surface) -> usize {
     let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
     for [a, b, c] in &surface.triangles {
@@ -80,7 +80,7 @@ fn reference_bounds_and_count() {
     }
 }
 
-/// Volume's error against the number of triangles: both go with the square of the edges.
+/// The error of the volume against the number of triangles: both depend on the square of the edges.
 #[test]
 fn converges_at_second_order() {
     let machine = Machine::verne();
@@ -178,7 +178,7 @@ fn distance(mesh: &Surface, point: [f64; 3]) -> f64 {
     each.fold(f64::INFINITY, f64::min)
 }
 
-/// Distance from a triangle: of its plane inside, of its sides else.
+/// Distance from a triangle: from its plane inside, otherwise from its sides.
 fn to_triangle(p: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
     let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -252,8 +252,8 @@ fn requests_out_of_domain_are_refused() {
     }
 }
 
-/// Walls where rods are too near name the two rods that are: those whose distance is twice the
-/// radius there. Legs of one length are always equally near, and the first is named.
+/// Walls of rod interference name the two rods whose distance is twice the radius there. Legs of one length are
+/// always equally near, and the first is named.
 #[test]
 fn interfering_rods_are_named() {
     let machine = changed(|data| data.geometry.rod_radius = 60.0);

@@ -1,4 +1,4 @@
-//! What a surface is made of, found by looking and not by the surface's own means.
+//! The topology of a surface, computed independently of the surface's own code.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! Computations look at their observer as they go on, and stop at any look.
+//! Computations call their observer regularly, and stop at any call.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -8,7 +8,7 @@ use verne_solver::workspace::{Kind, Observer, WorkspaceError, contains, measure,
 
 use crate::machines::request;
 
-/// Asks for the end at the n-th look.
+/// Asks the computation to stop at the n-th call.
 pub(crate) struct Looks {
     left: AtomicUsize,
     count: AtomicUsize,
@@ -35,7 +35,7 @@ impl Observer for Looks {
     }
 }
 
-/// Ends a computation at looks from the first to the last of all; the number of all.
+/// Stops a computation at calls from the first to the last, and returns their number.
 fn ended(name: &str, run: impl Fn(&dyn Observer) -> Result<(), WorkspaceError>) -> usize {
     let all = Looks::until(usize::MAX);
     run(&all).unwrap();
@@ -67,7 +67,8 @@ fn every_look_can_end_every_computation() {
     ended("dexterity", |looks| dexterity(&machine, &request, looks).map(drop));
 }
 
-/// After the domain has been traced the meshing goes on for long: the finer, the more it looks.
+/// The meshing continues for long after the domain has been traced. The finer the mesh, the more often it calls the
+/// observer.
 #[test]
 fn meshing_is_watched() {
     struct Meshing(AtomicUsize, AtomicUsize);

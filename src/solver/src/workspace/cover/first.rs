@@ -1,10 +1,9 @@
 //! Leg I over a box.
 //!
-//! In the working mode, R1 cos a > r1 and w1 > |v|, the cubic's root is the
-//! one nearer to a = 0: with u² + v² = C - k cos a the derivative H of y u + v w1 along a is
-//! w1 (u² + v²) / u + r1 (w1² - v²) / w1 > 0. The cubic falls with X1² and with y², and so cos a,
-//! w1 and w1 - |v| fall with both: over a box each is between its values at the corner nearest to
-//! X1 = y = 0 and at the furthest. The gradient of alpha follows from
+//! In the working mode, R1 cos a > r1 and w1 > |v|, the cubic's root is the one nearer to a = 0: with u² + v² = C - k
+//! cos a the derivative H of y u + v w1 along a is w1 (u² + v²) / u + r1 (w1² - v²) / w1 > 0. The cubic falls with
+//! X1² and with y². So cos a, w1 and w1 - |v| fall with both, and their extremes over a box are at the corner nearest
+//! to X1 = y = 0 and at the furthest. The gradient of alpha follows from
 //!
 //! ```text
 //! d(alpha)/dy = -1 / (w1 + r1 u (w1 - v²/w1) / (u² + v²))
@@ -15,8 +14,8 @@ use super::super::domain::Domain;
 use super::interval::Interval;
 use crate::inverse::first_leg::FirstLeg;
 
-/// Least drop of a rod that is told from none, over its length: what it leaves out is narrower
-/// than the rounding of a position.
+/// Least drop of a rod that counts as more than zero, over its length. The part of the domain that this neglects is
+/// narrower than the rounding error of a position.
 pub(super) const FLAT: f64 = 1e-7;
 
 /// Leg I at the corner nearest to its guideway and at the furthest.
@@ -27,12 +26,12 @@ pub(super) struct First {
     pub(super) s: Interval,
     pub(super) angle: Interval,
     pub(super) w: Interval,
-    /// Whether it works all over the box.
+    /// Whether leg I is in the working mode all over the box.
     pub(super) whole: bool,
 }
 
 impl First {
-    /// `None` where leg I works nowhere in the box.
+    /// The ranges over a box; `None` if leg I is nowhere in the working mode there.
     pub(super) fn over(domain: &Domain<'_>, [low, high]: [[f64; 2]; 2]) -> Option<Self> {
         let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
         let margin = domain.machine.limits().serial_margin * g.L1;

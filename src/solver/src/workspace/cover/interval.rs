@@ -1,7 +1,6 @@
 //! Intervals of real numbers, and functions of (x, y) over a box: range and range of the gradient.
 //!
-//! The arithmetic is not rounded outwards: whoever compares a bound with zero leaves room for
-//! rounding.
+//! The arithmetic does not round outwards. Code that compares a bound with zero allows for rounding errors.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -199,13 +198,13 @@ impl Jet {
         Self { value, slopes }
     }
 
-    /// Values that are also known from the one at a point of the box, `offsets` from which the others
-    /// lie.
+    /// Intersects the values with the mean value form: the value at one point of the box, plus the gradient times
+    /// `offsets`, the positions of the others relative to it.
     #[inline]
     pub(super) fn centred_at(self, value: f64, offsets: [Interval; 2]) -> Self {
         let change = self.slopes[0] * offsets[0] + self.slopes[1] * offsets[1];
         let common = self.value.common(change.plus(value));
-        // Rounding may part two enclosures of nearly one number.
+        // Rounding may separate two enclosures of nearly the same number.
         Self { value: if common.is_empty() { self.value } else { common }, ..self }
     }
 }

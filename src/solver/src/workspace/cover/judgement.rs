@@ -1,10 +1,10 @@
-//! What the bounds of all limits tell of one box.
+//! The decision about one box from the bounds of all limits.
 
 use super::super::domain::{Domain, INTERFERENCE, LIMITS, TABLE, TILT};
 use super::ranges::Ranges;
 use super::rectangle::Rectangle;
 
-/// Room for rounding in a bound, in units of the limit.
+/// Allowance for rounding in a bound, in units of the limit.
 const ROUNDING: f64 = 1e-11;
 /// Directions in which all limits may rise together.
 const DIRECTIONS: [[f64; 2]; 8] =
@@ -12,12 +12,12 @@ const DIRECTIONS: [[f64; 2]; 8] =
 /// First of the limits that are not leg I's.
 pub(super) const OTHERS: usize = 4;
 
-/// Proved of a box.
+/// The decision about a box.
 pub(super) enum Judgement {
     Outside,
     Inside,
-    /// Some limits may vanish: see [`State`](super::State). `smooth` tells that none of them may have a
-    /// kink where it does, and `weight` bounds a column's volume over its area.
+    /// Some limits may vanish: see [`State`](super::State). `smooth` means that none of them has a kink where it
+    /// vanishes. `weight` bounds a column's volume over its area.
     Crossed {
         limits: u32,
         simple: bool,
@@ -27,13 +27,13 @@ pub(super) enum Judgement {
     },
 }
 
-/// What the bounds of the limits tell of a box.
+/// Decides about a box from the bounds of the limits.
 pub(super) fn judged(domain: &Domain<'_>, place: Rectangle, pending: u32) -> Judgement {
     let Some(ranges) = Ranges::over(domain, place) else { return Judgement::Outside };
     let (mut left, mut simple, mut smooth, mut open) = (0, true, true, [true; DIRECTIONS.len()]);
     if !ranges.first {
-        // Leg I's limits that hold together at X1 = y = 0 cease to hold, the further away, with the
-        // one on its rod that is the less steep: where the rods cross, w1 is 0.
+        // Leg I's limits all hold at X1 = y = 0. With the distance from there, the limit of the less steep rod is the
+        // first to be violated: where the rods cross, w1 is 0.
         let side = if ranges.side > 0.0 { 2 } else { 3 };
         left |= 1 << side;
         for (open, [x, y]) in open.iter_mut().zip(DIRECTIONS) {
@@ -52,7 +52,7 @@ pub(super) fn judged(domain: &Domain<'_>, place: Rectangle, pending: u32) -> Jud
         }
         left |= 1 << limit;
         smooth &= !kinked;
-        // u falls with |y|: leg I's rods come nearer.
+        // u falls with |y|, and leg I's rods come nearer to each other.
         simple &= jet.slopes[1].sign() != 0 || limit == INTERFERENCE;
         for (open, [x, y]) in open.iter_mut().zip(DIRECTIONS) {
             *open &= (jet.slopes[0].times(x) + jet.slopes[1].times(y)).low > 0.0;
@@ -74,8 +74,8 @@ fn unit(domain: &Domain<'_>, limit: usize) -> f64 {
     }
 }
 
-/// Every limit that can be broken. Leg I's two rods and those of different legs are never nearer
-/// than nothing.
+/// All limits that can be violated. Without a rod radius the distances between leg I's rods and between different
+/// legs cannot be.
 pub(super) fn all_limits(domain: &Domain<'_>) -> u32 {
     let all = (1 << LIMITS) - 1;
     let parallelogram = 1 << (INTERFERENCE + 1);
@@ -84,8 +84,8 @@ pub(super) fn all_limits(domain: &Domain<'_>) -> u32 {
     all & !(1 | parallelogram | rods | table)
 }
 
-/// The rectangle that the legs reach, as far as a parallelogram's rods keep apart: their distance
-/// depends on x alone and falls with |x + e2|.
+/// The part of the legs' reach in which a parallelogram's rods keep their distance. That distance depends on x alone
+/// and falls with |x + e2|.
 pub(super) fn parallelograms_apart(domain: &Domain<'_>) -> Option<Rectangle> {
     let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
     let (width, least) = (2.0 * g.parallelogram_half_width, 2.0 * g.rod_radius);

@@ -1,7 +1,7 @@
 //! Every limit over a box: bounds of its values and of its gradient.
 //!
-//! Leg I decides alpha, see [`First`]; everything else follows from sums, products and roots of
-//! functions over the box.
+//! Leg I determines alpha, see [`First`]. Everything else follows from sums, products and roots of functions over the
+//! box.
 
 use std::ops::Neg;
 
@@ -16,14 +16,14 @@ use crate::rods::Rods;
 /// First of the limits of rods other than leg I's two.
 const OTHER_RODS: usize = INTERFERENCE + 1;
 
-/// What (x, y) decides, over a box that does not straddle y = 0, as far as leg I works there.
+/// The ranges of all quantities over a box that does not straddle y = 0, where leg I is in the working mode.
 pub(super) struct Ranges<'a> {
     pub(super) domain: &'a Domain<'a>,
-    /// The box, from the point at which the limits are also evaluated.
+    /// The box relative to the point at which the limits are also evaluated.
     pub(super) offsets: [Interval; 2],
     /// The sign of y.
     pub(super) side: f64,
-    /// Whether leg I works all over the box.
+    /// Whether leg I is in the working mode all over the box.
     pub(super) first: bool,
     /// x + e1 and x + e2, and y.
     x: [Jet; 2],
@@ -35,14 +35,14 @@ pub(super) struct Ranges<'a> {
     squares: [Jet; 2],
     drops: [Jet; 3],
     pub(super) vectors: [[Jet; 3]; 4],
-    /// The column at a point from which leg I works all the way to wherever it works: the box's
-    /// middle, or its corner nearest to X1 = y = 0.
+    /// The column at the box's middle, or at its corner nearest to X1 = y = 0. On the way from there to any point
+    /// where leg I is in the working mode, it stays in it.
     column: Column,
     pub(super) rods: Rods,
 }
 
 impl<'a> Ranges<'a> {
-    /// `None` where leg I works nowhere in the box.
+    /// The ranges over a box; `None` if leg I is nowhere in the working mode there.
     pub(super) fn over(domain: &'a Domain<'a>, [low, high]: [[f64; 2]; 2]) -> Option<Self> {
         let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
         let first = First::over(domain, [low, high])?;
@@ -76,7 +76,7 @@ impl<'a> Ranges<'a> {
             let square = (-(x[1].square() + reaches[leg].square())).plus(length * length);
             square.centred_at(column.square[leg + 1], offsets)
         });
-        // Where a leg does not reach its least drop it is taken to have it.
+        // A leg that does not reach its least drop is treated as having it.
         let least = [g.L2, g.L3].map(|length| margin.max(FLAT) * length);
         let [w2, w3] = [0, 1].map(|leg| squares[leg].root(least[leg] * least[leg]));
         let q = g.R2 * column.s;
@@ -103,12 +103,13 @@ impl<'a> Ranges<'a> {
         })
     }
 
-    /// One limit, or of leg I's rods one of the same sign; and whether it may have a kink where it
-    /// vanishes.
+    /// The bounds of one limit, or, for the limits of leg I's rods, of a function of the same sign; and whether it
+    /// may have a kink where it vanishes.
     pub(super) fn limit(&self, limit: usize) -> (Jet, bool) {
         match limit {
             INTERFERENCE => (self.leg_one_apart(), false),
-            // A parallelogram's own rods depend on x alone: the cover lies where they keep apart.
+            // The distance of a parallelogram's own rods depends on x alone. The cover excludes the x where it is too
+            // small.
             OTHER_RODS..STROKES => separation(self, 2.0 * self.domain.machine.geometry().rod_radius),
             TABLE => self.above_table(),
             _ => {
@@ -121,7 +122,7 @@ impl<'a> Ranges<'a> {
     fn plainly(&self, limit: usize) -> Jet {
         let (g, limits) = (self.domain.machine.geometry(), self.domain.machine.limits());
         match limit {
-            // Where leg I works it reaches.
+            // In the working mode leg I reaches.
             0 => self.c,
             1 => self.c.times(g.R1).plus(-g.r1),
             2 | 3 => self.vectors[limit - 2][2].plus(-limits.serial_margin * g.L1),
@@ -206,7 +207,7 @@ impl<'a> Ranges<'a> {
         if end == 0 { over } else { -over }
     }
 
-    /// The z at which the columns meet a plane of the image's frame; `None` where some do not.
+    /// The z at which the columns meet a plane of the image's frame; `None` if some column does not meet it.
     fn at_height(&self, height: f64) -> Option<Jet> {
         let level = Jet { value: Interval::of(height), slopes: [Interval::ZERO; 2] };
         match self.domain.image {
@@ -232,8 +233,8 @@ impl<'a> Ranges<'a> {
         a.greater(b)
     }
 
-    /// Height over the floor of the higher of the two ends that the strokes leave of a column; and
-    /// whether which end that is, or which slider ends the column, may change in the box.
+    /// Height over the floor of the higher of a column's two ends that the strokes leave; and whether it may change
+    /// in the box which end that is, or which slider ends the column.
     fn above_table(&self) -> (Jet, bool) {
         let unbounded = Jet { value: Interval::ALL, slopes: [Interval::ALL; 2] };
         let Some(level) = self.domain.floor_level() else { return (unbounded, true) };

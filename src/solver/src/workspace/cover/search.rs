@@ -1,4 +1,4 @@
-//! The search for the boxes: those that are not decided are halved.
+//! The search for the boxes. It halves those that are not decided.
 
 use super::super::domain::Domain;
 use super::super::observer::{Observer, go_on};
@@ -7,11 +7,11 @@ use super::judgement::{Judgement, all_limits, judged, parallelograms_apart};
 use super::rectangle::{Rectangle, area, halves, longest};
 use super::{Cover, Node, Purpose, State, bounds};
 
-/// Boxes looked at before the rest is left undecided.
+/// Boxes that are examined before the rest is left undecided.
 const BUDGET: usize = 60_000;
-/// Greatest part of the domain's area that may be left undecided.
+/// Greatest fraction of the domain's area that may be left undecided.
 const UNDECIDED: f64 = 1e-8;
-/// Boxes along the domain at least, where only its pieces are looked for.
+/// Least number of boxes along the domain, if only its pieces matter.
 const ALONG: f64 = 16.0;
 /// Least side of a box, in units of the machine.
 const SMALLEST: f64 = 1e-13;
@@ -67,7 +67,7 @@ struct Task {
 struct Search<'a> {
     domain: &'a Domain<'a>,
     purpose: Purpose,
-    /// Area of the boxes that are inside, and half of that of those that one limit crosses.
+    /// Area of the inside boxes, and half the area of those that one limit crosses.
     settled: f64,
     looked: usize,
     nodes: Vec<Node>,
@@ -93,7 +93,7 @@ impl Search<'_> {
             }
     }
 
-    /// The longer side of what may hold the domain.
+    /// The longer side of the rectangle that may contain the domain.
     fn reach(&self) -> f64 {
         match self.purpose {
             Purpose::Lines => 0.0,
@@ -101,8 +101,8 @@ impl Search<'_> {
         }
     }
 
-    /// Looks at a box; what is to be done if it is not decided. `limits` may vanish in the box it is
-    /// a half of, and `grain` is that box's.
+    /// Examines a box. If it is not decided, the function returns the task of halving it. `limits` are those that may
+    /// vanish in the box of which it is a half, and `grain` is that box's.
     fn look(&mut self, place: Rectangle, limits: u32, grain: f64) -> Option<Task> {
         self.looked += 1;
         let found = judged(self.domain, place, limits);
@@ -116,7 +116,7 @@ impl Search<'_> {
             }
         };
         let node = self.nodes.len();
-        // What is not hidden in an open box is not hidden in a part of it.
+        // Nothing is hidden in a part of an open box.
         let grain = if grain.is_finite() { grain } else { size };
         self.nodes.push(Node { place, state, halves: None, grain, weight });
         match state {

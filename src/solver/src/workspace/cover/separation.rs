@@ -1,8 +1,8 @@
 //! Distances between rods over a box.
 //!
-//! The distance of two segments is the least of |e - s a + t b| over s and t in [0, 1]. Its
-//! gradient is that of the same expression at the nearest points, s and t held; over a box it is
-//! enclosed with all s and t that may be nearest there.
+//! The distance of two segments is the least of |e - s a + t b| over s and t in [0, 1]. Its gradient is that of the
+//! same expression at the nearest points, with s and t constant. Over a box it is enclosed with all s and t that may
+//! be nearest there.
 
 use super::interval::{Interval, Jet};
 use super::ranges::Ranges;
@@ -10,14 +10,14 @@ use crate::machine::Geometry;
 use crate::margins::interference::square_distance;
 use crate::rods::FAMILY;
 
-/// Pairs of rods of different legs, as indices of the six. Rods 22 and 32 stand to each other as 21 and 31 do.
+/// Pairs of rods of different legs, as indices of the six. Rods 22 and 32 are at the same distance as 21 and 31.
 const BETWEEN: [[usize; 2]; 11] =
     [[0, 2], [0, 3], [0, 4], [0, 5], [1, 2], [1, 3], [1, 4], [1, 5], [2, 4], [2, 5], [3, 4]];
 
 type Vector = [Jet; 3];
 
-/// The least distance between legs less a distance over a box: exact where it is zero, and of the
-/// right sign elsewhere. Also whether it may be that of several pairs where it is zero.
+/// The least distance between legs less a distance, over a box. The bounds are exact where it is zero, and have the
+/// right sign elsewhere. Also whether it may be the distance of several pairs where it is zero.
 pub(super) fn separation(ranges: &Ranges<'_>, distance: f64) -> (Jet, bool) {
     let g = ranges.domain.machine.geometry();
     let ends = ranges.rods.platform_ends(g);
@@ -30,7 +30,7 @@ pub(super) fn separation(ranges: &Ranges<'_>, distance: f64) -> (Jet, bool) {
         count += usize::from(found.value.low <= 0.0);
         least = Some(match least {
             None => found,
-            // One that is far enough throughout does not take part where the least is zero.
+            // A pair that is far enough throughout is not the nearest where the least is zero.
             Some(least) if found.value.low > 0.0 => narrow(least, found.value.high),
             Some(least) if least.value.low > 0.0 => narrow(found, least.value.high),
             Some(least) => Jet {
@@ -99,8 +99,8 @@ fn gap(g: &Geometry, ranges: &Ranges<'_>, pair: [usize; 2]) -> Vector {
     [x, y, z]
 }
 
-/// The difference of two rods' vectors, which is small where they are nearly parallel: x and y do
-/// not take part.
+/// The difference of two rods' vectors, which is small where they are nearly parallel. It does not contain the
+/// platform's x and y.
 fn difference(ranges: &Ranges<'_>, pair: [usize; 2]) -> Vector {
     let (g, d) = (ranges.domain.machine.geometry(), &ranges.domain.machine.derived);
     // The vectors' x - x of the platform, and y less that of the platform as a cos alpha + b.
@@ -131,7 +131,7 @@ fn fastest([gap, a, b]: [&Vector; 3], axis: usize) -> f64 {
     square(0.0, 0.0).max(square(0.0, 1.0)).max(square(1.0, 0.0)).max(square(1.0, 1.0)).sqrt()
 }
 
-/// Distance between the points at s and t, and its derivatives with these held.
+/// Distance between the points at s and t, and its derivatives with s and t constant.
 fn at(gap: &Vector, a: &Vector, b: &Vector, [s, t]: [Interval; 2]) -> Jet {
     let value = [0, 1, 2].map(|i| gap[i].value - a[i].value * s + b[i].value * t);
     let length = value.iter().fold(Interval::ZERO, |sum, part| sum + part.square()).root();
@@ -145,8 +145,8 @@ fn at(gap: &Vector, a: &Vector, b: &Vector, [s, t]: [Interval; 2]) -> Jet {
     Jet { value: length, slopes }
 }
 
-/// The same where the nearest points are those of the lines: their distance is the gap along the
-/// common perpendicular, whose direction does not depend on how near they are.
+/// The same if the nearest points are those of the lines. The distance is then the gap along the common
+/// perpendicular, whose direction does not depend on the distance.
 fn of_lines(
     ranges: &Ranges<'_>,
     pair: [usize; 2],
@@ -186,8 +186,8 @@ fn signed_distance(ranges: &Ranges<'_>, pair: [usize; 2]) -> f64 {
     (0..3).map(|i| (ends[pair[0]][i] - ends[pair[1]][i]) * normal[i]).sum::<f64>() / length
 }
 
-/// Parameters that may be those of the nearest points, and whether these are the lines': between the
-/// ends of both segments, or at an end of one where the other end's side does not come nearer.
+/// Parameters that may be those of the nearest points, and whether these are the lines' nearest points. They lie
+/// between the ends of both segments, or at an end of one.
 ///
 /// With d = a - b the lines' are at s = (d·e b² - b·e b·d) / |d × b|² and t = s + (s b·d - b·e) / b²,
 /// which stays exact where the rods are nearly parallel.

@@ -1,4 +1,4 @@
-//! The bounds over a box against values at its points.
+//! The bounds over a box compared with values at its points.
 
 use super::super::domain::{Domain, LIMITS};
 use super::super::request::{Kind, Request};
@@ -51,7 +51,7 @@ impl Random {
     }
 }
 
-/// Every limit's values at points of a box lie within its bounds, and rise or fall as these say.
+/// Every limit's values at points of a box lie within its bounds, and rise or fall as the bounds say.
 #[test]
 fn bounds_hold() {
     let mut numbers = Random(0x2545_f491_4f6c_dd1d);
@@ -123,8 +123,8 @@ fn points(numbers: &mut Random, [low, high]: Rectangle, mut look: impl FnMut([f6
     }
 }
 
-/// The points of a line x = const that keep every limit follow each other, and every limit that is
-/// said to hold does.
+/// The points of a line x = const that keep every limit are contiguous, and every limit that the cover proves is
+/// kept.
 fn column_is_one(numbers: &mut Random, domain: &Domain<'_>, [low, high]: Rectangle, limits: u32) {
     let x = numbers.between(low[0], high[0]);
     let mut changes = 0;

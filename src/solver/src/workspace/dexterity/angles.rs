@@ -1,15 +1,13 @@
-//! At a radius, the angle psi over which part points are reachable, and over which dexterous.
+//! The angles psi, at one radius, at which part points are reachable, and at which they are dexterous.
 //!
-//! psi = beta - theta1 and phi1 = alpha - theta1. Where the part's map does not fold, alpha - beta
-//! falls along an arc. A place beta then serves phi1 from `from` to `to` and theta1 within its range
-//! exactly at psi from max(beta - tilt_max, beta - alpha + from) to
-//! min(beta - tilt_min, beta - alpha + to), all of which rise with beta: over an interval of beta
-//! these psi are one interval. A point at psi has all of phi1 on the arc if it has both its ends,
+//! psi = beta - theta1 and phi1 = alpha - theta1. If the part's map does not fold, alpha - beta falls along an arc. A
+//! position beta then allows phi1 from `from` to `to` and theta1 within its range exactly for psi from max(beta -
+//! tilt_max, beta - alpha + from) to min(beta - tilt_min, beta - alpha + to). All these rise with beta, so over an
+//! interval of beta the psi form one interval. A point at psi has all of phi1 on the arc if it has both its ends:
 //! `to` at the lesser beta, where theta1 is least, and `from` at the greater.
 //!
-//! The phi1 that an interval of beta serves at a psi are themselves one interval; the table's plane is kept
-//! by some of them where it is kept by the one with the least depth, and by all where it is by the one
-//! with the greatest.
+//! The phi1 that an interval of beta allows at a psi are themselves one interval. Some of them keep the table's plane
+//! if the one with the least depth does, and all of them if the one with the greatest depth does.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -18,7 +16,7 @@ use super::arc::{Arc, Circle, arcs, looks, turns};
 use super::floor::Floor;
 use super::section::{Piece, Setting};
 
-/// The angles, rad, of what is reachable and of what is dexterous.
+/// The total angles, rad, of reachable and of dexterous points.
 pub(super) fn angles(setting: &Setting<'_>, section: &[Piece], radius: f64, phi1: [f64; 2]) -> [f64; 2] {
     let (mut some, mut all) = (Vec::new(), Vec::new());
     for arc in arcs(setting, section, radius) {
@@ -30,7 +28,7 @@ pub(super) fn angles(setting: &Setting<'_>, section: &[Piece], radius: f64, phi1
     [united(&some), united(&all)]
 }
 
-/// The tilting range, moved by whole turns to where alpha - phi1 may lie.
+/// The tilting range, shifted by whole turns to where alpha - phi1 may lie.
 fn tilts(setting: &Setting<'_>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let Some([middle, half]) = setting.tilt else { return vec![[f64::NEG_INFINITY, f64::INFINITY]] };
     let (least, greatest) = (-FRAC_PI_2 - to, FRAC_PI_2 - from);
@@ -62,7 +60,7 @@ fn reachable(arc: &Arc<'_>, [from, to]: [f64; 2], [low, high]: [f64; 2], found: 
 
 fn dexterous(arc: &Arc<'_>, [from, to]: [f64; 2], [low, high]: [f64; 2], found: &mut Vec<[f64; 2]>) {
     let lead = |beta: f64| beta - arc.circle.alpha(beta);
-    // A whole circle twice: the two ends may lie on both sides of the cut.
+    // A whole circle is taken twice: the two ends may lie on both sides of the cut.
     let ends = if arc.closed() { [-PI, 3.0 * PI] } else { arc.ends };
     let lasts = inclined(arc.circle, ends, [f64::NEG_INFINITY, high + from]);
     for [a, b] in inclined(arc.circle, ends, [low + to, f64::INFINITY]) {
@@ -88,7 +86,7 @@ fn inclined(circle: Circle<'_>, ends: [f64; 2], [least, greatest]: [f64; 2]) -> 
     intervals(&limits, ends, looks(ends)).into_iter().map(|cuts| cuts.map(|cut| cut.t)).collect()
 }
 
-/// By how much the table's plane is kept at a psi by the best of the phi1 served there, mm.
+/// The margin of the table's plane at a psi for the best phi1 that is possible there, mm.
 struct Over<'a, F> {
     floor: &'a Floor<'a>,
     radius: f64,

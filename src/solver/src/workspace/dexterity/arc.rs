@@ -1,8 +1,7 @@
 //! A circle about the tilting axis and the arcs of it that lie in the tool's workspace.
 //!
-//! The angle beta on it is zero above the axis: eta = r sin beta, zeta = -r cos beta. A part point
-//! at (V1, Z - dt) = (-r sin psi, r cos psi) comes to beta where theta1 = beta - psi, by Eq (26), and
-//! then phi1 = alpha - beta + psi.
+//! The angle beta is zero above the axis: eta = r sin beta, zeta = -r cos beta. A part point at (V1, Z - dt) = (-r
+//! sin psi, r cos psi) is at beta if theta1 = beta - psi, by Eq (26). Then phi1 = alpha - beta + psi.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,21 +10,21 @@ use super::super::path::{Limits, intervals};
 use super::section::{ALPHA, Piece, Setting};
 use crate::angle::sin_cos;
 
-/// Looks along a circle, at least.
+/// Least number of samples along a circle.
 const LOOKS: f64 = 24.0;
-/// Looks along an arc, at least.
+/// Least number of samples along an arc.
 const LEAST: f64 = 3.0;
 
-/// A part of a circle on which the tool's place is within all limits but the table's, and on which
-/// phi1 + psi goes one way.
+/// A part of a circle on which the tool's position keeps all limits but the table's, and on which phi1 + psi is
+/// monotone.
 #[derive(Clone, Copy)]
 pub(super) struct Arc<'a> {
     pub(super) circle: Circle<'a>,
     /// Least and greatest beta.
     pub(super) ends: [f64; 2],
-    /// What ends it; `None` where it was only cut.
+    /// The constraint that ends it; `None` if it was only cut there.
     pub(super) bindings: [Option<Binding>; 2],
-    /// alpha - beta rises with beta: the part's map is folded.
+    /// Whether alpha - beta rises with beta: the part's map is folded.
     pub(super) folded: bool,
 }
 
@@ -51,7 +50,7 @@ pub(super) fn arcs<'a>(setting: &'a Setting<'a>, section: &'a [Piece], radius: f
     found
 }
 
-/// The angles at which a circle is within a piece's range of eta.
+/// Finds the angles at which a circle is within a piece's range of eta.
 fn windows(piece: &Piece, radius: f64) -> Vec<([f64; 2], [Option<Binding>; 2])> {
     let ([least, greatest], [low, high]) = (piece.range(), piece.bindings);
     let [from, to] = [least / radius, greatest / radius];
@@ -67,9 +66,9 @@ fn windows(piece: &Piece, radius: f64) -> Vec<([f64; 2], [Option<Binding>; 2])> 
 }
 
 impl<'a> Circle<'a> {
-    /// Whether a window is anywhere as high as the piece.
+    /// Whether the heights of a window and of the piece overlap.
     fn meets(self, [from, to]: [f64; 2]) -> bool {
-        // Between its ends zeta has no extremes but at the top and the bottom of the circle.
+        // Between the ends zeta has extremes only at the top and the bottom of the circle.
         let crosses = |angle: f64| from <= angle && angle <= to;
         let ends = [from, to].map(|beta| -self.radius * beta.cos());
         let highest = if crosses(0.0) { -self.radius } else { ends[0].min(ends[1]) };
@@ -100,7 +99,7 @@ impl<'a> Circle<'a> {
 
 const SLIDERS: [u8; 3] = [0, 1, 2];
 
-/// Looks for an interval of the angle.
+/// Number of samples for an interval of the angle.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
 pub(super) fn looks([from, to]: [f64; 2]) -> u32 {
     (LOOKS * (to - from) / TAU).ceil().clamp(LEAST, 4.0 * LOOKS) as u32
@@ -113,7 +112,7 @@ pub(super) fn turns(from: f64, to: f64) -> impl Iterator<Item = f64> {
 }
 
 impl Arc<'_> {
-    /// The arc, cut where the part's map folds.
+    /// Cuts the arc where the part's map folds.
     fn unfolded(self, found: &mut Vec<Self>) {
         for folded in [false, true] {
             let sign = if folded { -1.0 } else { 1.0 };

@@ -1,4 +1,4 @@
-//! Where the edges of the grid's tetrahedra cross the regions' surfaces.
+//! Crossings of the tetrahedra's edges with the regions' surfaces.
 
 use std::sync::OnceLock;
 
@@ -19,11 +19,11 @@ pub(super) const EDGES: [[u32; 3]; 7] =
 
 /// Halvings of an edge.
 const HALVINGS: u32 = 8;
-/// Parts of an edge.
+/// Number of parts of an edge.
 const PARTS: u32 = 1 << HALVINGS;
 
-/// The sections between two layers at which edges are looked at: all edges are halved at the same
-/// x, so that few sections serve them all.
+/// The sections between two layers at which edges are examined. All edges are halved at the same x, so few sections
+/// serve them all.
 pub(super) struct Sections<'a> {
     setting: &'a Setting<'a>,
     first: &'a [Piece],
@@ -38,7 +38,7 @@ impl<'a> Sections<'a> {
         Self { setting, first, between, x: grid.node([layer, 0, 0])[0], step: grid.step }
     }
 
-    /// The section at a part of the way to the next layer.
+    /// The section at a fraction of the way to the next layer.
     fn at(&self, part: u32) -> &[Piece] {
         if part == 0 {
             return self.first;
@@ -97,7 +97,7 @@ struct Edge {
 }
 
 impl Work<'_> {
-    /// The middle of the last of the edge's halves that a region's surface crosses.
+    /// Finds the crossing by bisection: the middle of the last part of the edge that the region's surface crosses.
     fn crossing(&self, sections: &Sections<'_>, edge: &Edge, region: usize) -> Result<Point, WorkspaceError> {
         let start = self.grid.node(edge.from);
         let along = |part: f64| {

@@ -1,9 +1,9 @@
-//! What the table's plane leaves of the inclinations phi1 at a part point.
+//! The inclinations phi1 at a part point for which the table's plane is kept.
 //!
-//! At the height Z of the point, the limit is kept where the lowest of tool end and platform joints is
-//! not more than Z - `least` below the tool centre point. That depth is the greatest of
-//! `tool_radius` |sin phi1| and R |sin phi1| - `tool_length` cos phi1, with the greater R of leg I and of
-//! legs II and III: sinusoids, each of which exceeds a value on one arc of phi1.
+//! At the height Z of the point, the limit is kept if the lowest of tool end and platform joints is not more than Z -
+//! `least` below the tool centre point. That depth is the greatest of `tool_radius` |sin phi1| and R |sin phi1| -
+//! `tool_length` cos phi1, with R the greater of R1 and R2. These are sinusoids, each of which exceeds a value on one
+//! arc of phi1.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -14,7 +14,7 @@ use crate::clearance::Clearance;
 use crate::limit::{Constraint, Element};
 use crate::machine::Machine;
 
-/// Arcs of phi1 narrower than twice this are not cut out, rad: intervals as near to each other are one.
+/// Half-width of arcs of phi1 below which they are not excluded, rad: intervals as close to each other are one.
 const NARROW: f64 = 5e-10;
 
 /// The table's plane as a limit of a machine with a tool.
@@ -24,7 +24,7 @@ pub(super) struct Floor<'a> {
     pub(super) clearance: Clearance,
 }
 
-/// One sinusoid: its amplitude, the phi1 where it is greatest, and what it is the depth of.
+/// One sinusoid: its amplitude, the phi1 of its maximum, and the element whose depth it is.
 struct Depth {
     amplitude: f64,
     top: f64,
@@ -37,7 +37,7 @@ impl Floor<'_> {
         self.machine.table().dt + radius * psi.cos()
     }
 
-    /// The intervals without what is too deep at a height Z.
+    /// Removes the inclinations that are too deep at a height Z from the intervals.
     pub(super) fn cut(&self, z: f64, mut found: Vec<Interval>) -> Vec<Interval> {
         let room = z - self.clearance.least;
         for depth in self.depths() {
@@ -56,7 +56,8 @@ impl Floor<'_> {
     pub(super) fn lowest(&self, range: [f64; 2]) -> f64 {
         let g = self.machine.geometry();
         let Clearance { tool_length, tool_radius, .. } = self.clearance;
-        // The greater of tool and joints is least at the ends, upright or where they are equal.
+        // The greater of the depths of tool and joints is least at the ends of the range, upright, or where both are
+        // equal.
         let equal = (tool_length / (g.R1.max(g.R2) - tool_radius)).atan();
         let minima = [0.0, PI, equal, -equal, equal + PI, PI - equal];
         self.needed(range, &minima).fold(f64::INFINITY, f64::min)
@@ -108,7 +109,7 @@ impl Floor<'_> {
 }
 
 impl Depth {
-    /// Half of the arc on which it exceeds a value, rad.
+    /// Half of the arc on which the sinusoid exceeds a value, rad.
     fn half(&self, room: f64) -> f64 {
         if room >= self.amplitude {
             0.0
@@ -120,7 +121,7 @@ impl Depth {
     }
 }
 
-/// What an arc leaves of an interval.
+/// Removes an arc from an interval.
 fn without(interval: &Interval, top: f64, half: f64, binding: Binding) -> Vec<Interval> {
     let mut left = Vec::new();
     if half >= PI {

@@ -9,29 +9,67 @@ use super::{DexterityRequest, MOST_NODES};
 use crate::machine::Machine;
 use crate::pose::Point;
 
-/// Sections looked at for the set's extent.
+/// Number of sections from which the extent of the reachable set is found.
 const SECTIONS: u32 = 128;
-/// Part of the set's size that is added all around, for what lies between the looks.
+/// Fraction of the set's size that is added on each side, for the set between the sections.
 const ROOM: f64 = 0.02;
 
-/// Nodes in the part frame turned about Z by phi2: its first axis is the machine's x, so that a
-/// layer of nodes is one section of the machine. Node (i, j, k) has the number
-/// (i · counts\[1\] + j) · counts\[2\] + k. Coordinates are multiples of the step.
+/// A grid of nodes in the part frame turned about Z by phi2. Its first axis is the machine's x, so a layer of nodes
+/// is one section of the machine. Node (i, j, k) has the number (i · counts\[1\] + j) · counts\[2\] + k. Coordinates
+/// are multiples of the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     /// Node (0, 0, 0) in the turned frame, mm.
     pub origin: Point,
-    /// Distance of neighbours along each axis, mm.
+    /// Distance between neighbours along each axis, mm.
     pub step: f64,
-    /// Nodes along each axis; zero where nothing is reachable.
+    /// Number of nodes along each axis. Zero if nothing is reachable.
     pub counts: [u32; 3],
     /// Angle from the part frame to the turned frame about Z: phi2, rad.
     pub turn: f64,
 }
 
 impl Grid {
-    /// The grid over all that is reachable, with nodes beyond it on each side;
-    /// [`WorkspaceError::TooManyNodes`] before any work on the nodes.
+    /// Places the grid over all reachable points, with at least one layer of nodes beyond them on each side. The extent
+    /// is found from sections along x; it is generous, not exact.
+    ///
+    /// # Units
+    ///
+    /// Millimetres and radians.
+    ///
+    /// # Errors
+    ///
+    /// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN), the range of phi1
+    ///   is not ordered or longer than a revolution, or the cell is below 0.1 mm.
+    /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+    /// - [`WorkspaceError::TooManyNodes`]: the grid would have more nodes than [`MOST_NODES`]. No node has been
+    ///   computed then.
+    ///
+    /// # References
+    ///
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), (27); the
+    /// intervals are derived in the [workspace documentation](crate::workspace).
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::Machine;
+    /// use verne_solver::workspace::dexterity::{DexterityRequest, Grid};
+    /// use verne_solver::workspace::{Unobserved, WorkspaceError};
+    ///
+    /// let request = DexterityRequest {
+    ///     tool_length: 150.0,
+    ///     table_clearance: None,
+    ///     tool_radius: 0.0,
+    ///     phi2: 0.0,
+    ///     phi1: [-0.5, 0.5],
+    ///     cell: 200.0,
+    /// };
+    /// let machine = Machine::verne();
+    /// let grid = Grid::new(&machine, &request, &Unobserved)?;
+    /// assert!(grid.nodes() > 0);
+    /// # Ok::<(), WorkspaceError>(())
+    /// ```
     pub fn new(
         machine: &Machine,
         request: &DexterityRequest,
@@ -54,23 +92,59 @@ impl Grid {
         Ok(Self { origin: first.map(|n| n * step), step, counts: counts.map(whole), turn })
     }
 
-    /// Number of nodes.
+    /// The number of nodes.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::workspace::dexterity::Grid;
+    ///
+    /// let grid = Grid { origin: [0.0; 3], step: 10.0, counts: [2, 3, 4], turn: 0.0 };
+    /// assert_eq!(grid.nodes(), 24);
+    /// ```
     pub fn nodes(&self) -> usize {
         self.counts.iter().map(|&count| count as usize).product()
     }
 
-    /// A node's position in the turned frame, mm.
+    /// A node's position in the turned frame.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::workspace::dexterity::Grid;
+    ///
+    /// let grid = Grid { origin: [0.0, 5.0, 0.0], step: 10.0, counts: [2, 3, 4], turn: 0.0 };
+    /// assert_eq!(grid.node([1, 2, 3]), [10.0, 25.0, 30.0]);
+    /// ```
     pub fn node(&self, number: [u32; 3]) -> Point {
         [0, 1, 2].map(|axis| self.origin[axis] + self.step * f64::from(number[axis]))
     }
 
-    /// A point of the turned frame in the part frame.
+    /// Turns a point of the turned frame into the part frame: about Z by phi2.
+    ///
+    /// # Units
+    ///
+    /// Millimetres.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::workspace::dexterity::Grid;
+    ///
+    /// let grid = Grid { origin: [0.0; 3], step: 10.0, counts: [2, 3, 4], turn: std::f64::consts::FRAC_PI_2 };
+    /// let [x, y, z] = grid.in_part_frame([1.0, 0.0, 7.0]);
+    /// assert!(x.abs() < 1e-15 && y == 1.0 && z == 7.0);
+    /// ```
     pub fn in_part_frame(&self, [x, y, z]: Point) -> Point {
         let (s, c) = self.turn.sin_cos();
         [x * c - y * s, x * s + y * c, z]
     }
 
-    /// Whether a node is one of the outermost, which count as outside of every region.
+    /// Whether a node is one of the outermost. They count as outside of both regions.
     pub(super) fn outermost(&self, number: [u32; 3]) -> bool {
         (0..3).any(|axis| number[axis] == 0 || number[axis] + 1 >= self.counts[axis])
     }
@@ -81,7 +155,7 @@ fn whole(count: f64) -> u32 {
     count as u32
 }
 
-/// A box that holds what is reachable, in the turned frame; `None` if nothing is.
+/// Finds a box in the turned frame that contains the reachable set; `None` if the set is empty.
 fn extent(
     setting: &Setting<'_>,
     phi1: [f64; 2],
@@ -103,7 +177,7 @@ fn extent(
             }
             let [a, b] = found.unwrap_or([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]]);
             found = Some([
-                // What begins between two sections is less than their distance away.
+                // A part of the set that begins between two sections begins less than a step away.
                 [a[0].min(x - step), a[1].min(v1[0]), a[2].min(z[0])],
                 [b[0].max(x + step), b[1].max(v1[1]), b[2].max(z[1])],
             ]);

@@ -1,4 +1,4 @@
-//! Slabs made one.
+//! Joining of slabs to one dexterity map.
 
 use super::super::measure::Volume;
 use super::super::observer::{Observer, Pace};
@@ -7,8 +7,44 @@ use super::region::{Region, triangles};
 use super::slab::{Crossing, Slab};
 use super::{Dexterity, DexterityRequest, Grid};
 
-/// Slabs that cover the grid, in any order, and the volumes made the answer;
-/// [`WorkspaceError::Open`] if a layer is missing or there twice.
+/// Joins slabs that cover the grid, in any order, and the two volumes to the answer of
+/// [`dexterity`](super::dexterity()).
+///
+/// # Units
+///
+/// Millimetres, mm³ and radians.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::Open`]: a layer is missing or given twice, or a region's surface could not be closed.
+/// - [`WorkspaceError::TooFine`]: there are more intervals than 32 bits can number.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::dexterity::{DexterityRequest, Grid, merge, slab};
+/// use verne_solver::workspace::{Unobserved, Volume, WorkspaceError};
+///
+/// let request = DexterityRequest {
+///     tool_length: 150.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     phi2: 0.0,
+///     phi1: [-0.5, 0.5],
+///     cell: 200.0,
+/// };
+/// let machine = Machine::verne();
+/// let grid = Grid::new(&machine, &request, &Unobserved)?;
+/// let part = |layers| slab(&machine, &request, &grid, layers, &Unobserved);
+/// let volumes = [Volume::Value { value: 0.0, error: 0.0 }; 2]; // in place of those that `volumes` computes
+/// let join = |slabs| merge(&request, &grid, slabs, volumes, &Unobserved);
+/// let parts = join(vec![part(2..grid.counts[0])?, part(0..2)?])?;
+/// assert_eq!(parts, join(vec![part(0..grid.counts[0])?])?);
+/// assert_eq!(join(vec![part(0..2)?]), Err(WorkspaceError::Open), "layers are missing");
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn merge(
     request: &DexterityRequest,
     grid: &Grid,
@@ -51,7 +87,7 @@ pub fn merge(
     Ok(Dexterity { grid: *grid, offsets, intervals, reachable, dexterous })
 }
 
-/// A node's place from its number.
+/// The grid position of a node, from its number.
 fn place(grid: &Grid, number: usize) -> [u32; 3] {
     let [_, across, up] = grid.counts.map(|count| count as usize);
     [number / up / across, number / up % across, number % up].map(|n| u32::try_from(n).unwrap_or(u32::MAX))

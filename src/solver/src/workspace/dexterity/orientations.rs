@@ -1,4 +1,4 @@
-//! The inclinations with which one point is reached.
+//! The inclinations that reach one point.
 
 use super::super::domain::Binding;
 use super::super::request::WorkspaceError;
@@ -9,25 +9,62 @@ use crate::limit::{Constraint, DOMAIN, Element};
 use crate::machine::Machine;
 use crate::pose::Point;
 
-/// Intervals that are nearer to each other are one, rad.
+/// Intervals that are less than this apart are one, rad.
 const APART: f64 = 1e-9;
 
-/// Inclinations with which a point is reached.
+/// An interval of inclinations that reach a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// `[from, to]` of phi1, rad.
     pub ends: [f64; 2],
-    /// What ends it at either end; `None` where the asked range does.
+    /// The constraint that ends it at either end. `None` if the requested range ends it.
     pub bindings: [Option<Binding>; 2],
 }
 
-/// The intervals of phi1 within the request's range for which the working mode reaches the part point with
-/// every limit kept, ascending; ends to 1e-9 rad. Intervals less than that apart are one.
+/// Computes the intervals of phi1 within the request's range for which the working mode reaches the part point and
+/// keeps every limit. They are in ascending order. Intervals less than 1e-9 rad apart are one.
 ///
-/// They are found as arcs of a circle (see the module) on which each stroke's limit is looked at
-/// every 1/48 of a turn or more closely, as a parabola between the looks, and again half-way where
-/// that may vanish twice. What is wider than the looks are apart is always found; what is narrower,
-/// unless a limit turns twice between two looks.
+/// The intervals are arcs of a circle (see the [workspace documentation](crate::workspace)). On it each stroke's limit
+/// is examined at steps of at most 1/48 of a turn, taken for a parabola between them, and examined again half-way if it
+/// may vanish twice. An interval or gap wider than the steps is always found. A narrower one is missed only if a limit
+/// turns twice between two steps.
+///
+/// # Units
+///
+/// `point` is in the part frame, mm. phi1 is in radians; the ends are precise to 1e-9 rad.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number or `point` is not finite or beyond [`DOMAIN`], the range of phi1 is not
+///   ordered or longer than a revolution, or the cell is below 0.1 mm.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), (27); the
+/// intervals are derived in the [workspace documentation](crate::workspace).
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::dexterity::{DexterityRequest, orientations};
+/// use verne_solver::workspace::{Unobserved, WorkspaceError};
+///
+/// let request = DexterityRequest {
+///     tool_length: 150.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     phi2: 0.0,
+///     phi1: [-0.5, 0.5],
+///     cell: 200.0,
+/// };
+/// let machine = Machine::verne();
+/// let found = orientations(&machine, [100.0, 50.0, 300.0], &request)?;
+/// assert_eq!(found.len(), 1);
+/// assert_eq!(found[0].ends, [-0.5, 0.5], "the whole range");
+/// # let _ = Unobserved;
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn orientations(
     machine: &Machine,
     point: Point,
@@ -68,7 +105,7 @@ pub(super) fn at(
     }
 }
 
-/// The parts of an arc on which the table's tilt is within its range.
+/// Finds the parts of an arc on which theta1 is within its range.
 fn turned(arc: &Arc<'_>, psi: f64, part: &mut dyn FnMut([f64; 2], [Option<Binding>; 2])) {
     let Some([middle, half]) = arc.circle.setting.tilt else {
         part(arc.ends, arc.bindings);
@@ -107,7 +144,7 @@ fn inclinations(
     }
 }
 
-/// Intervals in order, those that meet made one.
+/// Sorts the intervals and unites those that meet.
 fn joined(mut found: Vec<Interval>) -> Vec<Interval> {
     found.sort_by(|a, b| a.ends[0].total_cmp(&b.ends[0]).then(a.ends[1].total_cmp(&b.ends[1])));
     let mut joined: Vec<Interval> = Vec::with_capacity(found.len());

@@ -1,4 +1,4 @@
-//! A set of part points: its volume, and its surface by marching tetrahedra.
+//! A region of part points: its volume, and its surface by marching tetrahedra.
 
 use super::super::measure::Volume;
 use super::super::observer::{Observer, go_on};
@@ -8,27 +8,27 @@ use super::crossings::EDGES;
 use super::slab::Crossing;
 use crate::pose::Point;
 
-/// A set of part points.
+/// A region of part points.
 ///
-/// The surface is that of the tetrahedra around the diagonals of the grid's cubes, each cut between
-/// its corners inside and outside: closed whatever the set, and a manifold. Its corners lie on the
-/// grid's edges, less than 1/500 of an edge from the true surface; what is smaller than a cell may
-/// not appear.
+/// The surface consists of cuts through the six tetrahedra around the diagonals of the grid's cubes, between corners
+/// inside and corners outside. It is closed and a manifold for any region. Its vertices lie on edges of the
+/// tetrahedra, less than 1/500 of an edge from the true surface. A part of the region that is smaller than a cell may
+/// be missing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
-    /// Volume, by integration and not from the surface.
+    /// The volume, by integration over the region, not from the surface.
     pub volume: Volume,
-    /// Corners of the surface in the part frame, mm.
+    /// Vertices of the surface in the part frame, mm.
     pub positions: Vec<Point>,
-    /// Numbers of the triangles' corners, counter-clockwise seen from outside; every edge belongs to
-    /// two triangles that run along it in opposite directions.
+    /// Vertex numbers of each triangle, counter-clockwise seen from outside. Every edge belongs to two triangles that
+    /// run along it in opposite directions.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// The corners of the six tetrahedra: from the cube's first corner to its last, by one axis after
-/// the other; the orders of the axes that are even, then those that are odd.
+/// The corners of the six tetrahedra: from the cube's first corner to its last, along one axis after the other. First
+/// the even permutations of the axes, then the odd ones.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
-/// Even orders of a tetrahedron's corners, by which of them is inside alone, or which two are.
+/// Even permutations of a tetrahedron's corners, by the one corner inside, or by the two corners inside.
 const ALONE: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]];
 const PAIRS: [[usize; 4]; 6] =
     [[0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [1, 2, 0, 3], [1, 3, 2, 0], [2, 3, 0, 1]];

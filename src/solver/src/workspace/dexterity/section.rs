@@ -1,6 +1,6 @@
-//! The tool's workspace at a fixed x: a plane region between two graphs.
+//! The tool's workspace at constant x: a plane region between two graphs.
 //!
-//! U is taken from the table's tilting axis: eta = U_y and zeta = U_z - da, down.
+//! The tool centre point U is measured from the table's tilting axis: eta = U_y and zeta = U_z - da, down.
 
 use super::super::column::Column;
 use super::super::domain::{Binding, Domain};
@@ -11,17 +11,17 @@ use super::floor::Floor;
 use crate::clearance::Clearance;
 use crate::machine::Machine;
 
-/// Segments of a line x = const on which its part in the plane domain is looked for.
+/// Number of segments of a line x = const on which its intervals in the plane domain are searched.
 const SEGMENTS: u32 = 53;
-/// Looks along a piece at first, and at most.
+/// Number of samples along a piece, at first and at most.
 const LOOKS: [u32; 2] = [64, 1_024];
-/// What the cubics between looks may be off, mm; of alpha, times the machine's size.
+/// Greatest error of the cubics between samples, mm; for alpha, times the machine's size.
 const PRECISE: f64 = 1e-7;
-/// Room around the values looked at, as a part of their range.
+/// Margin around the range of sampled values, as a fraction of it.
 const ROOM: f64 = 0.1;
-/// Jacobian of the part's map below which a piece is looked at for folds.
+/// Jacobian determinant of the part's map below which a piece is examined for folds.
 const UPRIGHT: f64 = 0.05;
-/// Any tolerance: a domain is not drawn here.
+/// An arbitrary tolerance: no surface is made here.
 const NO_TOLERANCE: f64 = 1.0;
 
 /// A machine with a tool, and its plane domain.
@@ -31,28 +31,28 @@ pub(super) struct Setting<'a> {
     pub(super) length: f64,
     /// Middle and half of the tilting range; `None` if it is a whole turn.
     pub(super) tilt: Option<[f64; 2]>,
-    /// The rotary angle is out of its range.
+    /// Whether the rotary angle is out of its range.
     pub(super) empty: bool,
-    /// The table's plane, where it is a limit.
+    /// The table's plane, if it is a limit.
     pub(super) floor: Option<Floor<'a>>,
 }
 
-/// A part of the domain's line x = const on which eta goes one way with y.
+/// A part of the domain's line x = const on which eta is monotone in y.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    /// eta ascending.
+    /// The samples, by ascending eta.
     looks: Vec<Look>,
-    /// Least and greatest alpha looked at, with room for what lies between the looks.
+    /// Least and greatest sampled alpha, with a margin for the values between the samples.
     pub(super) alphas: [f64; 2],
-    /// Least and greatest zeta looked at, with the same room.
+    /// Least and greatest sampled zeta, with the same margin.
     pub(super) zetas: [f64; 2],
-    /// What ends the domain at the least and the greatest eta.
+    /// The constraints that end the domain at the least and the greatest eta.
     pub(super) bindings: [Option<Binding>; 2],
     /// Whether the part's map may fold.
     pub(super) folds: bool,
 }
 
-/// A place of a piece.
+/// A sample of a piece.
 #[derive(Clone, Copy, Debug)]
 struct Look {
     eta: f64,
@@ -65,7 +65,7 @@ struct Look {
 
 /// zeta - rho of the three sliders, mm, and alpha.
 pub(super) type Values = [f64; 4];
-/// Which of them is alpha.
+/// The index of alpha among them.
 pub(super) const ALPHA: usize = 3;
 
 impl<'a> Setting<'a> {
@@ -80,7 +80,7 @@ impl<'a> Setting<'a> {
             tool_radius: 0.0,
             tolerance: NO_TOLERANCE,
         };
-        // The table's limits are those of the part's domain; here they depend on more than a column.
+        // The table's limits belong to the part's domain. Here they depend on more than a column.
         let part = Domain::new(machine, &question(Kind::Part), None);
         let domain = Domain::new(machine, &question(Kind::Tool), None);
         let clearance = Clearance::of(machine, table_clearance, tool_length, tool_radius);
@@ -142,7 +142,7 @@ impl<'a> Setting<'a> {
         Piece { looks, alphas, zetas, bindings: [name(low), name(high)], folds }
     }
 
-    /// Looks so dense that cubics between them are precise half-way.
+    /// Samples that are so dense that the cubics between them are precise half-way.
     fn looks(&self, x: f64, [low, high]: [f64; 2]) -> Vec<Look> {
         let mut count = LOOKS[0];
         let look = |n: u32, of: u32| self.look([x, low + (high - low) * (f64::from(n) / f64::from(of))]);
@@ -228,7 +228,7 @@ impl Piece {
             + 6.0 * t * (1.0 - t) * rise / width
     }
 
-    /// The looks beside eta and its part of the way between them.
+    /// The samples next to eta, and its fraction of the way between them.
     #[inline]
     fn around(&self, eta: f64) -> ([&Look; 2], f64) {
         let next = self.looks.partition_point(|look| look.eta <= eta).clamp(1, self.looks.len() - 1);
@@ -236,20 +236,20 @@ impl Piece {
         ([a, b], a.part(b, eta))
     }
 
-    /// eta, alpha and the ends' zetas at each look.
+    /// eta, alpha and the ends' zetas at each sample.
     pub(super) fn outline(&self) -> impl Iterator<Item = (f64, f64, [f64; 2])> {
         self.looks.iter().map(|look| (look.eta, look.values[3], look.zetas))
     }
 }
 
 impl Look {
-    /// The part of the way to the next look at which eta lies.
+    /// The fraction of the way to the next sample at which eta lies.
     #[inline]
     fn part(&self, next: &Self, eta: f64) -> f64 {
         ((eta - self.eta) / (next.eta - self.eta)).clamp(0.0, 1.0)
     }
 
-    /// The value of a cubic between two looks, at a part of the way.
+    /// The value of the cubic between two samples, at a fraction of the way.
     #[inline]
     fn cubic(&self, next: &Self, t: f64, n: usize) -> f64 {
         let (width, rest) = (next.eta - self.eta, 1.0 - t);

@@ -1,4 +1,4 @@
-//! A part of the grid, worked on by itself.
+//! Computation of some layers of the grid, independent of the others.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,37 +14,74 @@ use super::{DexterityRequest, Grid};
 use crate::machine::Machine;
 use crate::pose::Point;
 
-/// The nodes of some layers of a grid and the crossings of the edges that begin at them.
+/// The nodes of some layers of a grid, and the crossings of the edges that begin at them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slab {
-    /// Layers along the grid's first axis: from this one up to the other.
+    /// The layers along the grid's first axis.
     pub layers: Range<u32>,
     /// Number of intervals of each node.
     pub counts: Vec<u8>,
-    /// All intervals of phi1, node by node.
+    /// The intervals of phi1 of all nodes, node by node, rad.
     pub intervals: Vec<[f64; 2]>,
-    /// Edges that cross the surface of what is reachable, and of what is dexterous, ascending.
+    /// Crossings of edges with the surface of the reachable region and of the dexterous region, ascending by edge.
     pub crossings: [Vec<Crossing>; 2],
 }
 
-/// Where an edge of the grid crosses a region's surface.
+/// The crossing of a grid edge with a region's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Seven times the number of the node where the edge begins, plus the edge's direction.
     pub edge: u64,
-    /// The place in the part frame, mm.
+    /// Its position in the part frame, mm.
     pub at: Point,
 }
 
-/// A row of nodes along Z: their intervals, and whether each is reachable and dexterous.
+/// A row of nodes along Z: their intervals, and whether each is in the reachable and in the dexterous region.
 pub(super) struct Row {
     pub(super) counts: Vec<u8>,
     pub(super) intervals: Vec<[f64; 2]>,
     pub(super) inside: Vec<[bool; 2]>,
 }
 
-/// The layers of a grid with these numbers. What is computed of a layer does not depend on which
-/// others belong to the slab.
+/// Computes some layers of a grid. A layer's result does not depend on which other layers belong to the slab. Layers
+/// beyond the grid are left out.
+///
+/// # Units
+///
+/// Millimetres and radians.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN), the range of phi1 is
+///   not ordered or longer than a revolution, or the cell is below 0.1 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), (27); the
+/// intervals are derived in the [workspace documentation](crate::workspace).
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::dexterity::{DexterityRequest, Grid, slab};
+/// use verne_solver::workspace::{Unobserved, WorkspaceError};
+///
+/// let request = DexterityRequest {
+///     tool_length: 150.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     phi2: 0.0,
+///     phi1: [-0.5, 0.5],
+///     cell: 200.0,
+/// };
+/// let machine = Machine::verne();
+/// let grid = Grid::new(&machine, &request, &Unobserved)?;
+/// let part = slab(&machine, &request, &grid, 0..2, &Unobserved)?;
+/// assert_eq!(part.counts.len(), 2 * (grid.counts[1] * grid.counts[2]) as usize);
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn slab(
     machine: &Machine,
     request: &DexterityRequest,
@@ -94,7 +131,7 @@ pub fn slab(
     Ok(slab)
 }
 
-/// Progress through the layers: the nodes of one are twice the work of its edges.
+/// Progress through the layers. The nodes of a layer are twice as much work as its edges.
 struct Done<'a> {
     count: AtomicUsize,
     whole: usize,
@@ -108,7 +145,7 @@ impl Done<'_> {
     }
 }
 
-/// What a slab is computed from.
+/// The input of a slab's computation.
 pub(super) struct Work<'a> {
     pub(super) setting: &'a Setting<'a>,
     pub(super) request: &'a DexterityRequest,
@@ -142,7 +179,7 @@ impl Work<'_> {
         row.inside.push(inside.map(|inside| inside && !self.grid.outermost(number)));
     }
 
-    /// Whether a point with these intervals is reachable, and dexterous.
+    /// Whether a point with these intervals is reachable, and whether it is dexterous.
     pub(super) fn inside(&self, intervals: &[[f64; 2]]) -> [bool; 2] {
         [!intervals.is_empty(), intervals == [self.request.phi1]]
     }

@@ -1,5 +1,5 @@
-//! Volumes by integration: over x, over the radius about the tilting axis, and in closed form over
-//! the angle psi.
+//! Volumes of the two regions: numerical integration over x and over the radius about the tilting axis, closed form
+//! over the angle psi.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -14,22 +14,62 @@ use super::angles::angles;
 use super::section::{Piece, Setting};
 use crate::machine::Machine;
 
-/// Sections looked at for the range of x.
+/// Number of sections from which the range of x is found.
 const SECTIONS: u32 = 96;
-/// Panels along x and along the radius, halved where they have to be.
+/// Panels along x and along the radius, and how often each may be halved.
 const PANELS: [u32; 2] = [8, 4];
 const DEPTH: [u32; 2] = [2, 6];
 /// Aim of the relative error.
 const ACCURACY: f64 = 5e-4;
-/// Errors are given larger than they are estimated.
+/// Factor by which the stated errors exceed the estimates.
 const SAFETY: f64 = 2.0;
-/// Halvings of the place where the set begins or ends along x.
+/// Bisection steps for the x at which the set begins or ends.
 const HALVINGS: u32 = 40;
 
-/// Volumes of what is reachable and of what is dexterous, with bounds of their errors.
+/// Computes the volumes of what some phi1 of the range reaches and of what every phi1 of the range reaches. The errors
+/// are twice the quadrature's estimates, not bounds.
 ///
-/// A region narrower than a hundredth of the machine along x may be missed.
-/// [`Volume::Folded`] where the part's map folds.
+/// A region narrower than a hundredth of the machine along x may be missed. The answer is [`Volume::Folded`] if the
+/// part's map may fold.
+///
+/// # Units
+///
+/// mm³.
+///
+/// # Errors
+///
+/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN), the range of phi1 is
+///   not ordered or longer than a revolution, or the cell is below 0.1 mm.
+/// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), (27); the
+/// intervals are derived in the [workspace documentation](crate::workspace).
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::workspace::dexterity::{DexterityRequest, volumes};
+/// use verne_solver::workspace::{Unobserved, WorkspaceError};
+///
+/// let request = DexterityRequest {
+///     tool_length: 150.0,
+///     table_clearance: None,
+///     tool_radius: 0.0,
+///     phi2: 0.0,
+///     phi1: [-0.5, 0.5],
+///     cell: 200.0,
+/// };
+/// let machine = Machine::verne();
+/// use verne_solver::workspace::Volume;
+///
+/// let [some, all] = volumes(&machine, &request, &Unobserved)?;
+/// let value = |volume| if let Volume::Value { value, .. } = volume { value } else { f64::NAN };
+/// assert!(value(all) < value(some));
+/// # Ok::<(), WorkspaceError>(())
+/// ```
 pub fn volumes(
     machine: &Machine,
     request: &DexterityRequest,
@@ -109,7 +149,7 @@ impl Work<'_> {
         Ok(ranges)
     }
 
-    /// Where sections end between one that is not empty and one that is.
+    /// Finds the x between `inside` and `outside` beyond which sections are empty.
     fn end(&self, mut inside: f64, mut outside: f64) -> Result<f64, WorkspaceError> {
         for _ in 0..HALVINGS {
             go_on(self.observer)?;
@@ -119,7 +159,7 @@ impl Work<'_> {
         Ok(inside)
     }
 
-    /// A first value, for the scale of the errors.
+    /// A rough value, which sets the scale of the allowed errors.
     fn rough(&self, [from, to]: [f64; 2]) -> Result<[f64; 2], WorkspaceError> {
         let mut sum = [0.0; 2];
         for part in [0.1, 0.3, 0.5, 0.7, 0.9] {
@@ -158,7 +198,7 @@ impl Work<'_> {
         Ok((sum, folded || first || second))
     }
 
-    /// Areas of a section's reachable and dexterous parts, and whether its map may fold.
+    /// Computes the areas of a section's reachable and dexterous parts, and whether the part's map may fold there.
     fn area(&self, x: f64, allowed: &[f64; 2]) -> Result<(Integral<2>, bool), WorkspaceError> {
         let section = self.setting.section(x);
         let mut sum = Integral::ZERO;

@@ -1,8 +1,8 @@
 //! The table's plane as a limit of columns.
 //!
-//! For a fixed orientation of the tool the limit is a plane Z = const for the tool centre point: the
-//! floor. On a column Z is linear in the platform's z, so the floor is one more bound of the column:
-//! from above as z points down, and from below where theta1 is beyond a quarter turn.
+//! For a fixed orientation of the tool the limit is a plane Z = const for the tool centre point: the floor. Along a
+//! column Z is linear in the platform's z. So the floor is one more bound of the column: from above, because z points
+//! down, and from below if theta1 is beyond a quarter turn.
 
 use super::{BY_TABLE, Binding, Domain, half_turn, stroke_binding};
 use crate::limit::{Constraint, Element};
@@ -11,7 +11,7 @@ use crate::workspace::column::Column;
 use crate::workspace::image::NOWHERE;
 use crate::workspace::request::Request;
 
-/// Least Z of the tool centre point, and which of tool and joints is lowest there.
+/// Least Z of the tool centre point, and which of tool and joints is lowest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Floor {
     pub(super) least: f64,
@@ -19,7 +19,7 @@ pub(super) struct Floor {
 }
 
 impl Floor {
-    /// The floor of a request, where the table is a limit.
+    /// The floor of a request, if the table is a limit.
     pub(super) fn new(machine: &Machine, request: &Request) -> Option<Self> {
         let clearance = request.clearance(machine)?;
         let (depth, element) = clearance.depth(machine, request.phi1);
@@ -28,7 +28,7 @@ impl Floor {
 }
 
 impl Domain<'_> {
-    /// Height over the floor of the higher end of a column: of the two ends that the strokes leave.
+    /// Height over the floor of the higher of the two ends that the strokes leave of a column.
     pub(in super::super) fn above_table(&self, column: &Column) -> f64 {
         match self.heights(column) {
             Some([low, high]) => low.max(high),
@@ -36,15 +36,15 @@ impl Domain<'_> {
         }
     }
 
-    /// Heights over the floor of the two ends that the strokes leave of a column; `None` without a
-    /// floor, and for a slice, which is above it altogether or below.
+    /// Heights over the floor of the two ends that the strokes leave of a column. `None` without a floor, and for a
+    /// slice, which is entirely above or entirely below it.
     #[inline]
     fn heights(&self, column: &Column) -> Option<[f64; 2]> {
         let level = self.floor_level()?;
         Some(self.stroke_ends(column).map(|z| self.image.point(column, z)[2] - level))
     }
 
-    /// Least Z of the tool centre point of columns; `None` where the table does not bound them.
+    /// Least Z of the tool centre point; `None` if the table does not bound columns.
     #[inline]
     pub(in super::super) fn floor_level(&self) -> Option<f64> {
         self.floor.filter(|_| !self.flat()).map(|floor| floor.least)
@@ -56,11 +56,11 @@ impl Domain<'_> {
         self.floor_level().is_some()
     }
 
-    /// Positive where the table binds the lower sheet, and the upper sheet, of columns in the domain.
+    /// Two functions that are positive where the table binds the lower sheet, and the upper sheet, of columns in the
+    /// domain.
     ///
-    /// Where theta1 is beyond a quarter turn the lower end of a column is the one nearer to the table.
-    /// The other end's height keeps these away from zero along the domain's boundary, where an end
-    /// lies on the floor.
+    /// If theta1 is beyond a quarter turn, the lower end of a column is nearer to the table. The functions contain
+    /// the other end's height so that they do not vanish along the domain's boundary, where an end lies on the floor.
     pub(in super::super) fn floor_creases(&self, column: &Column) -> [f64; 2] {
         match self.heights(column) {
             Some([low, high]) => [(high - low).min(-low), (low - high).min(-high)],
@@ -68,11 +68,11 @@ impl Domain<'_> {
         }
     }
 
-    /// What the floor leaves between the ends that the strokes leave of a column.
+    /// The part of a column, given by the ends that the strokes leave, that is above the floor.
     #[inline]
     pub(super) fn above_floor(&self, column: &Column, [low, high]: [f64; 2]) -> [f64; 2] {
         match self.heights(column) {
-            // The height changes evenly along a column.
+            // The height is linear along a column.
             Some([at_low, at_high]) if at_high < 0.0 && at_high < at_low => {
                 [low, low + (high - low) * (at_low / (at_low - at_high))]
             }
@@ -83,8 +83,7 @@ impl Domain<'_> {
         }
     }
 
-    /// The height to which the floor bounds a column from this side, beyond every stroke where it does
-    /// not.
+    /// The bound of a column by the floor on this side; a value beyond every stroke if the floor does not bound it.
     #[inline]
     pub(super) fn table_bound(&self, column: &Column, upper: bool) -> f64 {
         match self.floor {
@@ -94,7 +93,7 @@ impl Domain<'_> {
         }
     }
 
-    /// What binds a sheet, by its number.
+    /// The constraint that binds a sheet, by its number.
     pub(in super::super) fn sheet_binding(&self, number: u8, high: bool) -> Binding {
         if number == BY_TABLE { self.floor_binding() } else { stroke_binding(number, high) }
     }

@@ -5,15 +5,15 @@ use super::super::domain::Domain;
 use super::super::path::{End, Path};
 use super::super::root;
 
-/// Resolution of an interval's end, as a part of the box it is found in.
+/// Resolution of an interval's end, as a fraction of the box that contains it.
 const RESOLUTION: f64 = 1e-12;
-/// Segments of a box in which the limits may turn.
+/// Segments of a box in which limits may turn.
 const PIECES: u32 = 2;
-/// Leg I's limits: beyond the one that ends the domain the others may not be kept either.
+/// Leg I's limits. Beyond the one that ends the domain the others may be violated too.
 const FIRST: u32 = 0b1111;
 
-/// The feasible intervals. In a box whose limits each rise or fall along y there is at most one,
-/// and it is found; in the others, which are small, a look at some points must do.
+/// Finds the feasible intervals. A box whose limits each rise or fall along y has at most one, and it is found. The
+/// other boxes are small; there the limits are sampled.
 pub(super) fn intervals(domain: &Domain<'_>, cover: &Cover, x: f64) -> Vec<[End; 2]> {
     let mut found: Vec<[End; 2]> = Vec::new();
     cover.line(x, &mut |leaf| {
@@ -42,7 +42,7 @@ fn end(domain: &Domain<'_>, x: f64, y: f64) -> End {
     End { t: y, column: domain.column([x, y]), limit: None }
 }
 
-/// Adds an interval; one that begins where the last one ends, on no limit, continues it.
+/// Adds an interval. If the last one ends where this one begins, without a limit, the two become one.
 fn join(found: &mut Vec<[End; 2]>, interval: [End; 2]) {
     match found.last_mut() {
         Some(last)
@@ -54,7 +54,7 @@ fn join(found: &mut Vec<[End; 2]>, interval: [End; 2]) {
     }
 }
 
-/// The part of a range on which limits are kept that each rise or fall there.
+/// Finds the part of a range on which the limits are kept. Each of them rises or falls there.
 fn clipped(domain: &Domain<'_>, x: f64, [from, to]: [f64; 2], limits: u32) -> Option<[End; 2]> {
     let (mut low, mut high) = (end(domain, x, from), end(domain, x, to));
     let mut left = limits;

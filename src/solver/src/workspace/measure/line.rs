@@ -13,10 +13,10 @@ use crate::limit::Element;
 
 /// Halvings of an interval whose integrand is not smooth.
 const DEPTH: u32 = 6;
-/// Part of the domain's area, or volume, per width, to which a line is integrated.
+/// Accuracy of a line's integral, as a fraction of the domain's area, or volume, per width.
 const ACCURACY: f64 = 1e-9;
 
-/// Extremes over all columns looked at.
+/// Extremes over all columns that the integration visits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Extremes {
     pub(super) jacobian: Option<[f64; 2]>,
@@ -35,9 +35,9 @@ impl Extremes {
     }
 }
 
-/// What a line's integrals are made of: the limits that end its intervals, each with the rods that
-/// are nearest there if it is theirs, and the sliders that bind `z_lo` and `z_hi` along each. Between
-/// lines of equal structure the integrals are smooth in x.
+/// The structure of a line: for each interval the limits that end it (with the nearest rods if a limit is theirs),
+/// and the sliders that bind `z_lo` and `z_hi` along it. Between lines of equal structure the integrals are smooth in
+/// x.
 pub(super) type Structure = Vec<([Option<(usize, Element)>; 2], Vec<[usize; 2]>)>;
 
 /// A line and its feasible intervals, cut where another slider binds.
@@ -98,7 +98,7 @@ impl<'a> Line<'a> {
             lead(&self.domain.column([self.x, a.y + part * (b.y - a.y)]))
         });
         let y = a.y + part * (b.y - a.y);
-        // Where the other sheet, or the third slider, changes as well, both sides have their own.
+        // If the other sheet, or the third slider, changes as well, each side has its own sliders.
         let crease = self.domain.column([self.x, y]);
         let there = self.sliders(&crease);
         let other = 1 - sheet;

@@ -7,20 +7,20 @@ use super::super::quadrature::{Integral, rule};
 use super::super::request::WorkspaceError;
 use super::line::{Extremes, Line, Structure};
 
-/// Lines first looked at besides those at events.
+/// Number of lines that are examined first, besides those at events.
 const LINES: u32 = 40;
-/// Most intervals of x with events that are kept apart.
+/// Greatest number of intervals of x with events that are kept separate.
 const EVENTS: usize = 400;
-/// Width, as a part of the domain's, within which a change of structure is found.
+/// Width within which a change of structure is located, as a fraction of the domain's.
 const RESOLUTION: f64 = 2e-9;
 /// Aim of the relative error of each integral.
 const ACCURACY: f64 = 1e-7;
 /// Halvings of a panel.
 const DEPTH: u32 = 14;
-/// Most lines that are looked at to place changes, and then to refine panels: beyond rounding, where
-/// there is always a difference, no more of them help.
+/// Greatest number of lines that are examined to locate changes, and again to refine panels. Close to rounding there
+/// is always a difference, and more lines do not help.
 const MOST: u32 = 8_000;
-/// Errors are given larger than they are estimated.
+/// Factor by which the stated errors exceed the estimates.
 const SAFETY: f64 = 4.0;
 
 /// Area and signed volume.
@@ -71,7 +71,7 @@ struct Outer<'a> {
     domain: &'a Domain<'a>,
     cover: &'a Cover,
     observer: &'a dyn Observer,
-    /// Lines that may still be looked at.
+    /// Number of lines that may still be examined.
     left: u32,
     extremes: Extremes,
 }
@@ -82,13 +82,13 @@ impl Outer<'_> {
         Ok(Line::new(self.domain, self.cover, x))
     }
 
-    /// The x of the lines that are looked at: evenly spaced ones, and around every event.
+    /// The x of the lines that are examined first: evenly spaced ones, and around every event.
     fn places(&self, [x0, x1]: [f64; 2]) -> Vec<f64> {
         let step = (x1 - x0) / f64::from(LINES);
         let mut places: Vec<f64> = (1..LINES).map(|number| x0 + step * f64::from(number)).collect();
         let mut events: Vec<[f64; 2]> = events(self.cover).map(|([x, _], _)| x).collect();
         events.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        // Events that are many are not told apart where they are close.
+        // Many events are not kept separate where they are close.
         let least = if events.len() > EVENTS { (x1 - x0) / f64::from(LINES) / 10.0 } else { 0.0 };
         let mut last: Option<[f64; 2]> = None;
         for event in events {
@@ -125,7 +125,7 @@ impl Outer<'_> {
             last = Some((x, structure, value));
         }
         found.push(x1);
-        // Changes that cannot be told apart are one.
+        // Changes that are closer than the resolution are one.
         found.dedup_by(|b, a| *b - *a <= 2.0 * RESOLUTION * (x1 - x0));
         Ok((found, rough))
     }
@@ -146,7 +146,7 @@ impl Outer<'_> {
             return Ok(());
         }
         if self.left == 0 {
-            // What is between must do as a panel.
+            // The interval between becomes a panel.
             found.extend([a, b]);
             return Ok(());
         }
@@ -156,7 +156,7 @@ impl Outer<'_> {
         self.change([middle, b], [&between, new], least, found)
     }
 
-    /// A panel, accepted where its two halves confirm it: what lies between all lines of one rule, or
+    /// Integrates a panel. It is accepted if its two halves confirm it: a feature between all lines of one rule, or
     /// beside its last one, shows in the other.
     fn panel(
         &mut self,

@@ -7,7 +7,7 @@ use super::leaf::Leaf;
 use super::site::{Site, value};
 use crate::pose::Point;
 
-/// Part of the tolerance that a chord may be off its curve, half-way or at a quarter.
+/// Fraction of the tolerance by which a chord may be off its curve, half-way or at a quarter.
 const CLOSE: f64 = 0.4;
 /// Halvings of a chord.
 const DEPTH: u32 = 16;
@@ -56,8 +56,8 @@ fn halve(
     halve(leaf, curve, [middle, to], depth - 1, points)
 }
 
-/// Whether a chord is close enough to its curve on both sheets, and the ruled wall over the curve
-/// to the two triangles that stand for it.
+/// Whether a chord is close enough to its curve on both sheets, and the ruled wall over the curve to its two
+/// triangles.
 fn close(leaf: &Leaf<'_>, curve: usize, a: &Site, b: &Site) -> bool {
     let allowed = CLOSE * leaf.tolerance;
     let (first, last) = (a.ends(leaf.domain), b.ends(leaf.domain));
@@ -76,14 +76,14 @@ fn close(leaf: &Leaf<'_>, curve: usize, a: &Site, b: &Site) -> bool {
     })
 }
 
-/// About how many chords stand for a wall of this height along which the columns turn by this
-/// angle, rad: each may be off by its part of the tolerance.
+/// The approximate number of chords for a wall of this height along which the columns turn by this angle, rad. Each
+/// may be off by its fraction of the tolerance.
 pub(super) fn chords(turn: f64, height: f64, tolerance: f64) -> f64 {
     0.25 * height * turn / (CLOSE * tolerance)
 }
 
-/// The point of a curve beside a part of a chord: on the chord's perpendicular there, or the
-/// chord's own point if the curve is not near.
+/// The point of a curve near a position on a chord: on the perpendicular to the chord, or the chord's own point if
+/// the curve is not near.
 pub(super) fn drawn(domain: &Domain<'_>, curve: usize, [a, b]: [[f64; 2]; 2], part: f64) -> [f64; 2] {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let on = |off: f64| [a[0] + part * dx - off * dy, a[1] + part * dy + off * dx];

@@ -1,22 +1,21 @@
-//! Triangles of a polygon, by cutting off its best ears.
+//! Triangulation of a polygon by ear clipping, best ears first.
 
 use super::super::observer::Pace;
 use super::super::request::WorkspaceError;
 use super::site::Site;
 
-/// What lessens an ear's worth: a cut between two points at which the sheets meet, a point inside,
-/// and a corner that is not convex, whose cut may be another polygon's side.
+/// Penalties of an ear: a cut between two points at which the sheets meet, a point inside, and a corner that is not
+/// convex, whose cut may be another polygon's side.
 const MEETING: f64 = 2.0;
 const COVERING: f64 = 4.0;
 const REFLEX: f64 = 8.0;
-/// A cut that is an edge of another triangle already: the surface would not be one.
+/// Penalty of a cut that is already an edge of another triangle: the surface would not be a manifold.
 const TAKEN: f64 = 16.0;
 
-/// Triangles, counter-clockwise, by the polygon's own numbers: always two fewer than its points.
-/// `taken` tells which pairs of points are joined by an edge elsewhere.
+/// The triangles, counter-clockwise, by the polygon's own numbers: always two fewer than its points. `taken` says
+/// which pairs of points an edge elsewhere joins.
 ///
-/// Each cut changes two ears, and those that its point made worth less; so the time is quadratic in
-/// the points.
+/// Each cut changes two ears, and those that its point penalised. So the time is quadratic in the number of points.
 pub(super) fn triangulate(
     polygon: &[&Site],
     taken: impl Fn(usize, usize) -> bool,
@@ -59,7 +58,7 @@ struct Ear {
     covers: Option<usize>,
 }
 
-/// The first of those that are worth most.
+/// The first of the best ears.
 fn best(ears: &[Ear]) -> usize {
     let first = (0, f64::NEG_INFINITY);
     let better =
@@ -73,7 +72,7 @@ struct Outline<'a, F> {
 }
 
 impl<F: Fn(usize, usize) -> bool> Outline<'_, F> {
-    /// How good an ear is: its area over its sides' squares, less what is wrong with it.
+    /// The score of an ear: its area over the sum of its sides' squares, less its penalties.
     fn ear(&self, left: &[usize], i: usize, pace: &mut Pace<'_>) -> Result<Ear, WorkspaceError> {
         let count = left.len();
         let around = [i + count - 1, i, i + 1].map(|n| left[n % count]);
@@ -157,7 +156,7 @@ mod tests {
             .collect()
     }
 
-    /// A corner is looked at again where a cut has changed it, not after each cut.
+    /// An ear is scored again where a cut has changed it, not after every cut.
     #[test]
     fn corners_are_looked_at_a_few_times() {
         for points in [4, 50, 400] {

@@ -1,4 +1,4 @@
-//! The squares' patches made one.
+//! Joining of the squares' patches to one plane.
 
 use super::super::domain::Domain;
 use super::super::observer::Pace;
@@ -52,7 +52,7 @@ fn number(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }
 
-/// The sides that have the domain on their left only.
+/// The sides with the domain on their left only.
 fn outer(rims: Vec<Rim>, pace: &mut Pace<'_>) -> Result<Vec<Rim>, WorkspaceError> {
     let directed = directed(&rims, pace)?;
     let mut outer = Vec::new();
@@ -76,13 +76,13 @@ fn directed(rims: &[Rim], pace: &mut Pace<'_>) -> Result<Set<[u32; 2]>, Workspac
 }
 
 impl Plane {
-    /// An inner edge between two points at which the sheets meet would belong to both sheets: it
-    /// is halved, and its middle is a vertex of each.
+    /// Halves inner edges between two points at which the sheets meet: such an edge would belong to both sheets. The
+    /// middle becomes a vertex of each sheet.
     fn part_sheets(&mut self, domain: &Domain<'_>, pace: &mut Pace<'_>) -> Result<(), WorkspaceError> {
         let rims = directed(&self.rims, pace)?;
         let mut middles: Table<[u32; 2], u32> = Table::default();
         let mut numbers: Vec<usize> = (0..self.triangles.len()).collect();
-        // A triangle may have several such edges: its parts are looked at again.
+        // A triangle may have several such edges, so its parts are examined again.
         while let Some(which) = numbers.pop() {
             pace.step()?;
             let corners = self.triangles[which].corners;

@@ -1,8 +1,8 @@
 //! A triangle that is simple and flat enough, cut along the curves that cross it.
 //!
-//! The limits cut first and what is outside is dropped; then the creases cut, and both sides stay.
-//! A new point on an edge of the triangle is found from that edge alone, and the signs of all
-//! curves along it follow from its ends: the triangle on the other side cuts it alike.
+//! First the limits cut, and the outside is discarded. Then the creases cut, and both sides stay. A new point on an
+//! edge of the triangle follows from that edge alone, and the signs of all curves along the edge follow from its
+//! ends. So the triangle on the other side is cut alike.
 
 mod deliver;
 
@@ -15,10 +15,10 @@ use super::patch::Patch;
 use super::refine::Refinement;
 use super::site::{CREASES, CURVES, FLOOR, Site, value};
 
-/// Resolution of a point on an edge, as a part of the edge.
+/// Resolution of a point on an edge, as a fraction of the edge.
 const RESOLUTION: f64 = 1e-12;
 
-/// Heights that differ by less, in units of the machine, are the same where two curves meet.
+/// Difference of heights, in units of the machine, below which they are the same where two curves meet.
 const SAME: f64 = 1e-9;
 
 /// A polygon by the numbers of its sites, counter-clockwise.
@@ -62,7 +62,7 @@ impl<'a> Leaf<'a> {
         Self { domain, tolerance, observer, sites, pieces: vec![piece], divided: Vec::new() }
     }
 
-    /// Cuts, and leaves the result in the patch.
+    /// Cuts the triangle and adds the result to the patch.
     pub(super) fn cut_into(mut self, patch: &mut Patch) -> Result<(), WorkspaceError> {
         go_on(self.observer)?;
         for limit in 0..LIMITS {
@@ -85,8 +85,8 @@ impl<'a> Leaf<'a> {
     }
 
     fn cut(&mut self, curve: usize, keep: bool) -> Result<(), WorkspaceError> {
-        // A sheet's creases end where the table takes over, and the second one at the first, where
-        // slider 1 does.
+        // A sheet's creases end where the table begins to bind. The second one also ends at the first, where slider 1
+        // begins to bind.
         let crease = (CREASES..FLOOR).contains(&curve).then(|| curve - CREASES);
         let before = [
             crease.map(|crease| FLOOR + crease / 2),
@@ -109,7 +109,7 @@ impl<'a> Leaf<'a> {
         Ok(())
     }
 
-    /// On which side of a curve a piece lies that the curve does not cut.
+    /// The sign of a curve's function on a piece that the curve does not cut.
     fn side(&self, curve: usize, piece: &[usize]) -> f64 {
         let values = piece.iter().map(|&site| self.sites[site].values[curve]);
         values.fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most })
@@ -127,7 +127,7 @@ impl<'a> Leaf<'a> {
         for (i, &a) in piece.iter().enumerate() {
             let b = piece[(i + 1) % piece.len()];
             ring.push(a);
-            // Not by the product: values may be so small that it vanishes.
+            // The product of the values is not used, because it may underflow to zero.
             let [first, last] = [a, b].map(|site| self.sites[site].values[curve]);
             if first < 0.0 && last > 0.0 || first > 0.0 && last < 0.0 {
                 ring.push(self.crossing(curve, a, b));
@@ -135,7 +135,7 @@ impl<'a> Leaf<'a> {
         }
         let joined = self.joined(curve, &ring);
         let (inner, cut_off) = self.split(curve, &ring, joined)?;
-        // What is cut off is negative where the positive side is joined, and positive else.
+        // The parts cut off are negative if the positive side is joined, and positive otherwise.
         if joined {
             pieces.extend(inner);
             if keep {
@@ -150,7 +150,7 @@ impl<'a> Leaf<'a> {
         Ok(())
     }
 
-    /// Whether the positive parts of a ring hang together between several negative ones.
+    /// Whether the positive parts of a ring are connected between several negative ones.
     fn joined(&self, curve: usize, ring: &[usize]) -> bool {
         let zeros: Vec<[f64; 2]> = ring
             .iter()
@@ -165,8 +165,8 @@ impl<'a> Leaf<'a> {
         value(self.domain, curve, &self.domain.column(centre)) >= 0.0
     }
 
-    /// Cuts off the runs of one sign: negative ones if the positive side is `joined`. Returns the
-    /// rest, if it has an area, and the parts cut off.
+    /// Cuts off the runs of one sign: the negative ones if the positive side is `joined`. Returns the remainder, if
+    /// it has an area, and the parts cut off.
     fn split(
         &mut self,
         curve: usize,
@@ -249,14 +249,14 @@ impl<'a> Leaf<'a> {
         site
     }
 
-    /// Where two curves meet: a and b lie on `first`, and `curve` changes its sign between them.
+    /// The point where two curves meet: a and b lie on `first`, and `curve` changes its sign between them.
     fn junction(&self, curve: usize, first: usize, a: &Site, b: &Site) -> Site {
         let drawn = |part: f64| bend::drawn(self.domain, first, [a.at(), b.at()], part);
         let part = root::zero(a.values[curve], b.values[curve], RESOLUTION, |part| {
             value(self.domain, curve, &self.domain.column(drawn(part)))
         });
         let mut site = Site::new(self.domain, drawn(part));
-        // Where two limits of the strokes meet, a crease of the sheet they share ends.
+        // A crease of the common sheet ends where two limits of the strokes meet.
         for value in &mut site.values[CREASES..] {
             if value.abs() <= SAME * self.domain.machine.derived.scale {
                 *value = 0.0;
@@ -267,7 +267,7 @@ impl<'a> Leaf<'a> {
         site
     }
 
-    /// A piece with the points by which its neighbours' sides were divided.
+    /// A piece with the points that divide its neighbours' sides.
     fn with_divisions(&self, piece: &[usize]) -> Piece {
         let mut whole = Piece::with_capacity(piece.len());
         for (i, &a) in piece.iter().enumerate() {
@@ -287,8 +287,7 @@ impl<'a> Leaf<'a> {
     }
 }
 
-/// A curve's value at a point of an edge, as the values at the edge's ends tell it: of their sign
-/// where they agree.
+/// A curve's value at a point of an edge, with the sign of the values at the edge's ends where they agree.
 fn between(a: f64, b: f64, value: f64) -> f64 {
     if a == 0.0 && b == 0.0 {
         0.0

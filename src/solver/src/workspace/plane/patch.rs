@@ -1,4 +1,4 @@
-//! What the work on one part of the plane leaves behind.
+//! The result of the work on one part of the plane.
 
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
@@ -7,10 +7,10 @@ use super::super::domain::Domain;
 use super::site::Site;
 use crate::pose::Point;
 
-/// The bits of a point's coordinates: points are the same where these are.
+/// The bits of a point's coordinates. Points with equal bits are the same.
 pub(super) type Key = [u64; 2];
 
-/// Hashes a [`Key`]; the order of the table is never looked at.
+/// Hashes a [`Key`]. Nothing depends on the order of the table.
 #[derive(Default)]
 pub(super) struct Mixer(u64);
 
@@ -48,7 +48,7 @@ pub(in super::super) struct Vertex {
     pub(in super::super) at: [f64; 2],
     /// Lower and upper.
     pub(in super::super) ends: [Point; 2],
-    /// The two ends are one.
+    /// Whether the two ends are the same point.
     pub(in super::super) pinched: bool,
 }
 
@@ -72,10 +72,10 @@ pub(in super::super) struct Rim {
 pub(super) struct Patch {
     pub(super) vertices: Vec<Vertex>,
     pub(super) triangles: Vec<Triangle>,
-    /// Sides on limits; those that occur in both directions are inside.
+    /// Sides on limits. A side that occurs in both directions is inside the domain.
     pub(super) rims: Vec<Rim>,
     numbers: Table<Key, u32>,
-    /// Midpoints of edges met once, kept for the triangle on the other side.
+    /// Midpoints of edges that occurred once, kept for the triangle on the other side.
     middles: Table<Key, Site>,
 }
 
@@ -96,7 +96,7 @@ impl Patch {
         2 * (self.triangles.len() + self.rims.len())
     }
 
-    /// Drops what only the work itself needed.
+    /// Discards data that only the work itself needed.
     pub(super) fn forget(&mut self) {
         self.numbers = Table::default();
         self.middles = Table::default();

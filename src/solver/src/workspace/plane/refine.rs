@@ -1,7 +1,7 @@
 //! Adaptive triangles: each is halved until it is simple and flat enough.
 //!
-//! Whether an edge is halved depends on that edge alone, so that the two triangles at it agree
-//! without knowing of each other, and parts of the plane can be worked on in any order.
+//! The decision to halve an edge depends on that edge alone. So both triangles at it agree, and parts of the plane
+//! can be refined in any order.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -17,31 +17,31 @@ use super::patch::Patch;
 use super::site::{CREASES, CURVES, FLOOR, Site, value};
 use crate::pose::Point;
 
-/// Part of the tolerance that an edge's midpoint may be off; inside a triangle whose edges are all
-/// off by as much, a paraboloid is off by 4/3 of it.
+/// Fraction of the tolerance by which an edge's midpoint may be off. Inside a triangle whose edges are all off by as
+/// much, a paraboloid is off by 4/3 of it.
 const FLAT: f64 = 0.7;
-/// Shortest edge halved because a limit may vanish twice on it, and because a sheet is curved, in
-/// units of the tolerance.
+/// Shortest edge that is halved because a limit may vanish twice on it, and because a sheet is curved, in units of
+/// the tolerance.
 const SHORTEST: [f64; 2] = [1.0, 0.02];
 
-/// Part of the tolerance by which a curve may cross an edge and come back, and by which slider 1
-/// may bind between the others.
+/// Fraction of the tolerance by which a curve may cross an edge and come back, and by which slider 1 may bind between
+/// the others.
 const SHALLOW: f64 = 0.25;
-/// Longest edge beside which nothing is hidden, over the size of the boxes that it crosses.
+/// Longest edge near which nothing is hidden, over the size of the boxes that it crosses.
 const GRAIN: f64 = 2.0;
-/// Step beside an edge that shows a limit's gradient, in units of the edge.
+/// Step perpendicular to an edge for the gradient of a limit, in units of the edge.
 const STEP: f64 = 1e-4;
 
-/// Precision of the place where sliders 2 and 3 change, as a part of the edge.
+/// Precision of the point where the binding changes between sliders 2 and 3, as a fraction of the edge.
 const CHANGE: f64 = 1e-6;
 /// Width of a triangle that is not refined any more, in units of the tolerance.
 const THIN: f64 = 0.01;
 
-/// Most chords that the wall over an edge may need where a limit crosses the edge: cutting a
-/// triangle takes a time that is quadratic in the points that it gets.
+/// Greatest number of chords that the wall over an edge may need if a limit crosses the edge. The time to cut a
+/// triangle is quadratic in its number of points.
 const CHORDS: f64 = 256.0;
 
-/// What becomes of an edge.
+/// The decision about an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Edge {
     Kept,
@@ -54,7 +54,7 @@ pub(super) struct Refinement<'a> {
     pub(super) domain: &'a Domain<'a>,
     pub(super) cover: &'a Cover,
     pub(super) tolerance: f64,
-    /// Most triangles of a surface over the plane, and how many there are so far.
+    /// Greatest number of triangles of a surface over the plane, and the number so far.
     pub(super) most: usize,
     pub(super) made: &'a AtomicUsize,
     pub(super) observer: &'a dyn Observer,
@@ -91,8 +91,8 @@ impl Refinement<'_> {
         }
     }
 
-    /// Whether a triangle has no width left to halve: beside a point where a limit jumps, outside
-    /// the domain, one of its edges may be kept however often the other two are halved.
+    /// Whether a triangle is too thin to be refined. Near a point where a limit jumps, outside the domain, one of its
+    /// edges may be kept however often the other two are halved.
     fn thin(&self, [a, b, c]: [&Site; 3]) -> bool {
         let ([ax, ay], [bx, by], [cx, cy]) = (a.at(), b.at(), c.at());
         let area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
@@ -154,7 +154,7 @@ impl Refinement<'_> {
         }
     }
 
-    /// Of the edge alone, whichever way round it is given.
+    /// Decides about an edge. The decision depends on the edge alone, in either direction.
     fn edge(&self, a: &Site, middle: &Site, b: &Site) -> Edge {
         let (a, b) = if b.precedes(a) { (b, a) } else { (a, b) };
         let (mut doubtful, mut changes) = (0_u64, false);
@@ -181,15 +181,15 @@ impl Refinement<'_> {
         if halved { Edge::Halved } else { Edge::Kept }
     }
 
-    /// Whether there may be a piece of the domain, or a hole, beside an edge so long that its ends and
+    /// Whether a piece of the domain, or a hole, may be hidden near an edge: the edge is so long that its ends and
     /// its middle do not show it.
     fn hides(&self, [a, b]: [&Site; 2], outside: bool) -> bool {
         let length = length(a, b);
         length > SHORTEST[0] * self.tolerance && length > GRAIN * self.cover.grain([a.at(), b.at()], outside)
     }
 
-    /// Whether a limit's curve may cross an edge twice, or close on itself beside it, by more than
-    /// can be neglected. Its depth beyond the edge is the parabola's over the limit's gradient.
+    /// Whether a limit's curve may cross an edge twice, or close on itself near it, by more than is negligible. Its
+    /// depth beyond the edge is the parabola's depth over the limit's gradient.
     fn crossed(&self, curve: usize, [a, middle, b]: [&Site; 3]) -> bool {
         let values = [a, middle, b].map(|site| site.values[curve]);
         let depth = 0.5 * control(values).abs();
@@ -200,9 +200,9 @@ impl Refinement<'_> {
         depth > SHALLOW * self.tolerance * gradient
     }
 
-    /// Whether slider 1 binds a sheet between an end where slider 2 does and one where slider 3
-    /// does. However straight the sheets, its crease crosses such an edge twice, which the signs at
-    /// the ends do not show; slider 1 binds by most where the other two change.
+    /// Whether slider 1 binds a sheet between an end where slider 2 does and an end where slider 3 does. Its crease
+    /// then crosses the edge twice even if the sheets are straight, and the signs at the ends do not show it. Slider
+    /// 1 binds by most where the binding changes between the other two.
     fn hidden(&self, [a, b]: [&Site; 2]) -> bool {
         [CREASES, CREASES + 2].into_iter().any(|first| {
             let [start, end] = [a, b].map(|site| site.values[first + 1]);
@@ -217,8 +217,8 @@ impl Refinement<'_> {
         })
     }
 
-    /// Whether the wall over the edge would need too many chords: columns that turn along it make
-    /// a ruled surface, which two triangles stand for only where the turn is small.
+    /// Whether the wall over the edge would need too many chords. Columns that turn along it form a ruled surface,
+    /// which two triangles approximate only if the turn is small.
     fn twisted(&self, [a, middle, b]: [&Site; 3]) -> bool {
         let turn = (b.column.s * a.column.c - b.column.c * a.column.s).abs();
         let height = [a, middle, b].iter().fold(0.0, |height: f64, site| {
@@ -228,9 +228,8 @@ impl Refinement<'_> {
         self.domain.image.turns() && bend::chords(turn, height, self.tolerance) > CHORDS
     }
 
-    /// Whether a sheet leaves the edge by more than is allowed. A sheet is judged by every slider
-    /// that binds it on the edge: at a crease the edge will be cut. Where the table binds it, it is
-    /// plane.
+    /// Whether a sheet deviates from the edge by more than is allowed. Every slider that binds the sheet on the edge
+    /// is examined, because the edge will be cut at a crease. Where the table binds the sheet, it is plane.
     fn curved(&self, sites: [&Site; 3]) -> bool {
         let columns = sites.map(|site| &site.column);
         let rates = columns[1].angle_rates(self.domain.machine);

@@ -1,4 +1,4 @@
-//! A point of the plane with everything known about it.
+//! A point of the plane with its column and the values of all curves.
 
 use super::super::column::Column;
 use super::super::domain::{Domain, LIMITS, STROKES, TABLE, TILT};
@@ -72,8 +72,8 @@ pub(super) fn value(domain: &Domain<'_>, curve: usize, column: &Column) -> f64 {
     if curve < LIMITS { domain.value(curve, column) } else { creases(domain, column)[curve - CREASES] }
 }
 
-/// The lower sheet is slider 1's where the first is positive, else slider 2's where the second is;
-/// the upper sheet likewise. Where one of the last two is positive, the table binds the sheet instead.
+/// The functions of the creases. The lower sheet is slider 1's if the first is positive, else slider 2's if the
+/// second is; the upper sheet likewise. If one of the last two is positive, the table binds the sheet instead.
 fn creases(domain: &Domain<'_>, column: &Column) -> [f64; 6] {
     if domain.flat() {
         return [1.0, 1.0, 1.0, 1.0, -1.0, -1.0];

@@ -1,11 +1,11 @@
-//! Whether a workspace is nowhere as thick as the tolerance.
+//! Detection of a workspace that is nowhere as thick as the tolerance.
 
 use super::super::cover::Cover;
 use super::{Plane, Vertex};
 
 impl Plane {
-    /// Whether no column is as high as the tolerance, or the domain is thin: less of it on its boundary's
-    /// length than a disc as wide as the tolerance has, and no box half as wide inside.
+    /// Whether no column is as high as the tolerance, or the domain is thin: its area over the length of its boundary
+    /// is less than that of a disc as wide as the tolerance, and no inside box is half as wide.
     pub(in super::super) fn is_thin(&self, cover: &Cover, tolerance: f64) -> bool {
         let square = |vertex: &Vertex| -> f64 {
             let [low, high] = vertex.ends;

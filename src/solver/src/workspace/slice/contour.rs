@@ -6,19 +6,19 @@ use super::super::column::Column;
 use super::super::domain::Domain;
 use super::super::path::Path;
 
-/// Segments of half an ellipse whose limits are looked at.
+/// Segments of half an ellipse on which the limits are examined.
 const PIECES: u32 = 24;
 /// Halvings of a line.
 const DEPTH: u32 = 16;
-/// Part of the tolerance that a chord may be off.
+/// Fraction of the tolerance by which a chord may be off.
 const CLOSE: f64 = 0.5;
-/// Difference of angles at which the working mode has another one there, rad.
+/// Difference of angles, rad, from which the working mode at a point of the ellipse has another angle.
 const OTHER: f64 = 1e-6;
 
 /// A line on which alpha is constant, within a slice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// alpha, rad.
+    /// The value of alpha, rad.
     pub alpha: f64,
     /// The line's points, mm.
     pub points: Vec<[f64; 2]>,

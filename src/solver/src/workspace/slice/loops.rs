@@ -1,4 +1,4 @@
-//! Sides joined to polygons with holes.
+//! Joining of sides to polygons with holes.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ pub(super) fn polygons(plane: &Plane) -> Vec<Polygon> {
                 .collect()
         })
         .collect();
-    // The domain lies to the left of its sides; the map to the table frame mirrors the plane.
+    // The domain lies to the left of its sides. The map to the part frame mirrors the plane.
     if rings.iter().map(|ring| area(ring)).sum::<f64>() < 0.0 {
         for ring in &mut rings {
             ring.reverse();
@@ -51,7 +51,7 @@ fn rings(plane: &Plane) -> Vec<Vec<u32>> {
     rings
 }
 
-/// Twice-signed: positive for a counter-clockwise ring, mm².
+/// Signed area of a ring, mm²: positive if it is counter-clockwise.
 pub(super) fn area(ring: &[[f64; 2]]) -> f64 {
     let Some(&[ox, oy]) = ring.first() else { return 0.0 };
     let next = ring.iter().cycle().skip(1);
@@ -60,7 +60,7 @@ pub(super) fn area(ring: &[[f64; 2]]) -> f64 {
     0.5 * twice
 }
 
-/// Gives each clockwise ring to the smallest counter-clockwise one around it.
+/// Assigns each clockwise ring to the smallest counter-clockwise ring around it.
 fn nested(rings: Vec<Vec<[f64; 2]>>) -> Vec<Polygon> {
     let (outers, holes): (Vec<_>, Vec<_>) = rings.into_iter().partition(|ring| area(ring) > 0.0);
     let mut polygons: Vec<Polygon> =

@@ -1,18 +1,17 @@
-//! A surface that touches itself, made a manifold.
+//! Conversion of a surface that touches itself to a manifold.
 //!
-//! Parts of the workspace may meet in a point or in an edge. There the surface is cut: each part
-//! gets vertices of its own, in the same place.
+//! Parts of the workspace may meet in a point or in an edge. There the surface is cut: each part gets its own
+//! vertices in the same place.
 
 use super::Surface;
 use super::twins::{Twins, ends};
 use crate::workspace::observer::Pace;
 use crate::workspace::request::WorkspaceError;
 
-/// Leaves every edge with two triangles, which run along it in opposite directions, and every
-/// vertex with one ring of triangles; an error if the surface is not closed. Linear where there
-/// is nothing to do.
+/// Makes every edge belong to two triangles, which run along it in opposite directions, and every vertex to one ring
+/// of triangles. It is an error if the surface is not closed. The time is linear if there is nothing to do.
 pub(super) fn part(surface: &mut Surface, pace: &mut Pace<'_>) -> Result<(), WorkspaceError> {
-    // Each round takes triangles out, ends a crowd or is the last.
+    // Each round removes triangles, separates an edge of more than two triangles, or is the last.
     loop {
         let twins = Twins::of(surface, pace)?;
         if !twins.doubled.is_empty() {
@@ -26,7 +25,7 @@ pub(super) fn part(surface: &mut Surface, pace: &mut Pace<'_>) -> Result<(), Wor
     }
 }
 
-/// A triangle may have several doubles: only whole pairs go.
+/// A triangle may have several duplicates. Only whole pairs are removed.
 fn take_out(
     surface: &mut Surface,
     doubled: &[[usize; 2]],
@@ -41,7 +40,7 @@ fn take_out(
     super::tidy::compact(surface, &kept, pace)
 }
 
-/// Gives each ring of triangles around a vertex its own copy; the first keeps the vertex.
+/// Gives each ring of triangles around a vertex its own copy of the vertex. The first keeps the original.
 fn part_vertices(surface: &mut Surface, twins: &Twins, pace: &mut Pace<'_>) -> Result<(), WorkspaceError> {
     let mut taken = vec![false; surface.positions.len()];
     let mut seen = vec![false; twins.of.len()];
@@ -68,9 +67,9 @@ fn copy(surface: &mut Surface, vertex: u32) -> u32 {
     last(surface)
 }
 
-/// Where sheets touch along an edge and hang together around both its ends, copies of the ends
-/// do not tell the pairs of triangles apart: all pairs but one get a vertex between. Returns
-/// whether there was such an edge.
+/// Separates sheets that touch along an edge and are connected around both its ends. Copies of the ends do not
+/// distinguish the pairs of triangles, so all pairs but one get a vertex in between. Returns whether there was such
+/// an edge.
 fn bisect(surface: &mut Surface, twins: &Twins) -> bool {
     let mut touched = vec![false; if twins.crowds.is_empty() { 0 } else { surface.triangles.len() }];
     let mut found = false;
@@ -81,7 +80,7 @@ fn bisect(surface: &mut Surface, twins: &Twins) -> bool {
             let triangles = pair.map(|side| (side / 3) as usize);
             let same = edges[..i].contains(&edges[i]);
             found |= same;
-            // A triangle that has changed has other sides now: the next round looks at it again.
+            // A changed triangle has other sides now; the next round examines it again.
             if same && !triangles.iter().any(|&triangle| touched[triangle]) {
                 for triangle in triangles {
                     touched[triangle] = true;

@@ -10,8 +10,8 @@ use crate::workspace::request::WorkspaceError;
 /// Longest edge contracted, in units of the tolerance.
 const SHORT: f64 = 0.02;
 
-/// Contracts short edges where the surface stays one: the two ends have only the edge's own two
-/// triangles' corners for common neighbours, no triangle doubles another, and none turns over.
+/// Contracts short edges where the surface stays a manifold: the two ends have no common neighbours but the corners
+/// of the edge's own two triangles, no triangle duplicates another, and none turns over.
 pub(super) fn contract(
     surface: &mut Surface,
     tolerance: f64,
@@ -47,7 +47,7 @@ struct Contraction<'a> {
     surface: &'a mut Surface,
     /// Triangles around the vertices that short edges join.
     around: BTreeMap<u32, Vec<u32>>,
-    /// The vertex that took a vertex's place.
+    /// The vertex that replaces a vertex.
     moved: BTreeMap<u32, u32>,
     kept: Vec<bool>,
 }
@@ -144,7 +144,7 @@ impl<'a> Contraction<'a> {
     }
 }
 
-/// Takes out the triangles that are not kept and the vertices that nothing uses.
+/// Removes the triangles that are not kept, and the vertices that no triangle uses.
 pub(super) fn compact(
     surface: &mut Surface,
     kept: &[bool],

@@ -1,4 +1,4 @@
-//! Which side of a triangle meets which side of another.
+//! Pairing of triangles' sides: which side of a triangle meets which side of another.
 //!
 //! Side h runs from corner h % 3 of triangle h / 3 to the next corner.
 
@@ -51,9 +51,9 @@ impl Twins {
         }
     }
 
-    /// Pairs the sides of an edge at which several sheets meet: the two triangles that have the
-    /// inside between them belong together, so that the surface is cut where it only touches
-    /// itself. Around the edge, upwards, an inside begins at a falling side and ends at a rising.
+    /// Pairs the sides of an edge at which several sheets meet. The two triangles with the inside between them belong
+    /// together, so the surface is cut where it only touches itself. Around the edge, in ascending angle, an inside
+    /// begins at a falling side and ends at a rising side.
     fn crowd(&mut self, surface: &Surface, edge: &[(u32, u32)]) -> Result<(), WorkspaceError> {
         let rising = edge.iter().filter(|(_, side)| rises(surface, *side)).count();
         if 2 * rising != edge.len() {
@@ -62,7 +62,7 @@ impl Twins {
         let mut order = angles(surface, edge);
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let (mut open, mut pairs) = (Vec::new(), Vec::new());
-        // Twice around: an inside may lie over the angle at which the round begins.
+        // The loop goes around twice, because an inside may span the angle at which it begins.
         for (_, side) in order.iter().chain(&order) {
             if self.of[*side as usize] != ALONE {
                 continue;
@@ -84,9 +84,8 @@ impl Twins {
 /// Places of the vertices' edges, and for each side its upper end and its number.
 type Edges = (Vec<usize>, Vec<(u32, u32)>);
 
-/// The sides by their edges: for each vertex the place of the edges that it is the lower end of,
-/// and for each side there the upper end and the side. Counting needs no comparisons, and the
-/// edges of one vertex are few.
+/// The sides by their edges: for each vertex the range of the edges whose lower end it is, and for each side there
+/// its upper end and its number. Counting sort needs no comparisons, and a vertex has few edges.
 fn by_edge(surface: &Surface, sides: u32, pace: &mut Pace<'_>) -> Result<Edges, WorkspaceError> {
     let mut starts = vec![0; surface.positions.len() + 2];
     for side in 0..sides {

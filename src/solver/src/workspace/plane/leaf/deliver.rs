@@ -1,4 +1,4 @@
-//! A leaf's pieces as triangles and sides of the plane.
+//! Conversion of a leaf's pieces to triangles and sides of the plane.
 
 use super::super::super::domain::{BY_TABLE, LIMITS};
 use super::super::super::observer::Pace;
@@ -24,7 +24,7 @@ impl Leaf<'_> {
             }
             outlines.push((piece, numbers));
         }
-        // Where all pieces are triangles already, no edge is asked for.
+        // If all pieces are triangles already, the edges elsewhere do not matter.
         let cuts = outlines.iter().any(|(_, numbers)| numbers.len() > 3);
         let mut edges: Set<[u32; 2]> = Set::default();
         if cuts {
@@ -83,8 +83,8 @@ fn sides(ring: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
     ring.iter().zip(next).map(|(&a, &b)| [a, b])
 }
 
-/// Takes out points that came to lie on their neighbours, and sides that go forth and back. What
-/// is left of the other sides keeps its limit, whichever of the points in one place stays.
+/// Removes points that coincide with their neighbours, and sides that go forth and back. The remaining sides keep
+/// their limits, whichever of the coinciding points stays.
 fn without_spikes(piece: &mut Piece, numbers: &mut Vec<u32>, limits: &mut Vec<Option<u8>>) {
     let mut i = 0;
     while i < numbers.len() && numbers.len() > 2 {
