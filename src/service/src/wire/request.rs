@@ -26,7 +26,7 @@ pub(crate) struct FkRequest {
     /// part frame), mm. Needs theta1. The default is the limit of the machine; if the machine has none, the service
     /// does not check the table.
     #[serde(default)]
-    #[schema(minimum = 0, maximum = 1e7, nullable = false)]
+    #[schema(minimum = 0, maximum = 1e7)]
     pub table_clearance: Option<f64>,
     /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
@@ -61,7 +61,7 @@ pub(crate) struct IkRequest {
     /// part frame), mm. Only frame `part` has it. The default is the limit of the machine; if the machine has none, the
     /// service does not check the table.
     #[serde(default)]
-    #[schema(minimum = 0, maximum = 1e7, nullable = false)]
+    #[schema(minimum = 0, maximum = 1e7)]
     pub table_clearance: Option<f64>,
     /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
     #[serde(default)]
