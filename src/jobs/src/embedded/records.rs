@@ -5,7 +5,6 @@ mod open;
 mod row;
 mod schema;
 
-use std::fs::File;
 use std::time::{Duration, SystemTime};
 
 use rusqlite::{Connection, OptionalExtension, named_params};
@@ -93,7 +92,7 @@ pub(super) struct Records {
     /// `None`: in memory.
     files: Option<Files>,
     /// Held as long as the database is open.
-    lock: Option<File>,
+    lock: Option<open::DirectoryLock>,
 }
 
 impl Records {

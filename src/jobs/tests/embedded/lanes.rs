@@ -53,6 +53,7 @@ async fn an_overdue_job_goes_first() {
             stand.leave(job("ada", "first", "hold")).await;
             stand.stage.begun(1).await;
             stand.leave(job("the guest", "guest", "hold")).await;
+            stand.stage.begun(2).await;
             stand.leave(Submission { cost: 1000.0, ..job("ada", "large", "pass") }).await;
             stand.leave(Submission { cost: 5.0, ..job("bob", "small", "pass") }).await;
             stand.stage.open("first");
@@ -100,6 +101,7 @@ async fn costs_that_are_no_numbers_do_no_harm() {
         stand.leave(job("ada", "first", "hold")).await;
         stand.stage.begun(1).await;
         stand.leave(job("the guest", "guest", "hold")).await;
+        stand.stage.begun(2).await;
         for (name, cost) in [("nan", f64::NAN), ("infinite", f64::INFINITY), ("negative", -1.0)] {
             stand.leave(Submission { cost, ..job(name, name, "pass") }).await;
         }

@@ -83,15 +83,26 @@ fn error(path: &Path, fault: Fault) -> OpenError {
     }
 }
 
+/// The lock on a directory of jobs. It is released explicitly: until a child process that is being started runs its
+/// program, the child has a copy of the open file, and closing the file alone would leave the lock.
+pub(super) struct DirectoryLock(File);
+
+impl Drop for DirectoryLock {
+    fn drop(&mut self) {
+        // If this fails, closing the file releases the lock.
+        drop(self.0.unlock());
+    }
+}
+
 /// Keeps other verne processes out. SQLite's own locks must not: programs that back the database up read it meanwhile.
 /// A file of its own: SQLite's locks are the process's, not the connection's, and go with any other handle.
-fn lock(directory: &Path) -> Result<File, OpenError> {
+fn lock(directory: &Path) -> Result<DirectoryLock, OpenError> {
     let path = directory.join("jobs.lock");
     let unusable =
         |fault: std::io::Error| OpenError::Unusable { path: path.clone(), reason: fault.to_string() };
     let file = File::options().create(true).write(true).truncate(false).open(&path).map_err(unusable)?;
     match file.try_lock() {
-        Ok(()) => Ok(file),
+        Ok(()) => Ok(DirectoryLock(file)),
         Err(TryLockError::WouldBlock) => Err(OpenError::InUse { directory: directory.to_owned() }),
         Err(TryLockError::Error(fault)) => Err(unusable(fault)),
     }
