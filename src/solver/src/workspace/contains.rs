@@ -11,7 +11,7 @@ use crate::machine::Machine;
 use crate::margins::Margins;
 use crate::margins::together::{TOGETHER, Together};
 use crate::pose::{PartPose, Point};
-use crate::posture::Posture;
+use crate::posture::{Posture, Postures};
 use crate::table::table_angles;
 
 /// Points between two calls of the observer.
@@ -129,25 +129,39 @@ fn others(
     machine: &Machine,
     request: &Request,
     clearance: Option<&Clearance>,
-    [x, y, z]: Point,
+    point: Point,
     place: &mut Membership,
 ) {
+    let found = every_working(machine, request, point);
+    if found.len() < 2 {
+        return;
+    }
+    let weighed = found.iter().map(|posture| margins(machine, request, clearance, posture).weighed(machine));
+    if let Some((margin, _)) = weighed.max_by(|(_, a), (_, b)| a.total_cmp(b)) {
+        *place = Membership { inside: margin.value >= 0.0, margin: Some(margin) };
+    }
+}
+
+/// Every posture of the working mode at a point of a `tool` or `part` workspace, in mm in the frame of that kind.
+pub(super) fn every_working(machine: &Machine, request: &Request, [x, y, z]: Point) -> Postures {
     let Request { kind, tool_length, phi1, phi2, .. } = *request;
     let found = match kind {
         Kind::Part => part_every_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length),
         _ => tool_every_working(machine, [x, y, z], tool_length),
     };
-    let Ok(found) = found else { return };
-    if found.len() < 2 {
-        return;
-    }
-    let weighed = found.iter().map(|posture| {
-        let table = (kind == Kind::Part).then(|| table_angles(machine, posture.pose.alpha, phi1, phi2));
-        Margins::above_table(machine, posture, table, clearance).weighed(machine)
-    });
-    if let Some((margin, _)) = weighed.max_by(|(_, a), (_, b)| a.total_cmp(b)) {
-        *place = Membership { inside: margin.value >= 0.0, margin: Some(margin) };
-    }
+    found.unwrap_or_default()
+}
+
+/// The margins of a posture, those of the table for a `part` workspace only.
+pub(super) fn margins(
+    machine: &Machine,
+    request: &Request,
+    clearance: Option<&Clearance>,
+    posture: &Posture,
+) -> Margins {
+    let table = (request.kind == Kind::Part)
+        .then(|| table_angles(machine, posture.pose.alpha, request.phi1, request.phi2));
+    Margins::above_table(machine, posture, table, clearance)
 }
 
 fn refused(refusal: &Refusal) -> Membership {

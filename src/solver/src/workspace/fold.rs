@@ -5,14 +5,12 @@
 //! sign. So the inverse problem is solved at points of the workspace: a second feasible solution is a second platform
 //! position.
 
+use super::contains::{every_working, margins};
 use super::domain::Domain;
 use super::observer::{Observer, go_on};
 use super::request::{Kind, Request, WorkspaceError};
-use crate::inverse::{part_every_working, tool_every_working};
 use crate::machine::Machine;
-use crate::margins::Margins;
-use crate::pose::{PartPose, Point};
-use crate::table::table_angles;
+use crate::pose::Point;
 
 /// Greatest number of sample positions in the rectangle.
 const PLACES: u32 = 50_000;
@@ -97,21 +95,16 @@ fn feasible_place(domain: &Domain<'_>, [low, high]: [[f64; 2]; 2], number: u32) 
 }
 
 /// Classifies the solutions at a point of the workspace other than the known one.
-fn others(machine: &Machine, request: &Request, known: Point, [x, y, z]: Point) -> Others {
-    let Request { kind, tool_length, phi1, phi2, .. } = *request;
-    let found = match kind {
-        Kind::Part => part_every_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length),
-        _ => tool_every_working(machine, [x, y, z], tool_length),
-    };
+fn others(machine: &Machine, request: &Request, known: Point, point: Point) -> Others {
     let clearance = request.clearance(machine);
     let same = SAME * machine.derived.scale;
-    let others = found.iter().flatten().filter(|posture| {
+    let found = every_working(machine, request, point);
+    let others = found.iter().filter(|posture| {
         let pose = &posture.pose;
         (pose.y - known[1]).hypot(pose.z - known[2]) > same
     });
     let says = others.map(|posture| {
-        let table = (kind == Kind::Part).then(|| table_angles(machine, posture.pose.alpha, phi1, phi2));
-        let margins = Margins::above_table(machine, posture, table, clearance.as_ref());
+        let margins = margins(machine, request, clearance.as_ref(), posture);
         let in_range = margins.tilt.iter().chain(&margins.rotary).flatten().all(|margin| *margin >= 0.0);
         match (margins.feasible(), in_range) {
             (true, _) => Others::Feasible,
