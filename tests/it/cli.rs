@@ -7,7 +7,7 @@ use std::thread::{self, JoinHandle};
 
 use clap::Parser;
 use serde_json::Value;
-use verne_service::cli::Cli;
+use verne_service::Cli;
 
 use crate::http::get;
 

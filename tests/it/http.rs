@@ -46,8 +46,7 @@ use clap::{Args, Command, FromArgMatches};
 use http_body_util::BodyExt;
 use serde_json::Value;
 use tower::ServiceExt;
-use verne_service::app::Service;
-use verne_service::config::ServeConfig;
+use verne_service::{ServeConfig, Service};
 
 /// An answer, its body parsed where it is JSON.
 #[derive(Debug)]

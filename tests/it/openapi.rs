@@ -11,7 +11,7 @@ use crate::http::{Reply, get, json_request, send_to, service};
 #[tokio::test]
 async fn the_committed_document_is_the_generated_one() {
     let committed = get("/openapi.json").await.json;
-    let generated = verne_service::app::document();
+    let generated = verne_service::document();
     let difference = difference("", &generated, &committed);
     assert_eq!(
         difference, None,
@@ -21,7 +21,7 @@ async fn the_committed_document_is_the_generated_one() {
 
 #[test]
 fn the_api_guide_lists_every_problem_code_as_the_service_does() {
-    let document = verne_service::app::document();
+    let document = verne_service::document();
     let description = document["info"]["description"].as_str().unwrap();
     let generated: Vec<_> = description.lines().filter(|line| line.starts_with('|')).collect();
     let guide = include_str!("../../docs/api.md");

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use tempfile::TempDir;
-use verne_service::app::Service;
+use verne_service::Service;
 
 use crate::cli::verne;
 use crate::http::settings;

@@ -1,46 +1,22 @@
 //! The verne service: kinematics and workspaces of the VERNE machine's architecture over HTTP and on the command line.
 //!
-//! Dependencies point one way: main → cli → app → router → handlers → answers → wire, state, error.
+//! Its modules are five folders and `telemetry`. Each imports only from those before it:
+//!
+//! 1. [`wire`]: types of requests, answers and errors.
+//! 2. [`limits`]: API keys, quotas and admission.
+//! 3. [`telemetry`]: log, traces and metrics.
+//! 4. [`operations`]: from a checked question to its answer.
+//! 5. [`http`]: routes, handlers, problems, caching, OpenAPI, the viewer's files.
+//! 6. [`process`]: command line, configuration, listeners, signals, storage, workers.
 
-mod access;
-mod admission;
-mod answers;
-pub mod app;
-mod browsers;
-pub mod cli;
-mod coding;
-pub mod config;
-mod delivery;
-mod drawing;
-mod error;
-mod extract;
-mod faults;
-mod fixed;
-mod handlers;
-mod layers;
-mod machine_hash;
-mod metrics;
-mod negotiation;
-mod observe;
-mod obtain;
-mod openapi;
-mod parameters;
-mod prefer;
-mod problem;
-mod published;
-mod readiness;
-mod refusals;
-mod registry;
-mod result_id;
-mod results;
-mod router;
-mod server;
-mod signals;
-mod state;
-mod storage;
-mod tasks;
+mod http;
+mod limits;
+mod operations;
+mod process;
 mod telemetry;
-mod viewer;
 mod wire;
-mod worker;
-mod workers;
+
+pub use http::router::document;
+pub use process::cli::Cli;
+pub use process::config::ServeConfig;
+pub use process::service::{Service, serve_on};

@@ -1,7 +1,10 @@
-//! What the process tells of itself while it runs: a log, and traces for those who collect them.
+//! What the process reports while it runs: a log, metrics, and traces for those who collect them.
+//!
+//! May import `limits` and `wire`.
 
 #[cfg(test)]
 pub(crate) mod logged;
+pub(crate) mod metrics;
 
 use std::io::{IsTerminal, stderr};
 

@@ -1,30 +1,35 @@
-//! The contract's JSON: requests, answers, and the units between them and the solver.
+//! Types of requests, answers and errors: the contract's JSON, and the units between it and the solver.
+//!
+//! Imports no other folder of the service.
 
 pub(crate) mod alphas;
 pub(crate) mod answer;
 pub(crate) mod batch;
-pub(crate) mod capped;
+pub(crate) mod bounded_list;
 pub(crate) mod catalogue;
 pub(crate) mod contains;
 pub(crate) mod degrees;
 pub(crate) mod dexterity;
+pub(crate) mod error;
 pub(crate) mod family;
+pub(crate) mod field_errors;
+pub(crate) mod fixed_array;
 pub(crate) mod format;
-pub(crate) mod job;
 pub(crate) mod json;
 pub(crate) mod limit;
 pub(crate) mod machine;
 pub(crate) mod machine_ref;
 pub(crate) mod margins;
-mod missing;
-pub(crate) mod numbers;
-pub(crate) mod object;
+pub(crate) mod missing;
 pub(crate) mod parse;
 pub(crate) mod query;
 pub(crate) mod query_string;
 pub(crate) mod request;
+pub(crate) mod result_id;
+pub(crate) mod role;
 pub(crate) mod slice;
-pub(crate) mod span;
+pub(crate) mod strict_object;
+pub(crate) mod sweep;
 pub(crate) mod workspace;
 pub(crate) mod workspace_query;
 pub(crate) mod workspace_summary;

@@ -11,8 +11,7 @@ use http_body_util::BodyExt;
 use serde_json::{Value, json};
 use tokio::runtime::Runtime;
 use tower::ServiceExt;
-use verne_service::app::Service;
-use verne_service::config::ServeConfig;
+use verne_service::{ServeConfig, Service};
 
 /// What a service may answer when it has no room, as documented.
 const BUSY: [&str; 2] = ["queue_full", "overloaded"];

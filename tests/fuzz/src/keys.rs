@@ -12,8 +12,7 @@ use clap::{Args, Command, FromArgMatches};
 use tempfile::TempDir;
 use tokio::runtime::Runtime;
 use tower::ServiceExt;
-use verne_service::app::Service;
-use verne_service::config::ServeConfig;
+use verne_service::{ServeConfig, Service};
 
 use crate::draw::Draw;
 

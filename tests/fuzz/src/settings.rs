@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use tempfile::TempDir;
-use verne_service::cli::Cli;
+use verne_service::Cli;
 
 use crate::draw::Draw;
 

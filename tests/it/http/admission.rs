@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use tokio::sync::oneshot;
 use tokio::task::JoinHandle;
 use tower::ServiceExt;
-use verne_service::config::ServeConfig;
+use verne_service::ServeConfig;
 
 use super::jobs::{long, metric, one_core, start};
 use super::workspace::ask;

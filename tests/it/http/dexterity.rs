@@ -78,8 +78,7 @@ async fn each_set_has_a_mesh_and_the_same_bytes_however_many_threads() {
     let mut bytes = Vec::new();
     for threads in [1, 3] {
         let threads = NonZeroUsize::new(threads);
-        let service =
-            opened(&verne_service::config::ServeConfig { job_threads: threads, ..config(None) }).await;
+        let service = opened(&verne_service::ServeConfig { job_threads: threads, ..config(None) }).await;
         let summary = map(&service, coarse()).await;
         let links = &summary.json["links"];
         let mut all = vec![summary.bytes];

@@ -9,7 +9,7 @@ use axum::http::{HeaderName, Method, Request, StatusCode};
 use http_body_util::BodyExt;
 use serde_json::{Value, json};
 use tower::ServiceExt;
-use verne_service::config::ServeConfig;
+use verne_service::ServeConfig;
 
 use super::workspace::ask;
 use super::{Reply, config, get_from, json_request, opened, send_to, service};

@@ -9,8 +9,7 @@ use axum::http::StatusCode;
 use axum::http::header::ETAG;
 use serde_json::json;
 use tempfile::TempDir;
-use verne_service::app::Service;
-use verne_service::config::ServeConfig;
+use verne_service::{ServeConfig, Service};
 
 use super::jobs::{events, job, one_core};
 use super::workspace::ask;

@@ -3,8 +3,7 @@
 use axum::http::header::RETRY_AFTER;
 use serde_json::json;
 use tempfile::TempDir;
-use verne_service::app::Service;
-use verne_service::config::ServeConfig;
+use verne_service::{ServeConfig, Service};
 
 use super::jobs::{events, job, long, one_core, preferring, start, until};
 use super::workspace::ask;

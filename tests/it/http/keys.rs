@@ -11,9 +11,7 @@ use http_body_util::BodyExt;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 use tower::ServiceExt;
-use verne_service::app::Service;
-use verne_service::cli::Cli;
-use verne_service::config::ServeConfig;
+use verne_service::{Cli, ServeConfig, Service};
 
 use super::jobs::{long, one_core, preferring, small};
 use super::{Reply, config, get, get_from, json_request, opened, send_to};

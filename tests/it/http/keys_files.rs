@@ -1,6 +1,6 @@
 //! Files of keys that cannot be used say where and why.
 
-use verne_service::app::Service;
+use verne_service::Service;
 
 use super::config;
 use super::keys::{Keys, fresh};

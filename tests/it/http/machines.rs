@@ -6,7 +6,7 @@ use axum::body::Body;
 use axum::http::Request;
 use serde_json::{Value, json};
 
-use verne_service::app::Service;
+use verne_service::Service;
 
 use super::{config, get, opened, post, send_to};
 

@@ -8,7 +8,7 @@ use axum::body::Body;
 use axum::extract::ConnectInfo;
 use axum::http::header::RETRY_AFTER;
 use axum::http::{Request, StatusCode};
-use verne_service::config::ServeConfig;
+use verne_service::ServeConfig;
 
 use super::keys::{Keys, fresh};
 use super::{Reply, config, opened, send_to};

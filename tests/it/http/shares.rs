@@ -11,7 +11,7 @@ use axum::http::{Method, Request, StatusCode};
 use futures_util::{FutureExt, stream};
 use serde_json::json;
 use tower::ServiceExt;
-use verne_service::config::ServeConfig;
+use verne_service::ServeConfig;
 
 use super::keys::Keys;
 use super::{config, json_request, opened};

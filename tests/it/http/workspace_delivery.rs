@@ -7,7 +7,7 @@ use axum::http::header::{
 use axum::http::{Request, StatusCode};
 use axum::{Router, body::Body};
 use serde_json::json;
-use verne_service::config::ServeConfig;
+use verne_service::ServeConfig;
 
 use super::workspace::ask;
 use super::{config, get, get_from, opened, send_to, service};

@@ -6,11 +6,11 @@ use serde::Serialize;
 use utoipa::ToSchema;
 use verne_solver::{PartPose, PlatformPose, Point, Posture, Side, axis};
 
-use super::degrees::to_degrees;
-use super::limit::{Limit, Unchecked};
-use super::margins::{ConditioningObject, MarginsObject};
-use super::numbers::{Exactly, Triple};
-use super::request::Joints;
+use crate::wire::degrees::to_degrees;
+use crate::wire::fixed_array::{Exactly, Triple};
+use crate::wire::limit::{Limit, Unchecked};
+use crate::wire::margins::{ConditioningObject, MarginsObject};
+use crate::wire::request::Joints;
 
 /// The machine of an answer.
 #[derive(Clone, Debug, Serialize, ToSchema)]

@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use utoipa::ToSchema;
 
-use super::answer::MachineId;
-use super::capped::Capped;
-use super::limit::{ConstraintName, ElementName, Unchecked};
-use super::machine_ref::MachineRef;
-use super::request::Frame;
+use crate::wire::answer::MachineId;
+use crate::wire::bounded_list::Capped;
+use crate::wire::limit::{ConstraintName, ElementName, Unchecked};
+use crate::wire::machine_ref::MachineRef;
+use crate::wire::request::Frame;
 
 /// The working solution for many poses.
 ///

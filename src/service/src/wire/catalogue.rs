@@ -3,8 +3,8 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::answer::MachineId;
-use super::machine::MachineObject;
+use crate::wire::answer::MachineId;
+use crate::wire::machine::MachineObject;
 
 /// The published machines.
 #[derive(Debug, Serialize, ToSchema)]

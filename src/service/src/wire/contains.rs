@@ -4,12 +4,12 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use utoipa::ToSchema;
 
-use super::answer::MachineId;
-use super::batch::RowError;
-use super::capped::Capped;
-use super::limit::{ConstraintName, ElementName, Unchecked, Unit};
-use super::machine_ref::MachineRef;
-use super::workspace::KindName;
+use crate::wire::answer::MachineId;
+use crate::wire::batch::RowError;
+use crate::wire::bounded_list::Capped;
+use crate::wire::limit::{ConstraintName, ElementName, Unchecked, Unit};
+use crate::wire::machine_ref::MachineRef;
+use crate::wire::workspace::KindName;
 
 /// Points to test against a workspace.
 ///

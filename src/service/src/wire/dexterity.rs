@@ -5,14 +5,14 @@ use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 use verne_solver::workspace::dexterity::Grid;
 
-use super::answer::MachineId;
-use super::degrees::to_degrees;
-use super::format::MeshFormat;
-use super::limit::Unchecked;
-use super::machine_ref::MachineRef;
-use super::numbers::{Counts, Exactly, Triple};
-use super::object::object;
-use super::workspace_summary::BoundsObject;
+use crate::wire::answer::MachineId;
+use crate::wire::degrees::to_degrees;
+use crate::wire::fixed_array::{Counts, Exactly, Triple};
+use crate::wire::format::MeshFormat;
+use crate::wire::limit::Unchecked;
+use crate::wire::machine_ref::MachineRef;
+use crate::wire::strict_object::object;
+use crate::wire::workspace_summary::BoundsObject;
 
 /// A request for the inclinations that reach each point of the part.
 #[derive(Clone, Debug, Deserialize, ToSchema)]

@@ -3,12 +3,12 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::answer::MachineId;
-use super::limit::Unchecked;
-use super::machine_ref::MachineRef;
-use super::span::Span;
-use super::workspace::{CanonicalRequest, KindName, WorkspaceRequest, default_tolerance};
-use super::workspace_summary::BoundsObject;
+use crate::wire::answer::MachineId;
+use crate::wire::limit::Unchecked;
+use crate::wire::machine_ref::MachineRef;
+use crate::wire::sweep::Span;
+use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest, default_tolerance};
+use crate::wire::workspace_summary::BoundsObject;
 
 /// A request for a workspace. With lists it is a request for a family: one workspace for each combination of the
 /// values.

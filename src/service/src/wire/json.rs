@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::error::Error;
+use crate::wire::error::Error;
 
 /// Writes an answer into a buffer of about its size: growing one from nothing moves every byte twice.
 pub(crate) fn write_json(answer: &impl Serialize, expected_bytes: usize) -> Result<Vec<u8>, Error> {

@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 use verne_solver::workspace::Binding;
 use verne_solver::{Constraint, Element, Margin};
 
-use super::degrees::to_degrees;
+use crate::wire::degrees::to_degrees;
 
 /// A constraint of the workspace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]

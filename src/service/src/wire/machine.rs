@@ -5,9 +5,9 @@ use utoipa::ToSchema;
 use verne_solver::MachineData;
 use verne_solver::machine::{Geometry, Limits, Table};
 
-use super::degrees::{from_degrees, to_degrees};
-use super::numbers::{Axes, Exactly, Pair, PairPerSlider};
-use super::object::object;
+use crate::wire::degrees::{from_degrees, to_degrees};
+use crate::wire::fixed_array::{Axes, Exactly, Pair, PairPerSlider};
+use crate::wire::strict_object::object;
 
 /// A machine of the VERNE architecture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]

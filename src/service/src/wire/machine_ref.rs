@@ -7,7 +7,7 @@ use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use utoipa::ToSchema;
 
-use super::machine::MachineObject;
+use crate::wire::machine::MachineObject;
 
 /// Name of the built-in reference machine, which a request means when it names none.
 pub(crate) const REFERENCE: &str = "verne";

@@ -4,9 +4,9 @@ use serde::Serialize;
 use utoipa::ToSchema;
 use verne_solver::{Machine, Margins, jacobian};
 
-use super::degrees::to_degrees;
-use super::limit::Limit;
-use super::numbers::{Exactly, Pair, PairPerSlider, PerRod, Triple};
+use crate::wire::degrees::to_degrees;
+use crate::wire::fixed_array::{Exactly, Pair, PairPerSlider, PerRod, Triple};
+use crate::wire::limit::Limit;
 
 /// Margins of every constraint: positive inside, zero on the limit, negative outside. Arrays of six are the rods
 /// 11, 12, 21, 22, 31, 32.

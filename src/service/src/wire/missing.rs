@@ -7,11 +7,11 @@ use utoipa::ToSchema;
 use utoipa::openapi::schema::Object;
 use utoipa::openapi::{RefOr, Schema};
 
-use super::parse::push;
-use crate::error::Fault;
+use crate::wire::error::Fault;
+use crate::wire::parse::push;
 
 /// The missing fields of a body that should be a `T`, the outer ones first.
-pub(super) fn missing_fields<T: ToSchema>(body: &[u8]) -> Vec<Fault> {
+pub(crate) fn missing_fields<T: ToSchema>(body: &[u8]) -> Vec<Fault> {
     let Ok(body) = serde_json::from_slice::<Value>(body) else { return Vec::new() };
     let mut named = Vec::new();
     T::schemas(&mut named);

@@ -5,9 +5,9 @@ use serde_json::error::Category;
 use serde_path_to_error::{Path, Segment};
 use utoipa::ToSchema;
 
-use super::missing::missing_fields;
-use super::object::Object;
-use crate::error::{Error, Fault};
+use crate::wire::error::{Error, Fault};
+use crate::wire::missing::missing_fields;
+use crate::wire::strict_object::Object;
 
 /// The UTF-8 byte order mark, which Windows writes before a text.
 const MARK: &[u8] = b"\xEF\xBB\xBF";
@@ -81,7 +81,7 @@ fn is_not_a_number(body: &[u8], error: &serde_json::Error) -> bool {
 }
 
 /// The JSON Pointer of a path. A missing or repeated field is not on the path; the message names it.
-pub(super) fn pointer(path: &Path, message: &str) -> String {
+pub(crate) fn pointer(path: &Path, message: &str) -> String {
     let mut pointer = String::new();
     for segment in path {
         match segment {
@@ -106,7 +106,7 @@ fn quoted<'a>(message: &'a str, words: &str) -> Option<&'a str> {
 }
 
 /// Adds a part to a JSON Pointer.
-pub(super) fn push(pointer: &mut String, part: &str) {
+pub(crate) fn push(pointer: &mut String, part: &str) {
     pointer.push('/');
     pointer.push_str(&part.replace('~', "~0").replace('/', "~1"));
 }

@@ -4,10 +4,10 @@ use clap::Args;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-use super::machine_ref::{MachineRef, REFERENCE};
-use super::numbers::{ListedJoints, ListedPose, ListedTriple};
-use super::request::{FkRequest, Frame, IkRequest, Joints, Near, NearPose, TargetPose, Wanted};
-use crate::error::{Error, Fault};
+use crate::wire::error::{Error, Fault};
+use crate::wire::fixed_array::{ListedJoints, ListedPose, ListedTriple};
+use crate::wire::machine_ref::{MachineRef, REFERENCE};
+use crate::wire::request::{FkRequest, Frame, IkRequest, Joints, Near, NearPose, TargetPose, Wanted};
 
 fn reference() -> String {
     REFERENCE.to_owned()

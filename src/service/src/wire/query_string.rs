@@ -6,8 +6,8 @@ use utoipa::IntoParams;
 use utoipa::openapi::Required;
 use utoipa::openapi::path::Parameter;
 
-use super::parse::pointer;
-use crate::error::{Error, Fault};
+use crate::wire::error::{Error, Fault};
+use crate::wire::parse::pointer;
 
 /// Parses a query string. A list is `name=1,2`, `name=1&name=2` or `name=[1,2]`.
 pub(crate) fn parse_query<T: DeserializeOwned + IntoParams>(query: &str) -> Result<T, Error> {

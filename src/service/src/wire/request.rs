@@ -4,9 +4,9 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::machine_ref::MachineRef;
-use super::numbers::Triple;
-use super::object::{object, optional_object};
+use crate::wire::fixed_array::Triple;
+use crate::wire::machine_ref::MachineRef;
+use crate::wire::strict_object::{object, optional_object};
 
 /// A request for the poses at given joints.
 #[derive(Clone, Debug, Deserialize, ToSchema)]

@@ -4,11 +4,11 @@ use serde::Serialize;
 use utoipa::ToSchema;
 use verne_solver::workspace::{Contour, Polygon, Slice};
 
-use super::degrees::to_degrees;
-use super::limit::Unchecked;
-use super::numbers::{Exactly, Pair};
-use super::workspace::{CanonicalRequest, FrameName};
-use crate::result_id::ResultId;
+use crate::wire::degrees::to_degrees;
+use crate::wire::fixed_array::{Exactly, Pair};
+use crate::wire::limit::Unchecked;
+use crate::wire::result_id::ResultId;
+use crate::wire::workspace::{CanonicalRequest, FrameName};
 
 /// Slice of a workspace at one height.
 #[derive(Clone, Debug, Serialize, ToSchema)]

@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use verne_solver::workspace::{Kind, Request};
 
-use super::degrees::from_degrees_of_turn;
-use super::limit::Unchecked;
-use super::machine_ref::MachineRef;
+use crate::wire::degrees::from_degrees_of_turn;
+use crate::wire::limit::Unchecked;
+use crate::wire::machine_ref::MachineRef;
 
 /// A request for a workspace.
 #[derive(Clone, Debug)]

@@ -4,10 +4,10 @@ use clap::Args;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-use super::alphas::Alphas;
-use super::format::{MeshFormat, SliceFormat};
-use super::machine_ref::{MachineRef, REFERENCE};
-use super::workspace::{KindName, WorkspaceRequest, default_tolerance};
+use crate::wire::alphas::Alphas;
+use crate::wire::format::{MeshFormat, SliceFormat};
+use crate::wire::machine_ref::{MachineRef, REFERENCE};
+use crate::wire::workspace::{KindName, WorkspaceRequest, default_tolerance};
 
 fn reference() -> String {
     REFERENCE.to_owned()

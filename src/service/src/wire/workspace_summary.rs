@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::answer::MachineId;
-use super::limit::Unchecked;
-use super::numbers::Triple;
-use super::workspace::{CanonicalRequest, FrameName, KindName};
-use crate::result_id::ResultId;
+use crate::wire::answer::MachineId;
+use crate::wire::fixed_array::Triple;
+use crate::wire::limit::Unchecked;
+use crate::wire::result_id::ResultId;
+use crate::wire::workspace::{CanonicalRequest, FrameName, KindName};
 
 /// Summary of a workspace.
 #[derive(Clone, Debug, Serialize, ToSchema)]

@@ -1,5 +1,0 @@
-//! Slices as drawings. Both formats show x to the right and y up, mm.
-
-pub(crate) mod dxf;
-mod extent;
-pub(crate) mod svg;

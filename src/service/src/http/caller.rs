@@ -1,0 +1,108 @@
+//! Who is behind a request.
+
+use std::net::{IpAddr, SocketAddr};
+
+use axum::extract::{ConnectInfo, FromRequestParts};
+use axum::http::Extensions;
+use axum::http::request::Parts;
+use verne_jobs::Job;
+
+use crate::http::state::Shared;
+use crate::limits::keys::Pass;
+use crate::wire::error::Error;
+use crate::wire::role::Role;
+
+/// Who asks. There for every route that the [gate](crate::http::gate::Gate) is before.
+#[derive(Clone, Debug)]
+pub(crate) struct Caller {
+    /// Whose share of the cores a job is charged to: the key's name, or the address of who has none.
+    pub client: String,
+    /// What it may. Without keys anybody may everything.
+    pub role: Role,
+    /// Whether it may have but a part of what is there for all at once.
+    pub bounded: bool,
+    /// Whether a page of another origin has the browser ask: it may read what anybody may, and start nothing.
+    pub foreign: bool,
+    /// The key, where one was sent and is asked for.
+    pub pass: Option<Pass>,
+}
+
+impl Caller {
+    /// Fails for a role that does not suffice.
+    pub(crate) fn must_be(&self, needed: Role) -> Result<(), Error> {
+        if self.foreign && needed > Role::Read {
+            return Err(Error::OtherOrigin);
+        }
+        if self.role >= needed { Ok(()) } else { Err(Error::Forbidden(needed)) }
+    }
+
+    /// Who has a part of what is there for all at once; `None`: as much as there is.
+    pub(crate) fn sharer(&self) -> Option<&str> {
+        self.bounded.then_some(self.client.as_str())
+    }
+
+    /// Whose jobs it sees; `None`: those of all.
+    pub(crate) fn sees_only(&self) -> Option<&str> {
+        (self.role < Role::Admin).then_some(self.client.as_str())
+    }
+
+    /// Whether the job is there for it.
+    pub(crate) fn sees(&self, job: &Job) -> bool {
+        self.sees_only().is_none_or(|client| job.clients.contains(client))
+    }
+}
+
+impl Caller {
+    /// Returns when the caller may no longer have what it has: its key was removed, or is another's by now.
+    pub(crate) fn revoked(&self) -> impl Future<Output = ()> + Send + 'static {
+        let pass = self.pass.clone();
+        async move {
+            match pass {
+                Some(pass) => pass.revoked().await,
+                None => std::future::pending().await,
+            }
+        }
+    }
+}
+
+impl FromRequestParts<Shared> for Caller {
+    type Rejection = Error;
+
+    async fn from_request_parts(parts: &mut Parts, _: &Shared) -> Result<Self, Error> {
+        // The gate has put it there.
+        parts.extensions.get().cloned().ok_or(Error::Internal)
+    }
+}
+
+/// The address that a request comes from, as a client of the queue; and whether it is bounded. This machine itself is not:
+/// what it sends may come from a proxy, for everybody.
+pub(crate) fn address(extensions: &Extensions) -> (String, bool) {
+    match extensions.get::<ConnectInfo<SocketAddr>>() {
+        Some(ConnectInfo(peer)) => (network(peer.ip()), !peer.ip().to_canonical().is_loopback()),
+        None => ("local".to_owned(), false),
+    }
+}
+
+/// One client of the queue: an address, or the network that an IPv6 subscriber has for himself.
+fn network(address: IpAddr) -> String {
+    match address.to_canonical() {
+        IpAddr::V4(address) => address.to_string(),
+        IpAddr::V6(address) => {
+            let [a, b, c, d, ..] = address.segments();
+            format!("{a:x}:{b:x}:{c:x}:{d:x}::/64")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::network;
+
+    #[test]
+    fn a_subscriber_is_one_client() {
+        let of = |address: &str| address.parse().map(network);
+        assert_eq!(of("2001:db8:1:2:3::4"), of("2001:db8:1:2:ffff::1"));
+        assert_ne!(of("2001:db8:1:2::1"), of("2001:db8:1:3::1"));
+        assert_eq!(of("::ffff:10.0.0.1"), of("10.0.0.1"));
+    }
+}

@@ -1,0 +1,120 @@
+//! How the body of a request is encoded (RFC 9110, 8.4).
+
+use std::io::Read;
+
+use axum::http::HeaderMap;
+use axum::http::header::CONTENT_ENCODING;
+use flate2::bufread::GzDecoder;
+
+use crate::wire::error::Error;
+
+/// Bytes that are decoded at once.
+const PIECE: usize = 8 * 1024;
+
+/// A coding that the service decodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Coding {
+    Gzip,
+    Brotli,
+}
+
+impl Coding {
+    /// Their names, as the header Accept-Encoding lists them.
+    pub(crate) const ACCEPTED: &str = "gzip, br";
+
+    /// The coding of a body with these headers; nothing for a plain body.
+    pub(crate) fn of(headers: &HeaderMap) -> Result<Option<Self>, Error> {
+        let declared: Vec<_> = headers
+            .get_all(CONTENT_ENCODING)
+            .iter()
+            .flat_map(|value| value.to_str().unwrap_or("?").split(','))
+            .map(|name| name.trim().to_ascii_lowercase())
+            .filter(|name| !name.is_empty() && name != "identity")
+            .collect();
+        match declared.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+            [] => Ok(None),
+            ["gzip" | "x-gzip"] => Ok(Some(Self::Gzip)),
+            ["br"] => Ok(Some(Self::Brotli)),
+            others => Err(Error::UnknownCoding(others.join(", "))),
+        }
+    }
+
+    /// The decoded body of at most `limit` bytes; `hold` is asked for its memory before it grows. To be called on the worker
+    /// threads: a few hostile bytes can take milliseconds.
+    pub(crate) fn decode(
+        self,
+        encoded: &[u8],
+        limit: usize,
+        hold: impl FnMut(usize) -> Result<(), Error>,
+    ) -> Result<Vec<u8>, Error> {
+        match self {
+            Self::Gzip => {
+                let mut decoder = GzDecoder::new(encoded);
+                let decoded = self.read(&mut decoder, limit, hold)?;
+                if decoder.into_inner().is_empty() {
+                    Ok(decoded)
+                } else {
+                    Err(self.lost("extra bytes follow the end of the compressed data"))
+                }
+            }
+            Self::Brotli => self.read(&mut brotli::Decompressor::new(encoded, PIECE), limit, hold),
+        }
+    }
+
+    fn read(
+        self,
+        decoder: &mut impl Read,
+        limit: usize,
+        mut hold: impl FnMut(usize) -> Result<(), Error>,
+    ) -> Result<Vec<u8>, Error> {
+        let (mut decoded, mut piece) = (Vec::new(), [0; PIECE]);
+        loop {
+            let count = decoder.read(&mut piece).map_err(|error| self.lost(&error.to_string()))?;
+            let read = piece.get(..count).unwrap_or_default();
+            if read.is_empty() {
+                return Ok(decoded);
+            }
+            if decoded.len() + count > limit {
+                return Err(Error::BodyTooLarge(limit));
+            }
+            hold(decoded.len() + count)?;
+            decoded.extend_from_slice(read);
+        }
+    }
+
+    fn lost(self, reason: &str) -> Error {
+        let name = match self {
+            Self::Gzip => "gzip",
+            Self::Brotli => "br",
+        };
+        Error::BodyLost(format!("it cannot be decoded from {name}: {reason}"))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use axum::http::HeaderMap;
+    use axum::http::header::CONTENT_ENCODING;
+
+    use super::Coding;
+
+    #[test]
+    fn codings_are_read_as_rfc_9110_has_them() {
+        for (declared, coding) in [
+            ("gzip", Some(Some(Coding::Gzip))),
+            ("GZIP", Some(Some(Coding::Gzip))),
+            ("x-gzip", Some(Some(Coding::Gzip))),
+            ("br", Some(Some(Coding::Brotli))),
+            ("identity", Some(None)),
+            ("", Some(None)),
+            ("identity, gzip", Some(Some(Coding::Gzip))),
+            ("gzip, br", None),
+            ("zstd", None),
+            ("deflate", None),
+        ] {
+            let headers = HeaderMap::from_iter([(CONTENT_ENCODING, declared.parse().unwrap())]);
+            assert_eq!(Coding::of(&headers).ok(), coding, "{declared}");
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! `/fk/batch` and `/ik/batch`.
+
+use axum::body::Bytes;
+use axum::extract::State;
+use axum::http::header::{CONTENT_TYPE, HeaderName};
+
+use crate::http::extract::Batch;
+use crate::http::openapi::problems::BatchProblems;
+use crate::http::state::Shared;
+use crate::operations::forward_batch::answer_fk_batch;
+use crate::operations::inverse_batch::answer_ik_batch;
+use crate::wire::batch::{FkBatchAnswer, FkBatchRequest, IkBatchAnswer, IkBatchRequest};
+use crate::wire::error::Error;
+
+type JsonBytes = ([(HeaderName, &'static str); 1], Bytes);
+
+fn json(body: Bytes) -> JsonBytes {
+    ([(CONTENT_TYPE, "application/json")], body)
+}
+
+/// Forward kinematics of a batch
+///
+/// Computes the working solution of each row, in order. If a row is malformed, has no solution or breaks a limit, the
+/// answer states this at the index of the row. The other rows are not affected.
+#[utoipa::path(
+    post, path = "/fk/batch", operation_id = "fk_batch", tag = "kinematics",
+    request_body(content = FkBatchRequest, description = "The rows of joints."),
+    responses((status = 200, description = "One entry for each row.", body = FkBatchAnswer), BatchProblems)
+)]
+pub(crate) async fn fk_batch(State(state): State<Shared>, batch: Batch) -> Result<JsonBytes, Error> {
+    let answer = batch.answer(move |body, _| answer_fk_batch(body, &state.machines, state.limits.rows));
+    answer.await.map(json)
+}
+
+/// Inverse kinematics of a batch
+///
+/// Computes the working solution of each row, in order. If a row is malformed, has no solution or breaks a limit, the
+/// answer states this at the index of the row. The other rows are not affected.
+#[utoipa::path(
+    post, path = "/ik/batch", operation_id = "ik_batch", tag = "kinematics",
+    request_body(content = IkBatchRequest, description = "The rows of poses."),
+    responses((status = 200, description = "One entry for each row.", body = IkBatchAnswer), BatchProblems)
+)]
+pub(crate) async fn ik_batch(State(state): State<Shared>, batch: Batch) -> Result<JsonBytes, Error> {
+    let answer = batch.answer(move |body, _| answer_ik_batch(body, &state.machines, state.limits.rows));
+    answer.await.map(json)
+}

@@ -1,0 +1,69 @@
+//! `/machines`.
+
+use axum::Json;
+use axum::extract::rejection::PathRejection;
+use axum::extract::{Path, State};
+use serde_json::Value;
+
+use crate::http::openapi::machine_schema::machine_schema;
+use crate::http::openapi::problems::{MachineProblems, ServiceProblems};
+use crate::http::state::Shared;
+use crate::operations::registry::{Published, Registry};
+use crate::wire::catalogue::{MachineAnswer, MachineEntry, MachineList};
+use crate::wire::error::Error;
+use crate::wire::machine::MachineObject;
+
+/// The published machines, with what is said of each.
+pub(crate) fn list(machines: &Registry) -> MachineList {
+    let entry = |published: &Published| MachineEntry {
+        id: published.id.clone(),
+        description: published.machine.data().description.clone(),
+    };
+    MachineList { machines: machines.iter().map(entry).collect() }
+}
+
+/// One published machine with its numbers.
+pub(crate) fn show(machines: &Registry, name: &str) -> Result<MachineAnswer, Error> {
+    let published = machines.get(name).ok_or_else(|| Error::NoSuchMachine(name.to_owned()))?;
+    let definition = MachineObject::from(published.machine.data());
+    Ok(MachineAnswer { machine: published.id.clone(), definition })
+}
+
+/// Published machines
+///
+/// Lists the machine names that requests may use, with the source of the numbers of each machine.
+#[utoipa::path(
+    get, path = "/machines", operation_id = "machines", tag = "machines",
+    responses((status = 200, description = "The machines, sorted by name.", body = MachineList), ServiceProblems)
+)]
+pub(crate) async fn get_machines(State(state): State<Shared>) -> Json<MachineList> {
+    Json(list(&state.machines))
+}
+
+/// One machine
+///
+/// Returns all numbers of a published machine. Requests and `verne --machine FILE` accept `definition`.
+#[utoipa::path(
+    get, path = "/machines/{name}", operation_id = "machine", tag = "machines",
+    params(("name" = String, Path, description = "Name of the machine.")),
+    responses((status = 200, description = "The machine.", body = MachineAnswer), MachineProblems)
+)]
+pub(crate) async fn get_machine(
+    State(state): State<Shared>,
+    name: Result<Path<String>, PathRejection>,
+) -> Result<Json<MachineAnswer>, Error> {
+    let Path(name) = name.map_err(|_| Error::NoSuchPath)?;
+    show(&state.machines, &name).map(Json)
+}
+
+/// JSON Schema of the machine object
+///
+/// Editors can use the schema, and clients can validate a machine before they send it. Only the service can check
+/// whether the numbers define a valid machine.
+#[utoipa::path(
+    get, path = "/machines/schema", operation_id = "machine_schema", tag = "machines",
+    responses((status = 200, description = "The schema.", body = Object), ServiceProblems)
+)]
+pub(crate) async fn get_machine_schema() -> Json<Value> {
+    Json(machine_schema())
+}

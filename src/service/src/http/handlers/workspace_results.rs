@@ -1,0 +1,156 @@
+//! `/workspace/{id}`: what has been computed, for ever the same bytes.
+
+use axum::extract::rejection::PathRejection;
+use axum::extract::{Path, State};
+use axum::response::Response;
+
+use crate::http::conditional_response::{Conditions, Delivery, FOR_EVER};
+use crate::http::extract::Params;
+use crate::http::job_document::JobObject;
+use crate::http::negotiation::Accept;
+use crate::http::openapi::binary::{Binary, Summary, Text};
+use crate::http::openapi::problems::{KeptProblems, MeshProblems, SliceProblems};
+use crate::http::prefer::Prefer;
+use crate::http::result_response::{mesh, respond, summary};
+use crate::http::state::Shared;
+use crate::operations::compute_pool::on_workers_while_waited_for;
+use crate::operations::question::Question;
+use crate::operations::results::{Record, content};
+use crate::operations::slice::answer_slice;
+use crate::operations::workspace_question::WorkspaceQuestion;
+use crate::wire::dexterity::KeptMeshQuery;
+use crate::wire::error::Error;
+use crate::wire::format::{MeshFormat, SliceFormat};
+use crate::wire::query::point_into_query;
+use crate::wire::slice::SliceObject;
+use crate::wire::workspace_query::SliceQuery;
+
+/// The id in a path.
+pub(crate) type Id = Result<Path<String>, PathRejection>;
+
+/// Summary of a computed workspace
+///
+/// Returns the answer that /workspace gave with this id. The service evicts results when it needs space; if you repeat
+/// the request to /workspace, it returns the same id and the same bytes. The id is a hash of the request, so a client
+/// that knows the id knows the request. Therefore any key may read the result.
+#[utoipa::path(
+    get, path = "/workspace/{id}", operation_id = "workspace_summary", tag = "workspace",
+    params(("id" = String, Path, description = "The id from an answer of /workspace.")),
+    responses(
+        (status = 200, description = "The summary of a workspace or a dexterity map, or the table of a family.", body = Summary),
+        KeptProblems
+    )
+)]
+pub(crate) async fn get_summary(
+    State(state): State<Shared>,
+    id: Id,
+    accept: Accept,
+    conditions: Conditions,
+) -> Result<Response, Error> {
+    let id = id.map_err(|_| Error::NoSuchPath)?;
+    accept.choose([("application/json", ())])?;
+    let delivery = summary(&state, kept(&state, id).await?);
+    Delivery { cache_control: Some(FOR_EVER), ..delivery }.answer(&conditions)
+}
+
+/// The mesh of a computed workspace
+///
+/// Returns a watertight mesh within the tolerance of the true surface. Each triangle has the constraint that is active
+/// there. `format` or Accept selects the format; the default is GLB. The service supports strong ETags, conditional
+/// requests and byte ranges.
+#[utoipa::path(
+    get, path = "/workspace/{id}/mesh", operation_id = "workspace_mesh", tag = "workspace",
+    params(("id" = String, Path, description = "The id from an answer of /workspace."), KeptMeshQuery),
+    responses(
+        (status = 200, description = "The mesh.", content(
+            (Binary = "model/gltf-binary"), (Binary = "model/stl"), (Binary = "model/ply"),
+            (Object = "application/json"),
+        )),
+        (status = 202, description = "The service evicted the mesh. This job computes it again.",
+            body = JobObject),
+        MeshProblems
+    )
+)]
+pub(crate) async fn get_mesh(
+    State(state): State<Shared>,
+    id: Id,
+    Params(query): Params<KeptMeshQuery>,
+    accept: Accept,
+    prefer: Prefer,
+    conditions: Conditions,
+) -> Result<Response, Error> {
+    let id = id.map_err(|_| Error::NoSuchPath)?;
+    let format = match query.format {
+        Some(format) => format,
+        None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format)))?,
+    };
+    let question = kept(&state, id).await?.question;
+    let obtained = mesh(&state, question, query.set, format, &prefer.patience).await?;
+    let kept = |delivery| Delivery { cache_control: Some(FOR_EVER), ..delivery };
+    respond(&state, obtained, kept, prefer, &conditions)
+}
+
+/// Slice of a computed workspace
+///
+/// Returns the cut of a workspace with a plane of constant z: polygons with holes, optionally with lines of constant
+/// alpha (for the platform the ellipses of Eq (16)), as JSON, as a drawing (SVG) or for CAD (DXF). The slice is within
+/// the workspace's tolerance of the true boundary. The service does not use the mesh for it.
+#[utoipa::path(
+    get, path = "/workspace/{id}/slice", operation_id = "workspace_slice", tag = "workspace",
+    params(("id" = String, Path, description = "The id from an answer of /workspace."), SliceQuery),
+    responses(
+        (status = 200, description = "The slice.", content(
+            (SliceObject = "application/json"), (Text = "image/svg+xml"), (Text = "image/vnd.dxf"),
+            (Text = "application/dxf"),
+        )),
+        SliceProblems
+    )
+)]
+pub(crate) async fn get_slice(
+    State(state): State<Shared>,
+    id: Id,
+    Params(query): Params<SliceQuery>,
+    accept: Accept,
+    conditions: Conditions,
+) -> Result<Response, Error> {
+    let id = id.map_err(|_| Error::NoSuchPath)?;
+    let SliceQuery { z, alpha, format } = query;
+    let (format, media) = match format {
+        Some(format) => (format, format.media()[0]),
+        None => accept.choose(
+            SliceFormat::ALL
+                .into_iter()
+                .flat_map(|format| format.media().iter().map(move |&media| (media, (format, media)))),
+        )?,
+    };
+    let (question, inclination) = workspace(kept(&state, id).await?)?;
+    let id = question.id;
+    let cut = on_workers_while_waited_for(move |observer| {
+        answer_slice(&question, inclination, z, &alpha, format, observer).map(content)
+    });
+    let delivery = Delivery {
+        content: cut.await.map_err(point_into_query)?.into(),
+        own: true,
+        media,
+        cache_control: Some(FOR_EVER),
+        location: format!("{}/slice?z={z}&format={}", id.path(), format.name()),
+        file_name: Some(format!("slice-{id:.8}.{}", format.name())),
+    };
+    delivery.answer(&conditions)
+}
+
+/// The record under an id.
+pub(crate) async fn kept(state: &crate::http::state::State, Path(id): Path<String>) -> Result<Record, Error> {
+    match id.parse() {
+        Ok(known) => state.results.record(known).await.ok_or(Error::NoSuchWorkspace(id)),
+        Err(_) => Err(Error::NoSuchWorkspace(id)),
+    }
+}
+
+/// The one workspace that a record is of, and its greatest |alpha|.
+fn workspace(record: Record) -> Result<(WorkspaceQuestion, Option<f64>), Error> {
+    match record.question {
+        Question::Workspace(question) => Ok((question, record.inclination)),
+        _ => Err(Error::NoSlice(record.question.id().to_string())),
+    }
+}

@@ -1,0 +1,121 @@
+//! Whether the service can do what it is for.
+
+use std::sync::Arc;
+
+use axum::Json;
+use tokio_util::sync::CancellationToken;
+use verne_jobs::Backend;
+
+use crate::operations::results::Results;
+use crate::wire::catalogue::{Health, Part, Status};
+use crate::wire::error::Error;
+
+/// Asked by `/readyz`.
+pub(crate) struct Readiness {
+    results: Results,
+    jobs: Arc<dyn Backend>,
+    stopping: CancellationToken,
+}
+
+impl Readiness {
+    /// Of these parts of the service.
+    pub(crate) fn new(results: Results, jobs: Arc<dyn Backend>, stopping: CancellationToken) -> Self {
+        Self { results, jobs, stopping }
+    }
+
+    /// Ready, or why not. What all processes share is told of and no reason to turn requests away: they would be turned
+    /// away everywhere at once, those too that need none of it.
+    pub(crate) async fn told(&self) -> Result<Json<Health>, Error> {
+        if self.stopping.is_cancelled() {
+            return Err(Error::Stopping);
+        }
+        let mut failing = Vec::new();
+        if let Err(error) = self.results.healthy().await {
+            if !self.results.are_shared() {
+                return Err(error);
+            }
+            failing.push(Part::Store);
+        }
+        if let Err(unavailable) = self.jobs.reachable().await {
+            tracing::error!(%unavailable, "cannot reach the job records");
+            if !self.jobs.is_shared() {
+                return Err(Error::JobsUnavailable);
+            }
+            failing.push(Part::Broker);
+        }
+        let status = if failing.is_empty() { Status::Ok } else { Status::Degraded };
+        Ok(Json(Health { status, failing }))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use std::sync::Arc;
+    use std::time::Duration;
+
+    use async_trait::async_trait;
+    use serde_json::json;
+    use tokio_util::sync::CancellationToken;
+    use verne_jobs::{
+        Backend, Claim, Counts, Filter, Job, JobId, Page, Submission, SubmitError, Unavailable, Watcher,
+    };
+    use verne_store::Store;
+
+    use super::Readiness;
+    use crate::operations::results::Results;
+    use crate::wire::error::Error;
+
+    /// Jobs that cannot be recorded.
+    struct Refusing {
+        shared: bool,
+    }
+
+    fn refused<T>() -> Result<T, Unavailable> {
+        Err(Unavailable("the disk is full".to_owned()))
+    }
+
+    #[async_trait]
+    impl Backend for Refusing {
+        async fn submit(&self, _: Submission) -> Result<Claim, SubmitError> {
+            Ok(refused()?)
+        }
+        async fn get(&self, _: JobId) -> Result<Option<Job>, Unavailable> {
+            refused()
+        }
+        async fn list(&self, _: Filter) -> Result<Page, Unavailable> {
+            refused()
+        }
+        async fn watch(&self, _: JobId) -> Result<Option<Watcher>, Unavailable> {
+            refused()
+        }
+        async fn cancel(&self, _: JobId) -> Result<Option<Job>, Unavailable> {
+            refused()
+        }
+        async fn leave(&self, _: JobId, _: &str) -> Result<Option<Job>, Unavailable> {
+            refused()
+        }
+        async fn reachable(&self) -> Result<(), Unavailable> {
+            refused()
+        }
+        fn is_shared(&self) -> bool {
+            self.shared
+        }
+        fn counts(&self) -> Counts {
+            Counts::default()
+        }
+        async fn drain(&self, _: Duration) {}
+    }
+
+    fn readiness(shared: bool) -> Readiness {
+        let results = Results::new(Store::in_memory(1));
+        Readiness::new(results, Arc::new(Refusing { shared }), CancellationToken::new())
+    }
+
+    #[tokio::test]
+    async fn a_process_that_cannot_record_its_jobs_is_not_ready() {
+        assert_eq!(readiness(false).told().await.map(drop).unwrap_err(), Error::JobsUnavailable);
+        let health = readiness(true).told().await.unwrap();
+        assert_eq!(json!(*health), json!({"status": "degraded", "failing": ["broker"]}));
+    }
+}

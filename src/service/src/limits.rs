@@ -1,0 +1,11 @@
+//! Limits of what clients may use: API keys, rates, quotas and admission.
+//!
+//! May import `wire`.
+
+pub(crate) mod admission;
+pub(crate) mod client_quota;
+pub(crate) mod key;
+pub(crate) mod keys;
+pub(crate) mod keys_file;
+pub(crate) mod rate;
+pub(crate) mod response_memory;

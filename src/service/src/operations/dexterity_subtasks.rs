@@ -1,0 +1,75 @@
+//! The pieces of a dexterity map as bytes.
+
+use serde::{Deserialize, Serialize};
+use verne_solver::workspace::dexterity::{Crossing, DexterityRequest, Grid, Slab, slab, volumes};
+use verne_solver::workspace::{Observer, Volume};
+
+use crate::operations::dexterity::{POINTS, too_many_points};
+use crate::operations::dexterity_question::DexterityQuestion;
+use crate::operations::workspace_question::workspace_error;
+use crate::wire::error::Error;
+
+/// A slab as it is kept.
+#[derive(Serialize, Deserialize)]
+struct KeptSlab {
+    layers: [u32; 2],
+    counts: Vec<u8>,
+    intervals: Vec<[f64; 2]>,
+    crossings: [Vec<(u64, [f64; 3])>; 2],
+}
+
+/// The grid of a map; refused where it has too many points.
+pub(crate) fn grid(question: &DexterityQuestion, observer: &dyn Observer) -> Result<Grid, Error> {
+    let request = DexterityRequest::from(&question.request);
+    let grid = Grid::new(&question.published.machine, &request, observer).map_err(workspace_error)?;
+    if grid.nodes() > POINTS { Err(too_many_points(grid.nodes())) } else { Ok(grid) }
+}
+
+/// One of so many slabs of a map.
+pub(crate) fn compute_slab(
+    question: &DexterityQuestion,
+    [number, count]: [u32; 2],
+    observer: &dyn Observer,
+) -> Result<Vec<u8>, Error> {
+    let (grid, request) = (grid(question, observer)?, DexterityRequest::from(&question.request));
+    let cut = |number: u32| {
+        let layers = u64::from(grid.counts[0]) * u64::from(number) / u64::from(count.max(1));
+        u32::try_from(layers).unwrap_or(u32::MAX)
+    };
+    let layers = cut(number)..cut(number + 1);
+    let slab =
+        slab(&question.published.machine, &request, &grid, layers, observer).map_err(workspace_error)?;
+    let Slab { layers, counts, intervals, crossings } = slab;
+    let crossings =
+        crossings.map(|found| found.into_iter().map(|crossing| (crossing.edge, crossing.at)).collect());
+    let kept = KeptSlab { layers: [layers.start, layers.end], counts, intervals, crossings };
+    postcard::to_stdvec(&kept).map_err(|_| Error::Internal)
+}
+
+/// A slab that was kept.
+pub(crate) fn read_slab(bytes: &[u8]) -> Result<Slab, Error> {
+    let KeptSlab { layers: [start, end], counts, intervals, crossings } =
+        postcard::from_bytes(bytes).map_err(|_| Error::Internal)?;
+    let crossings = crossings.map(|kept| kept.into_iter().map(|(edge, at)| Crossing { edge, at }).collect());
+    Ok(Slab { layers: start..end, counts, intervals, crossings })
+}
+
+/// The volumes of a map's two sets.
+pub(crate) fn compute_volumes(
+    question: &DexterityQuestion,
+    observer: &dyn Observer,
+) -> Result<Vec<u8>, Error> {
+    let request = DexterityRequest::from(&question.request);
+    let volumes = volumes(&question.published.machine, &request, observer).map_err(workspace_error)?;
+    let kept = volumes.map(|volume| match volume {
+        Volume::Value { value, error } => Some([value, error]),
+        Volume::Folded => None,
+    });
+    postcard::to_stdvec(&kept).map_err(|_| Error::Internal)
+}
+
+/// Volumes that were kept.
+pub(crate) fn read_volumes(bytes: &[u8]) -> Result<[Volume; 2], Error> {
+    let kept: [Option<[f64; 2]>; 2] = postcard::from_bytes(bytes).map_err(|_| Error::Internal)?;
+    Ok(kept.map(|kept| kept.map_or(Volume::Folded, |[value, error]| Volume::Value { value, error })))
+}

@@ -1,0 +1,130 @@
+//! Writes a result's mesh in a format.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+use verne_mesh::{Mesh, glb, ply, stl};
+
+use crate::operations::dexterity_question::DexterityQuestion;
+use crate::operations::registry::Published;
+use crate::operations::workspace_question::WorkspaceQuestion;
+use crate::wire::dexterity::SetName;
+use crate::wire::error::Error;
+use crate::wire::format::MeshFormat;
+use crate::wire::limit::Unchecked;
+use crate::wire::result_id::ResultId;
+use crate::wire::workspace::FrameName;
+
+/// The bend from which an edge is shown sharp, rad.
+const CREASE: f64 = std::f64::consts::PI / 6.0;
+
+/// About the bytes of a triangle in a file.
+const TRIANGLE_BYTES: usize = 64;
+
+/// A mesh's kind, frame and origin, which every file names.
+pub(crate) struct Described<'a> {
+    kind: &'static str,
+    frame: FrameName,
+    request: Value,
+    not_checked: &'static [Unchecked],
+    published: &'a Published,
+    id: ResultId,
+}
+
+impl<'a> Described<'a> {
+    /// The mesh of a workspace.
+    pub(crate) fn workspace(question: &'a WorkspaceQuestion) -> Self {
+        let kind = question.request.kind;
+        Self {
+            kind: kind.name(),
+            frame: kind.frame(),
+            request: json!(question.request),
+            not_checked: question.request.not_checked(),
+            published: &question.published,
+            id: question.id,
+        }
+    }
+
+    /// The mesh of one set of a dexterity map.
+    pub(crate) fn set(question: &'a DexterityQuestion, set: SetName) -> Self {
+        Self {
+            kind: set.name(),
+            frame: FrameName::Part,
+            request: json!(question.request),
+            not_checked: Unchecked::beside(question.request.table_clearance.is_some()),
+            published: &question.published,
+            id: question.id,
+        }
+    }
+
+    /// What files say about themselves. `unit` is that of the coordinates; the machine's data and the request are in
+    /// mm whatever it is.
+    fn about(&self, mesh: &Mesh, unit: &str) -> Value {
+        let machine = &self.published.id;
+        json!({
+            "unit": unit,
+            "machine_unit": "mm",
+            "frame": self.frame,
+            "kind": self.kind,
+            "request": self.request,
+            "not_checked": self.not_checked,
+            "machine": {
+                "name": machine.name,
+                "hash": machine.hash,
+                "description": self.published.machine.data().description,
+            },
+            "id": self.id,
+            "solver": concat!("verne ", env!("CARGO_PKG_VERSION")),
+            "constraints": mesh.palette(),
+        })
+    }
+
+    fn options(&self, extras: Value) -> glb::Options {
+        let up = match self.frame {
+            FrameName::Base => glb::Up::NegativeZ,
+            FrameName::Part => glb::Up::PositiveZ,
+        };
+        let name = format!("{} workspace of {}", self.kind, self.published.id.name);
+        glb::Options { name, up, crease: CREASE, extras }
+    }
+
+    /// A header of STL has little room.
+    fn title(&self) -> String {
+        format!("{} {}, {:.16}", self.published.id.name, self.kind, self.id)
+    }
+}
+
+/// The mesh as a file.
+pub(crate) fn write_mesh(
+    described: &Described<'_>,
+    mesh: &Mesh,
+    format: MeshFormat,
+) -> Result<Vec<u8>, Error> {
+    // glTF has no other unit than the metre.
+    let unit = if format == MeshFormat::Glb { "m" } else { "mm" };
+    let about = described.about(mesh, unit);
+    let mut file = Vec::with_capacity(TRIANGLE_BYTES * mesh.triangles().len());
+    let written = match format {
+        MeshFormat::Glb => glb::write(mesh, &described.options(about), &mut file),
+        MeshFormat::Stl => stl::write(mesh, &described.title(), &mut file),
+        MeshFormat::Ply => ply::write(mesh, &comments(&about), &mut file),
+        MeshFormat::Json => verne_mesh::json::write(mesh, &about, &mut file),
+    };
+    written.map_err(|_| Error::Internal)?;
+    Ok(file)
+}
+
+/// One line for each thing that is said, except for the constraints, which the format says itself.
+fn comments(about: &Value) -> String {
+    let lines = about
+        .as_object()
+        .into_iter()
+        .flatten()
+        .filter(|(name, _)| !["unit", "machine_unit", "constraints"].contains(&name.as_str()));
+    lines.fold(String::new(), |mut comments, (name, value)| {
+        let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        // Writing to a string cannot fail.
+        let _ = writeln!(comments, "{name} {text}");
+        comments
+    })
+}

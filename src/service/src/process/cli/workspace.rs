@@ -1,0 +1,106 @@
+//! `verne workspace`: volumes, meshes and slices without a server.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use serde_json::Value;
+
+use crate::operations::mesh_files::{Described, write_mesh};
+use crate::operations::registry::Registry;
+use crate::operations::slice::answer_slice;
+use crate::operations::workspace::compute_workspace;
+use crate::operations::workspace_question::WorkspaceQuestion;
+use crate::process::cli::progress::Bar;
+use crate::process::cli::question::{in_flags, machine, written};
+use crate::wire::alphas::Alphas;
+use crate::wire::error::{Error, Fault};
+use crate::wire::format::{MeshFormat, SliceFormat};
+use crate::wire::parse::parse_body;
+use crate::wire::workspace::WorkspaceRequest;
+use crate::wire::workspace_query::WorkspaceQuery;
+
+/// A workspace on the command line.
+#[derive(Debug, Args)]
+pub(crate) struct WorkspaceCommand {
+    #[command(flatten)]
+    query: WorkspaceQuery,
+    /// Write the mesh to this file: .glb, .stl, .ply or .json; with --slice: .json, .svg or .dxf. Without it, verne
+    /// prints the JSON that the HTTP service would answer.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Height of the slice in the frame of the workspace, mm.
+    #[arg(long, value_name = "Z", allow_hyphen_values = true)]
+    slice: Option<f64>,
+    /// Lines of constant alpha in the slice: true for a line every five degrees, or angles in degrees, separated by
+    /// commas.
+    #[arg(long, requires = "slice", default_value = "false", value_parser = str::parse::<Alphas>)]
+    #[arg(allow_hyphen_values = true)]
+    alpha: Alphas,
+}
+
+/// What is written to a file.
+enum Wanted {
+    Mesh(MeshFormat),
+    Slice(SliceFormat),
+}
+
+impl WorkspaceCommand {
+    /// Writes the file, or the answer to `out`.
+    pub(crate) fn run(self, out: &mut impl Write, pretty: bool) -> Result<(), String> {
+        // A file that cannot be written in any format is refused before the work.
+        let wanted = self.output.as_deref().map(|path| self.wanted(path)).transpose()?;
+        let machine = machine(&self.query.machine)?;
+        let request = WorkspaceRequest { machine, ..self.query.into_request() };
+        let bar = Bar::new();
+        let question = WorkspaceQuestion::new(&request, &Registry::default()).map_err(in_flags)?;
+        let workspace = compute_workspace(&question, usize::MAX, &bar).map_err(in_flags)?;
+        let slice = |format| {
+            let z = self.slice.unwrap_or_default();
+            answer_slice(&question, workspace.inclination, z, &self.alpha, format, &bar)
+                .map_err(|error| in_flags(named(error)))
+        };
+        let bytes = match &wanted {
+            Some(Wanted::Mesh(format)) => {
+                write_mesh(&Described::workspace(&question), &workspace.mesh, *format).map_err(in_flags)?
+            }
+            Some(Wanted::Slice(format)) => slice(*format)?,
+            None if self.slice.is_some() => slice(SliceFormat::Json)?,
+            None => workspace.summary,
+        };
+        drop(bar);
+        match self.output {
+            Some(path) => {
+                std::fs::write(&path, bytes).map_err(|error| format!("{}: {error}", path.display()))
+            }
+            None => print(&bytes, out, pretty),
+        }
+    }
+
+    /// The format that a file's extension names.
+    fn wanted(&self, path: &Path) -> Result<Wanted, String> {
+        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        let (wanted, known) = if self.slice.is_some() {
+            (SliceFormat::from_str(extension, true).map(Wanted::Slice), ".json, .svg or .dxf (a slice)")
+        } else {
+            (MeshFormat::from_str(extension, true).map(Wanted::Mesh), ".glb, .stl, .ply or .json (a mesh)")
+        };
+        wanted.map_err(|_| format!("--output {} must end in {known}", path.display()))
+    }
+}
+
+fn print(json: &[u8], out: &mut impl Write, pretty: bool) -> Result<(), String> {
+    let answer: Value = parse_body(json).map_err(in_flags)?;
+    writeln!(out, "{}", written(&answer, pretty)?)
+        .map_err(|error| format!("cannot write the answer: {error}"))
+}
+
+/// The height is --slice here.
+fn named(error: Error) -> Error {
+    let Error::Fields(faults) = error else { return error };
+    let renamed = faults.into_iter().map(|fault| match fault.pointer.as_str() {
+        "/z" => Fault::new("/slice", fault.detail),
+        _ => fault,
+    });
+    Error::Fields(renamed.collect())
+}
