@@ -7,6 +7,7 @@ pub(crate) mod base_path;
 pub(crate) mod caller;
 pub(crate) mod conditional_response;
 pub(crate) mod content_coding;
+pub(crate) mod error;
 pub(crate) mod extract;
 pub(crate) mod forwarded_for;
 pub(crate) mod gate;

@@ -4,6 +4,7 @@
 
 pub(crate) mod admission;
 pub(crate) mod client_quota;
+pub(crate) mod error;
 pub(crate) mod key;
 pub(crate) mod keys;
 pub(crate) mod keys_file;

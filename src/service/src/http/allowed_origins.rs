@@ -9,9 +9,9 @@ use axum::http::header::{HOST, ORIGIN};
 use axum::http::uri::Authority;
 use axum::http::{HeaderMap, HeaderName, Uri};
 
+use crate::http::error::AccessError;
 use crate::http::origin::Origin;
 use crate::http::proxy::HostName;
-use crate::wire::error::Error;
 
 /// How a browser says where a request comes from (W3C Fetch Metadata). Pages cannot set it.
 const FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
@@ -35,12 +35,12 @@ impl Pages {
 
     /// Fails for a name that is not the service's. An address is no name that could be rebound; a request without a
     /// name comes from no browser.
-    pub(crate) fn check_host(&self, uri: &Uri, headers: &HeaderMap) -> Result<(), Error> {
+    pub(crate) fn check_host(&self, uri: &Uri, headers: &HeaderMap) -> Result<(), AccessError> {
         let (Some(names), Some(authority)) = (&self.names, authority(uri, headers)) else { return Ok(()) };
         let host = host(&authority);
         let is_known =
             is_address(&host) || is_localhost(&host) || names.iter().any(|name| name.as_str() == host);
-        if is_known { Ok(()) } else { Err(Error::HostNotAllowed(host)) }
+        if is_known { Ok(()) } else { Err(AccessError::HostNotAllowed(host)) }
     }
 
     /// Whether a page sends the request that is neither the service's own nor of an origin that may ask.

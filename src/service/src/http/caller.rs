@@ -7,9 +7,10 @@ use axum::http::Extensions;
 use axum::http::request::Parts;
 use verne_jobs::Job;
 
+use crate::http::error::{AccessError, HttpError};
 use crate::http::state::Shared;
 use crate::limits::keys::Pass;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::role::Role;
 
 /// Who asks. There for every route that the [gate](crate::http::gate::Gate) is before.
@@ -29,11 +30,11 @@ pub(crate) struct Caller {
 
 impl Caller {
     /// Fails for a role that does not suffice.
-    pub(crate) fn must_be(&self, needed: Role) -> Result<(), Error> {
+    pub(crate) fn must_be(&self, needed: Role) -> Result<(), AccessError> {
         if self.foreign && needed > Role::Read {
-            return Err(Error::OtherOrigin);
+            return Err(AccessError::OtherOrigin);
         }
-        if self.role >= needed { Ok(()) } else { Err(Error::Forbidden(needed)) }
+        if self.role >= needed { Ok(()) } else { Err(AccessError::Forbidden(needed)) }
     }
 
     /// Who has a part of what is there for all at once; `None`: as much as there is.
@@ -66,11 +67,11 @@ impl Caller {
 }
 
 impl FromRequestParts<Shared> for Caller {
-    type Rejection = Error;
+    type Rejection = HttpError;
 
-    async fn from_request_parts(parts: &mut Parts, _: &Shared) -> Result<Self, Error> {
+    async fn from_request_parts(parts: &mut Parts, _: &Shared) -> Result<Self, HttpError> {
         // The gate has put it there.
-        parts.extensions.get().cloned().ok_or(Error::Internal)
+        parts.extensions.get().cloned().ok_or(OperationError::Internal.into())
     }
 }
 

@@ -15,8 +15,9 @@ use axum::response::{IntoResponse, Response};
 use headers::{ETag, HeaderMapExt, IfNoneMatch, IfRange};
 use verne_store::Found;
 
+use crate::http::error::HttpError;
 use crate::limits::response_memory::Own;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 
 /// For what lies under its own id.
 pub(crate) const FOR_EVER: &str = "public, max-age=31536000, immutable";
@@ -69,10 +70,10 @@ pub(crate) struct Delivery {
 
 impl Delivery {
     /// The answer to a request with these conditions.
-    pub(crate) fn answer(self, conditions: &Conditions) -> Result<Response, Error> {
+    pub(crate) fn answer(self, conditions: &Conditions) -> Result<Response, HttpError> {
         let tag = format!("\"{}\"", &self.content.hash().to_hex()[..32]);
         let headers = self.headers(&tag);
-        let Ok(etag) = tag.parse::<ETag>() else { return Err(Error::Internal) };
+        let Ok(etag) = tag.parse::<ETag>() else { return Err(OperationError::Internal.into()) };
         if conditions.if_none_match.as_ref().is_some_and(|condition| !condition.precondition_passes(&etag)) {
             return Ok((StatusCode::NOT_MODIFIED, headers).into_response());
         }
@@ -122,7 +123,7 @@ fn sent(status: StatusCode, mut headers: HeaderMap, content: &Found, range: Rang
 
 /// The bytes that a header Range asks for. Nothing, so that all are sent, if it is none of `bytes=a-b`, `bytes=a-` and
 /// `bytes=-n`: several ranges at once included, which a server may answer in full.
-fn wanted(header: &str, length: u64) -> Option<Result<RangeInclusive<u64>, Error>> {
+fn wanted(header: &str, length: u64) -> Option<Result<RangeInclusive<u64>, HttpError>> {
     let (unit, range) = header.split_once('=')?;
     let (first, last) = range.trim().split_once('-')?;
     if !unit.trim().eq_ignore_ascii_case("bytes") {
@@ -146,13 +147,13 @@ fn wanted(header: &str, length: u64) -> Option<Result<RangeInclusive<u64>, Error
             (first, last.min(end))
         }
     };
-    Some(if first < length { Ok(first..=last) } else { Err(Error::RangeNotSatisfiable(length)) })
+    Some(if first < length { Ok(first..=last) } else { Err(HttpError::RangeNotSatisfiable(length)) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::wanted;
-    use crate::wire::error::Error;
+    use crate::http::error::HttpError;
 
     #[test]
     fn ranges_as_rfc_9110_has_them() {
@@ -163,9 +164,9 @@ mod tests {
             ("bytes=-3", Some(Ok(7..=9))),
             ("bytes=-99", Some(Ok(0..=9))),
             ("Bytes=9-9", Some(Ok(9..=9))),
-            ("bytes=10-", Some(Err(Error::RangeNotSatisfiable(10)))),
-            ("bytes=99999999999999999999999-", Some(Err(Error::RangeNotSatisfiable(10)))),
-            ("bytes=-0", Some(Err(Error::RangeNotSatisfiable(10)))),
+            ("bytes=10-", Some(Err(HttpError::RangeNotSatisfiable(10)))),
+            ("bytes=99999999999999999999999-", Some(Err(HttpError::RangeNotSatisfiable(10)))),
+            ("bytes=-0", Some(Err(HttpError::RangeNotSatisfiable(10)))),
             ("bytes=3-2", None),
             ("bytes=0-1,3-4", None),
             ("bytes=-", None),

@@ -6,7 +6,8 @@ use axum::http::HeaderMap;
 use axum::http::header::CONTENT_ENCODING;
 use flate2::bufread::GzDecoder;
 
-use crate::wire::error::Error;
+use crate::http::error::{HttpError, RequestError};
+use crate::limits::error::LimitError;
 
 /// Bytes that are decoded at once.
 const PIECE: usize = 8 * 1024;
@@ -23,7 +24,7 @@ impl Coding {
     pub(crate) const ACCEPTED: &str = "gzip, br";
 
     /// The coding of a body with these headers; nothing for a plain body.
-    pub(crate) fn of(headers: &HeaderMap) -> Result<Option<Self>, Error> {
+    pub(crate) fn of(headers: &HeaderMap) -> Result<Option<Self>, RequestError> {
         let declared: Vec<_> = headers
             .get_all(CONTENT_ENCODING)
             .iter()
@@ -35,7 +36,7 @@ impl Coding {
             [] => Ok(None),
             ["gzip" | "x-gzip"] => Ok(Some(Self::Gzip)),
             ["br"] => Ok(Some(Self::Brotli)),
-            others => Err(Error::UnknownCoding(others.join(", "))),
+            others => Err(RequestError::UnsupportedCoding(others.join(", "))),
         }
     }
 
@@ -45,8 +46,8 @@ impl Coding {
         self,
         encoded: &[u8],
         limit: usize,
-        hold: impl FnMut(usize) -> Result<(), Error>,
-    ) -> Result<Vec<u8>, Error> {
+        hold: impl FnMut(usize) -> Result<(), LimitError>,
+    ) -> Result<Vec<u8>, HttpError> {
         match self {
             Self::Gzip => {
                 let mut decoder = GzDecoder::new(encoded);
@@ -54,7 +55,7 @@ impl Coding {
                 if decoder.into_inner().is_empty() {
                     Ok(decoded)
                 } else {
-                    Err(self.lost("extra bytes follow the end of the compressed data"))
+                    Err(self.lost("extra bytes follow the end of the compressed data").into())
                 }
             }
             Self::Brotli => self.read(&mut brotli::Decompressor::new(encoded, PIECE), limit, hold),
@@ -65,8 +66,8 @@ impl Coding {
         self,
         decoder: &mut impl Read,
         limit: usize,
-        mut hold: impl FnMut(usize) -> Result<(), Error>,
-    ) -> Result<Vec<u8>, Error> {
+        mut hold: impl FnMut(usize) -> Result<(), LimitError>,
+    ) -> Result<Vec<u8>, HttpError> {
         let (mut decoded, mut piece) = (Vec::new(), [0; PIECE]);
         loop {
             let count = decoder.read(&mut piece).map_err(|error| self.lost(&error.to_string()))?;
@@ -75,19 +76,19 @@ impl Coding {
                 return Ok(decoded);
             }
             if decoded.len() + count > limit {
-                return Err(Error::BodyTooLarge(limit));
+                return Err(RequestError::BodyTooLarge(limit).into());
             }
             hold(decoded.len() + count)?;
             decoded.extend_from_slice(read);
         }
     }
 
-    fn lost(self, reason: &str) -> Error {
+    fn lost(self, reason: &str) -> RequestError {
         let name = match self {
             Self::Gzip => "gzip",
             Self::Brotli => "br",
         };
-        Error::BodyLost(format!("it cannot be decoded from {name}: {reason}"))
+        RequestError::UnreadableBody(format!("it cannot be decoded from {name}: {reason}"))
     }
 }
 

@@ -11,12 +11,13 @@ use verne_solver::workspace::Observer;
 
 use crate::http::caller::Caller;
 use crate::http::content_coding::Coding;
+use crate::http::error::{HttpError, RequestError};
 use crate::http::state::Shared;
 use crate::limits::admission::Memory;
 use crate::limits::client_quota::Share;
 use crate::limits::response_memory::with_share;
 use crate::operations::compute_pool::{on_workers, on_workers_while_waited_for};
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::parse::parse_body;
 use crate::wire::query_string::parse_query;
 
@@ -27,10 +28,10 @@ pub(crate) const SINGLE_BODY_BYTES: usize = 64 * 1024;
 pub(crate) struct Params<T>(pub T);
 
 impl<T: DeserializeOwned + IntoParams> FromRequestParts<Shared> for Params<T> {
-    type Rejection = Error;
+    type Rejection = HttpError;
 
-    async fn from_request_parts(parts: &mut Parts, _: &Shared) -> Result<Self, Error> {
-        parse_query(parts.uri.query().unwrap_or_default()).map(Self)
+    async fn from_request_parts(parts: &mut Parts, _: &Shared) -> Result<Self, HttpError> {
+        Ok(Self(parse_query(parts.uri.query().unwrap_or_default())?))
     }
 }
 
@@ -38,10 +39,10 @@ impl<T: DeserializeOwned + IntoParams> FromRequestParts<Shared> for Params<T> {
 pub(crate) struct Single<T>(pub T);
 
 impl<T: DeserializeOwned + ToSchema> FromRequest<Shared> for Single<T> {
-    type Rejection = Error;
+    type Rejection = HttpError;
 
-    async fn from_request(request: Request, _: &Shared) -> Result<Self, Error> {
-        parse_body(&json_bytes(request, SINGLE_BODY_BYTES).await?).map(Self)
+    async fn from_request(request: Request, _: &Shared) -> Result<Self, HttpError> {
+        Ok(Self(parse_body(&json_bytes(request, SINGLE_BODY_BYTES).await?)?))
     }
 }
 
@@ -60,8 +61,8 @@ impl Batch {
     /// computed, whether anybody waits or not.
     pub(crate) async fn answer(
         self,
-        work: impl FnOnce(&[u8], &dyn Observer) -> Result<Vec<u8>, Error> + Send + 'static,
-    ) -> Result<Bytes, Error> {
+        work: impl FnOnce(&[u8], &dyn Observer) -> Result<Vec<u8>, OperationError> + Send + 'static,
+    ) -> Result<Bytes, HttpError> {
         let Self { mut body, coding, limit, mut memory, share } = self;
         on_workers_while_waited_for(move |observer| {
             if let Some(coding) = coding {
@@ -70,19 +71,19 @@ impl Batch {
             }
             let answer = work(&body, observer);
             drop((body, memory));
-            answer.map(|answer| with_share(answer, share))
+            Ok(with_share(answer?, share))
         })
         .await
     }
 }
 
 impl FromRequest<Shared> for Batch {
-    type Rejection = Error;
+    type Rejection = HttpError;
 
-    async fn from_request(request: Request, state: &Shared) -> Result<Self, Error> {
+    async fn from_request(request: Request, state: &Shared) -> Result<Self, HttpError> {
         require_json(request.headers())?;
         let (coding, limit) = (Coding::of(request.headers())?, state.limits.body_bytes);
-        let caller = request.extensions().get::<Caller>().cloned().ok_or(Error::Internal)?;
+        let caller = request.extensions().get::<Caller>().cloned().ok_or(OperationError::Internal)?;
         let mut memory = state.admission.body(caller.sharer())?;
         let body = counted_bytes(request.into_body(), limit, &mut memory).await?;
         // Not before: who sends slowly would have the shares of all.
@@ -91,7 +92,7 @@ impl FromRequest<Shared> for Batch {
     }
 }
 
-async fn json_bytes(request: Request, limit: usize) -> Result<Bytes, Error> {
+async fn json_bytes(request: Request, limit: usize) -> Result<Bytes, HttpError> {
     require_json(request.headers())?;
     let coding = Coding::of(request.headers())?;
     require_within(request.body(), limit)?;
@@ -104,7 +105,7 @@ async fn json_bytes(request: Request, limit: usize) -> Result<Bytes, Error> {
 }
 
 /// A body whose memory is counted as it comes.
-async fn counted_bytes(body: Body, limit: usize, memory: &mut Memory) -> Result<Vec<u8>, Error> {
+async fn counted_bytes(body: Body, limit: usize, memory: &mut Memory) -> Result<Vec<u8>, HttpError> {
     require_within(&body, limit)?;
     let mut body = Limited::new(body, limit);
     let mut bytes = Vec::new();
@@ -118,29 +119,29 @@ async fn counted_bytes(body: Body, limit: usize, memory: &mut Memory) -> Result<
 }
 
 /// Refuses a length that is declared and too large. The client is not asked for such a body by `100 Continue`.
-fn require_within(body: &Body, limit: usize) -> Result<(), Error> {
+fn require_within(body: &Body, limit: usize) -> Result<(), RequestError> {
     let declared = HttpBody::size_hint(body).lower();
     if usize::try_from(declared).is_ok_and(|bytes| bytes <= limit) {
         Ok(())
     } else {
-        Err(Error::BodyTooLarge(limit))
+        Err(RequestError::BodyTooLarge(limit))
     }
 }
 
-fn lost(cause: &(dyn std::error::Error + 'static), limit: usize) -> Error {
+fn lost(cause: &(dyn std::error::Error + 'static), limit: usize) -> RequestError {
     if cause.is::<LengthLimitError>() {
-        Error::BodyTooLarge(limit)
+        RequestError::BodyTooLarge(limit)
     } else {
-        Error::BodyLost(cause.to_string())
+        RequestError::UnreadableBody(cause.to_string())
     }
 }
 
-fn require_json(headers: &HeaderMap) -> Result<(), Error> {
-    let Some(declared) = headers.get(header::CONTENT_TYPE) else { return Err(Error::NotJson(None)) };
+fn require_json(headers: &HeaderMap) -> Result<(), RequestError> {
+    let Some(declared) = headers.get(header::CONTENT_TYPE) else { return Err(RequestError::NotJson(None)) };
     let declared = declared.to_str().unwrap_or_default();
     let essence = declared.split(';').next().unwrap_or_default().trim().to_ascii_lowercase();
     if essence == "application/json" || (essence.starts_with("application/") && essence.ends_with("+json")) {
         return Ok(());
     }
-    Err(Error::NotJson(Some(declared.to_owned())))
+    Err(RequestError::NotJson(Some(declared.to_owned())))
 }

@@ -15,13 +15,14 @@ use headers::authorization::{Authorization, Bearer};
 
 use crate::http::allowed_origins::Pages;
 use crate::http::caller::{Caller, address};
+use crate::http::error::{AccessError, HttpError};
 use crate::http::request_log::sent_by;
 use crate::http::state::Shared;
 use crate::limits::admission::{Admission, Load};
+use crate::limits::error::LimitError;
 use crate::limits::keys::Keys;
 use crate::limits::keys_file::BadKeys;
 use crate::limits::rate::{Addresses, Bucket, Rate};
-use crate::wire::error::Error;
 use crate::wire::role::Role;
 
 /// Who may use a route where the service has keys, and what it is to the service.
@@ -95,7 +96,7 @@ impl Gate {
     }
 
     /// Who asks; fails for who is not known and should be, or asks too fast for what has a limit.
-    fn caller(&self, needed: Option<Role>, request: &Request, load: Load) -> Result<Caller, Error> {
+    fn caller(&self, needed: Option<Role>, request: &Request, load: Load) -> Result<Caller, HttpError> {
         let limited = load != Load::Watch;
         let (headers, extensions) = (request.headers(), request.extensions());
         let foreign = self.pages.are_foreign(request.uri(), headers);
@@ -103,7 +104,7 @@ impl Gate {
             let (client, bounded) = address(extensions);
             sent_by(&client);
             self.addresses.iter().filter(|_| limited).try_for_each(|addresses| addresses.take(&client))?;
-            Ok::<_, Error>((client, bounded))
+            Ok::<_, LimitError>((client, bounded))
         };
         let Some(keys) = self.keys.as_ref().filter(|_| needed.is_some()) else {
             let (client, bounded) = by_address(limited)?;
@@ -114,7 +115,7 @@ impl Gate {
         let Some(pass) = sent.and_then(|sent| keys.holder(sent.token())) else {
             // Who tries keys is limited everywhere.
             by_address(true)?;
-            return Err(Error::Unauthorized);
+            return Err(AccessError::Unauthorized.into());
         };
         let holder = &pass.holder;
         sent_by(&holder.name);
@@ -131,11 +132,11 @@ async fn pass(
     State((gate, needed, load)): State<Before>,
     mut request: Request,
     next: Next,
-) -> Result<Response<Body>, Error> {
+) -> Result<Response<Body>, HttpError> {
     gate.pages.check_host(request.uri(), request.headers())?;
     let caller = gate.caller(needed, &request, load)?;
     if caller.foreign && !request.method().is_safe() {
-        return Err(Error::OtherOrigin);
+        return Err(AccessError::OtherOrigin.into());
     }
     needed.map_or(Ok(()), |needed| caller.must_be(needed))?;
     let place = gate.admission.enter(load, caller.sharer())?;

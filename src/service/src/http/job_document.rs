@@ -13,7 +13,7 @@ use crate::http::proxy::BasePath;
 use crate::http::result_or_job::failure;
 use crate::operations::question::Gist;
 use crate::wire::answer::MachineId;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::result_id::ResultId;
 
 /// A computation in the queue. It continues after its request has ended.
@@ -102,7 +102,7 @@ impl From<StateName> for State {
 
 impl JobObject {
     /// The job in the contract's words, with links that begin with the path under which the service is published.
-    pub(crate) fn new(job: &Job, base: &BasePath) -> Result<Self, Error> {
+    pub(crate) fn new(job: &Job, base: &BasePath) -> Result<Self, OperationError> {
         let gist = Gist::of(&job.payload)?;
         let time = |time: SystemTime| format_rfc3339_millis(time).to_string();
         let itself = format!("{base}{}", Self::path(job.id));

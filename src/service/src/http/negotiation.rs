@@ -7,7 +7,7 @@ use axum::http::HeaderMap;
 use axum::http::header::ACCEPT;
 use axum::http::request::Parts;
 
-use crate::wire::error::Error;
+use crate::http::error::HttpError;
 
 /// The media ranges of the header Accept; without it, everything.
 #[derive(Debug)]
@@ -36,7 +36,10 @@ impl Accept {
     }
 
     /// The offer that is accepted best, the first of equals.
-    pub(crate) fn choose<T>(&self, offers: impl IntoIterator<Item = (&'static str, T)>) -> Result<T, Error> {
+    pub(crate) fn choose<T>(
+        &self,
+        offers: impl IntoIterator<Item = (&'static str, T)>,
+    ) -> Result<T, HttpError> {
         let mut refused = Vec::new();
         let mut best: Option<(f32, T)> = None;
         for (media, offer) in offers {
@@ -46,7 +49,7 @@ impl Accept {
                 best = Some((weight, offer));
             }
         }
-        best.map(|(_, offer)| offer).ok_or(Error::NotAcceptable(refused))
+        best.map(|(_, offer)| offer).ok_or(HttpError::NotAcceptable(refused))
     }
 
     /// The weight of a media type: that of the most specific range it falls into.

@@ -8,10 +8,11 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Response};
 
 use crate::http::caller::Caller;
+use crate::http::error::HttpError;
 use crate::http::result_or_job::Patience;
 use crate::http::state::Shared;
 use crate::limits::admission::Place;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 
 const PREFER: HeaderName = HeaderName::from_static("prefer");
 const PREFERENCE_APPLIED: HeaderName = HeaderName::from_static("preference-applied");
@@ -25,12 +26,12 @@ pub(crate) struct Prefer {
 }
 
 impl FromRequestParts<Shared> for Prefer {
-    type Rejection = Error;
+    type Rejection = HttpError;
 
-    async fn from_request_parts(parts: &mut Parts, state: &Shared) -> Result<Self, Error> {
+    async fn from_request_parts(parts: &mut Parts, state: &Shared) -> Result<Self, HttpError> {
         let caller = Caller::from_request_parts(parts, state).await?;
         // The gate has put it there.
-        let place = parts.extensions.get::<Arc<Place>>().cloned().ok_or(Error::Internal)?;
+        let place = parts.extensions.get::<Arc<Place>>().cloned().ok_or(OperationError::Internal)?;
         let preferred = preferred(&parts.headers);
         let wait = preferred.unwrap_or(state.limits.wait).min(state.limits.longest_wait);
         let applied = preferred.map(|_| match wait.as_secs() {

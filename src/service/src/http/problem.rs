@@ -10,8 +10,10 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use crate::http::content_coding::Coding;
+use crate::http::error::{AccessError, HttpError, JobError, RequestError};
 use crate::http::problem::code::Code;
-use crate::wire::error::{Error, Fault};
+use crate::limits::error::LimitError;
+use crate::wire::error::{FieldError, OperationError};
 
 /// Seconds after which a service that is being restarted is worth asking again.
 const PAUSE: u64 = 5;
@@ -36,45 +38,29 @@ pub(crate) struct Problem {
     detail: String,
     /// The invalid fields.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    errors: Vec<FieldProblem>,
-}
-
-/// One invalid field.
-#[derive(Debug, Serialize, ToSchema)]
-#[schema(as = FieldProblem)]
-struct FieldProblem {
-    /// JSON Pointer into the body, such as `/machine/limits/stroke/0`; `/query/<name>` for a query parameter.
-    pointer: String,
-    /// The error, and the accepted values.
-    detail: String,
-}
-
-impl From<Fault> for FieldProblem {
-    fn from(Fault { pointer, detail }: Fault) -> Self {
-        Self { pointer, detail }
-    }
+    errors: Vec<FieldError>,
 }
 
 /// The error behind a bare status that the framework answered by itself.
-fn error_behind(status: StatusCode) -> Error {
+fn error_behind(status: StatusCode) -> HttpError {
     match status {
-        StatusCode::METHOD_NOT_ALLOWED => Error::MethodNotAllowed,
-        StatusCode::NOT_FOUND => Error::NoSuchPath,
-        StatusCode::NOT_ACCEPTABLE => Error::NoEncoding,
-        StatusCode::SERVICE_UNAVAILABLE => Error::TimedOut,
-        StatusCode::INTERNAL_SERVER_ERROR => Error::Internal,
-        _ => Error::BodyLost(status.to_string()),
+        StatusCode::METHOD_NOT_ALLOWED => HttpError::MethodNotAllowed,
+        StatusCode::NOT_FOUND => HttpError::UnknownPath,
+        StatusCode::NOT_ACCEPTABLE => HttpError::NoAcceptableCoding,
+        StatusCode::SERVICE_UNAVAILABLE => HttpError::TimedOut,
+        StatusCode::INTERNAL_SERVER_ERROR => OperationError::Internal.into(),
+        _ => RequestError::UnreadableBody(status.to_string()).into(),
     }
 }
 
-impl From<Error> for Problem {
-    fn from(error: Error) -> Self {
+impl From<HttpError> for Problem {
+    fn from(error: HttpError) -> Self {
         let code = Code::from(&error);
         let status = code.status();
         let title = status.canonical_reason().unwrap_or("Error").to_owned();
         let detail = error.to_string();
         let errors = match error {
-            Error::Fields(faults) => faults.into_iter().map(FieldProblem::from).collect(),
+            HttpError::Operation(OperationError::Fields(errors)) => errors,
             _ => Vec::new(),
         };
         Self { kind: "about:blank", title, status: status.as_u16(), code: code.name(), detail, errors }
@@ -94,8 +80,11 @@ impl IntoResponse for Problem {
     }
 }
 
-impl IntoResponse for Error {
+impl IntoResponse for HttpError {
     fn into_response(self) -> Response {
+        if let Self::Job(JobError::RecordsUnavailable(unavailable)) = &self {
+            tracing::error!(%unavailable, "cannot read or write job records");
+        }
         let header = header_of(&self);
         let mut response = Problem::from(self).into_response();
         response.headers_mut().extend(header);
@@ -103,18 +92,22 @@ impl IntoResponse for Error {
     }
 }
 
-/// What an error says in a header.
-fn header_of(error: &Error) -> Option<(HeaderName, HeaderValue)> {
+/// The header that an error adds to its document.
+fn header_of(error: &HttpError) -> Option<(HeaderName, HeaderValue)> {
     let pause = |seconds: u64| Some((header::RETRY_AFTER, seconds.into()));
     match error {
-        Error::QueueFull(seconds) | Error::TooManyRequests(seconds) => pause(*seconds),
-        Error::Overloaded => pause(1),
-        Error::Stopping | Error::JobsUnavailable | Error::DiskFailing => pause(PAUSE),
-        Error::Unauthorized => Some((header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"))),
-        Error::UnknownCoding(_) => {
+        HttpError::Job(JobError::QueueFull(seconds))
+        | HttpError::Limit(LimitError::TooManyRequests(seconds)) => pause(*seconds),
+        HttpError::Limit(LimitError::Overloaded) => pause(1),
+        HttpError::Job(JobError::Stopping | JobError::RecordsUnavailable(_))
+        | HttpError::Operation(OperationError::StoreUnavailable) => pause(PAUSE),
+        HttpError::Access(AccessError::Unauthorized) => {
+            Some((header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer")))
+        }
+        HttpError::Request(RequestError::UnsupportedCoding(_)) => {
             Some((header::ACCEPT_ENCODING, HeaderValue::from_static(Coding::ACCEPTED)))
         }
-        Error::RangeNotSatisfiable(length) => {
+        HttpError::RangeNotSatisfiable(length) => {
             let range = HeaderValue::try_from(format!("bytes */{length}")).ok()?;
             Some((header::CONTENT_RANGE, range))
         }

@@ -10,8 +10,9 @@ use axum::routing::MethodRouter;
 use utoipa::openapi::path::{Operation, ParameterIn};
 use utoipa::openapi::{Paths, RefOr};
 
+use crate::http::error::HttpError;
 use crate::http::state::Shared;
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 
 /// Most unknown parameters that one answer lists.
 const LISTED: usize = 10;
@@ -46,7 +47,7 @@ fn names(operation: &Operation) -> Vec<String> {
         .collect()
 }
 
-async fn check(State(known): State<Arc<Known>>, request: Request, next: Next) -> Result<Response, Error> {
+async fn check(State(known): State<Arc<Known>>, request: Request, next: Next) -> Result<Response, HttpError> {
     let names = known.iter().find(|(method, _)| method == request.method()).map(|(_, names)| names);
     if let (Some(names), Some(query)) = (names, request.uri().query()) {
         check_query(query, names, request.method())?;
@@ -54,7 +55,7 @@ async fn check(State(known): State<Arc<Known>>, request: Request, next: Next) ->
     Ok(next.run(request).await)
 }
 
-fn check_query(query: &str, known: &[String], method: &Method) -> Result<(), Error> {
+fn check_query(query: &str, known: &[String], method: &Method) -> Result<(), OperationError> {
     let mut unknown = Vec::new();
     for (name, _) in form_urlencoded::parse(query.as_bytes()) {
         if unknown.len() < LISTED && !known.iter().any(|known| *known == name) && !unknown.contains(&name) {
@@ -69,6 +70,6 @@ fn check_query(query: &str, known: &[String], method: &Method) -> Result<(), Err
         [] => "this operation has no query parameters".to_owned(),
         known => format!("the parameters of this operation are {}", known.join(", ")),
     };
-    let fault = |name| Fault::new(format!("/query/{name}"), format!("`{name}` is unknown: {expected}"));
-    Err(Error::Fields(unknown.into_iter().map(fault).collect()))
+    let fault = |name| FieldError::new(format!("/query/{name}"), format!("`{name}` is unknown: {expected}"));
+    Err(OperationError::Fields(unknown.into_iter().map(fault).collect()))
 }

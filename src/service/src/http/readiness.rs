@@ -6,9 +6,9 @@ use axum::Json;
 use tokio_util::sync::CancellationToken;
 use verne_jobs::Backend;
 
+use crate::http::error::{HttpError, JobError};
 use crate::operations::results::Results;
 use crate::wire::catalogue::{Health, Part, Status};
-use crate::wire::error::Error;
 
 /// Asked by `/readyz`.
 pub(crate) struct Readiness {
@@ -25,22 +25,22 @@ impl Readiness {
 
     /// Ready, or why not. What all processes share is told of and no reason to turn requests away: they would be turned
     /// away everywhere at once, those too that need none of it.
-    pub(crate) async fn told(&self) -> Result<Json<Health>, Error> {
+    pub(crate) async fn told(&self) -> Result<Json<Health>, HttpError> {
         if self.stopping.is_cancelled() {
-            return Err(Error::Stopping);
+            return Err(JobError::Stopping.into());
         }
         let mut failing = Vec::new();
         if let Err(error) = self.results.healthy().await {
             if !self.results.are_shared() {
-                return Err(error);
+                return Err(error.into());
             }
             failing.push(Part::Store);
         }
         if let Err(unavailable) = self.jobs.reachable().await {
-            tracing::error!(%unavailable, "cannot reach the job records");
             if !self.jobs.is_shared() {
-                return Err(Error::JobsUnavailable);
+                return Err(unavailable.into());
             }
+            tracing::error!(%unavailable, "cannot reach the job records");
             failing.push(Part::Broker);
         }
         let status = if failing.is_empty() { Status::Ok } else { Status::Degraded };
@@ -63,8 +63,8 @@ mod tests {
     use verne_store::Store;
 
     use super::Readiness;
+    use crate::http::error::{HttpError, JobError};
     use crate::operations::results::Results;
-    use crate::wire::error::Error;
 
     /// Jobs that cannot be recorded.
     struct Refusing {
@@ -114,7 +114,8 @@ mod tests {
 
     #[tokio::test]
     async fn a_process_that_cannot_record_its_jobs_is_not_ready() {
-        assert_eq!(readiness(false).told().await.map(drop).unwrap_err(), Error::JobsUnavailable);
+        let error = readiness(false).told().await.map(drop).unwrap_err();
+        assert!(matches!(error, HttpError::Job(JobError::RecordsUnavailable(_))), "{error:?}");
         let health = readiness(true).told().await.unwrap();
         assert_eq!(json!(*health), json!({"status": "degraded", "failing": ["broker"]}));
     }

@@ -7,7 +7,7 @@ use axum::http::header::HOST;
 use axum::http::uri::Authority;
 use axum::http::{HeaderMap, Request, StatusCode, Uri, Version};
 
-use crate::wire::error::Error;
+use crate::http::error::RequestError;
 
 /// Most bytes of a request's address.
 const URI_BYTES: usize = 16 * 1024;
@@ -23,7 +23,7 @@ const NOWHERE: &str = "/unreadable";
 
 /// Why a request cannot be read, beside the request that is sent through the layers in its place.
 #[derive(Clone, Debug)]
-pub(crate) struct Unreadable(pub Error);
+pub(crate) struct Unreadable(pub RequestError);
 
 /// Sends a request whose head the service does not take to where it is refused.
 pub(crate) fn check<B>(request: &mut Request<B>) {
@@ -36,52 +36,58 @@ pub(crate) fn check<B>(request: &mut Request<B>) {
 pub(crate) fn refused<B: Default>(status: StatusCode) -> Request<B> {
     let mut request = Request::new(B::default());
     let error = match status {
-        StatusCode::URI_TOO_LONG => Error::UriTooLong(URI_BYTES),
-        StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE => Error::HeadersTooLarge,
-        _ => Error::BadHead("The request is not valid HTTP: its first line or a header is malformed."),
+        StatusCode::URI_TOO_LONG => RequestError::UriTooLong(URI_BYTES),
+        StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE => RequestError::HeadersTooLarge,
+        _ => RequestError::MalformedHead(
+            "The request is not valid HTTP: its first line or a header is malformed.",
+        ),
     };
     refuse(&mut request, error);
     request
 }
 
-fn refuse<B>(request: &mut Request<B>, error: Error) {
+fn refuse<B>(request: &mut Request<B>, error: RequestError) {
     *request.uri_mut() = Uri::from_static(NOWHERE);
     request.extensions_mut().insert(Unreadable(error));
 }
 
-fn checked<B>(request: &Request<B>) -> Result<(), Error> {
+fn checked<B>(request: &Request<B>) -> Result<(), RequestError> {
     let uri = request.uri();
     if uri.path().len() + uri.query().map_or(0, str::len) > URI_BYTES {
-        return Err(Error::UriTooLong(URI_BYTES));
+        return Err(RequestError::UriTooLong(URI_BYTES));
     }
     if uri.scheme().is_none() && uri.authority().is_some() {
-        return Err(Error::BadHead("The request target is neither a path nor a URL."));
+        return Err(RequestError::MalformedHead("The request target is neither a path nor a URL."));
     }
     let headers = request.headers();
     // As in the first line: name, colon, value, end of line.
     let bytes: usize = headers.iter().map(|(name, value)| name.as_str().len() + value.len() + 4).sum();
     if bytes > HEADER_BYTES {
-        return Err(Error::HeadersTooLarge);
+        return Err(RequestError::HeadersTooLarge);
     }
     check_host(request.version(), uri, headers)
 }
 
 /// HTTP/1.1 has one Host in each request, whatever its first line says; HTTP/2 has `:authority` or Host.
-fn check_host(version: Version, uri: &Uri, headers: &HeaderMap) -> Result<(), Error> {
+fn check_host(version: Version, uri: &Uri, headers: &HeaderMap) -> Result<(), RequestError> {
     let mut hosts = headers.get_all(HOST).iter();
     let (host, second) = (hosts.next(), hosts.next());
     let Some(host) = host else {
         let is_needed =
             version == Version::HTTP_11 || version > Version::HTTP_11 && uri.authority().is_none();
-        return if is_needed { Err(Error::BadHead("The request has no Host header.")) } else { Ok(()) };
+        return if is_needed {
+            Err(RequestError::MalformedHead("The request has no Host header."))
+        } else {
+            Ok(())
+        };
     };
     if second.is_some() {
-        return Err(Error::BadHead("The request has more than one Host header."));
+        return Err(RequestError::MalformedHead("The request has more than one Host header."));
     }
     if host.to_str().is_ok_and(is_host) {
         Ok(())
     } else {
-        Err(Error::BadHead("The Host header is not a host name with an optional port."))
+        Err(RequestError::MalformedHead("The Host header is not a host name with an optional port."))
     }
 }
 
@@ -99,9 +105,9 @@ mod tests {
     use axum::http::{Request, Version};
 
     use super::checked;
-    use crate::wire::error::Error;
+    use crate::http::error::RequestError;
 
-    fn refusal(version: Version, uri: &str, hosts: &[&[u8]]) -> Option<Error> {
+    fn refusal(version: Version, uri: &str, hosts: &[&[u8]]) -> Option<RequestError> {
         let mut request = Request::get(uri).version(version);
         for host in hosts {
             request = request.header(HOST, *host);
@@ -118,7 +124,11 @@ mod tests {
             [b"", b"a b", b"me@verne", b"verne:port", b"[::1", b"\xff", b"verne/fk", b":80"];
         for host in bad {
             let refused = refusal(Version::HTTP_11, "/fk", &[host]);
-            assert!(matches!(refused, Some(Error::BadHead(_))), "{:?}", String::from_utf8_lossy(host));
+            assert!(
+                matches!(refused, Some(RequestError::MalformedHead(_))),
+                "{:?}",
+                String::from_utf8_lossy(host)
+            );
         }
         assert!(refusal(Version::HTTP_11, "/fk", &[]).is_some());
         assert!(refusal(Version::HTTP_11, "/fk", &[b"a", b"a"]).is_some());
@@ -132,8 +142,11 @@ mod tests {
     fn address_and_headers_have_a_bound() {
         let uri = |bytes: usize| format!("/fk?{}", "x".repeat(bytes));
         assert_eq!(refusal(Version::HTTP_11, &uri(16_000), &[b"verne"]), None);
-        assert_eq!(refusal(Version::HTTP_11, &uri(17_000), &[b"verne"]), Some(Error::UriTooLong(16 * 1024)));
+        assert_eq!(
+            refusal(Version::HTTP_11, &uri(17_000), &[b"verne"]),
+            Some(RequestError::UriTooLong(16 * 1024))
+        );
         let long = Request::get("/fk").header(HOST, "verne").header("x-long", "x".repeat(33_000));
-        assert_eq!(checked(&long.body(()).unwrap()), Err(Error::HeadersTooLarge));
+        assert_eq!(checked(&long.body(()).unwrap()), Err(RequestError::HeadersTooLarge));
     }
 }

@@ -7,12 +7,13 @@ use verne_jobs::State as JobState;
 use verne_jobs::{Claim, Failure, Job};
 
 use crate::http::caller::Caller;
+use crate::http::error::{HttpError, JobError};
 use crate::http::state::State;
 use crate::limits::admission::Place;
 use crate::operations::compute_pool::on_workers_while_waited_for;
 use crate::operations::question::{Question, TaskFault, Terms};
 use crate::operations::results::Record;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::result_id::ResultId;
 use crate::wire::role::Role;
 
@@ -41,7 +42,7 @@ impl State {
         &self,
         question: &Question,
         patience: &Patience,
-    ) -> Result<Obtained<Record>, Error> {
+    ) -> Result<Obtained<Record>, HttpError> {
         let id = question.id();
         match self.results.record(id).await {
             Some(record) => Ok(Obtained::Ready(record)),
@@ -54,11 +55,11 @@ impl State {
         &self,
         question: &Question,
         patience: &Patience,
-    ) -> Result<Obtained<Record>, Error> {
+    ) -> Result<Obtained<Record>, HttpError> {
         patience.caller.must_be(Role::Compute)?;
         let terms = self.terms(question).await?;
         let submission = question.submission(terms, patience.caller.client.clone(), Some(self.limits.job))?;
-        let claim = self.jobs.submit(submission).await?;
+        let claim = self.jobs.submit(submission).await.map_err(JobError::from)?;
         if patience.wait.is_zero() {
             return Ok(Obtained::Pending(kept(&claim)));
         }
@@ -69,7 +70,7 @@ impl State {
                 () = self.stopping.cancelled() => {
                     // The client is told that it goes on.
                     claim.keep();
-                    Err(Error::Stopping)
+                    Err(JobError::Stopping)
                 }
             }
         };
@@ -80,7 +81,7 @@ impl State {
     }
 
     /// On which terms a job may answer. Of equal questions at the same moment one is estimated.
-    async fn terms(&self, question: &Question) -> Result<Terms, Error> {
+    async fn terms(&self, question: &Question) -> Result<Terms, OperationError> {
         let (asked, most) = (question.clone(), self.limits.triangles);
         let estimate = on_workers_while_waited_for(move |observer| asked.terms(most, observer));
         let terms = self.terms.try_get_with(question.id().job(), estimate).await;
@@ -94,23 +95,23 @@ impl State {
         question: &Question,
         patience: &Patience,
         look: impl Fn() -> F,
-    ) -> Result<Obtained<T>, Error> {
+    ) -> Result<Obtained<T>, HttpError> {
         if let Some(part) = look().await {
             return Ok(Obtained::Ready(part));
         }
         match self.compute(question, patience).await? {
             Obtained::Pending(job) => Ok(Obtained::Pending(job)),
-            Obtained::Ready(_) => look().await.map(Obtained::Ready).ok_or(Error::NoRoom),
+            Obtained::Ready(_) => Ok(Obtained::Ready(look().await.ok_or(JobError::ResultTooLarge)?)),
         }
     }
 
-    async fn finished(&self, id: ResultId, job: Job) -> Result<Record, Error> {
+    async fn finished(&self, id: ResultId, job: Job) -> Result<Record, HttpError> {
         match job.state {
             // What was just made can only be gone if there is room for nothing.
-            JobState::Succeeded => self.results.record(id).await.ok_or(Error::NoRoom),
+            JobState::Succeeded => Ok(self.results.record(id).await.ok_or(JobError::ResultTooLarge)?),
             JobState::Failed => Err(failure(&job)),
-            JobState::Cancelled => Err(Error::JobCancelled),
-            JobState::Queued | JobState::Running => Err(Error::Stopping),
+            JobState::Cancelled => Err(JobError::Cancelled.into()),
+            JobState::Queued | JobState::Running => Err(JobError::Stopping.into()),
         }
     }
 }
@@ -121,12 +122,12 @@ fn kept(claim: &Claim) -> Box<Job> {
 }
 
 /// Why a job failed.
-pub(crate) fn failure(job: &Job) -> Error {
+pub(crate) fn failure(job: &Job) -> HttpError {
     match &job.failure {
-        Some(Failure::Work(fault)) => {
-            serde_json::from_slice::<TaskFault>(fault).map_or(Error::Internal, Error::from)
-        }
-        Some(Failure::DeadlinePassed) => Error::JobTooLong,
-        Some(Failure::Panicked(_) | Failure::TooManyAttempts) | None => Error::Internal,
+        Some(Failure::Work(fault)) => serde_json::from_slice::<TaskFault>(fault)
+            .map_or(OperationError::Internal, OperationError::from)
+            .into(),
+        Some(Failure::DeadlinePassed) => JobError::DeadlinePassed.into(),
+        Some(Failure::Panicked(_) | Failure::TooManyAttempts) | None => OperationError::Internal.into(),
     }
 }

@@ -7,6 +7,7 @@ use verne_store::{Content, Found};
 
 use crate::http::base_path::linked;
 use crate::http::conditional_response::{Conditions, Delivery};
+use crate::http::error::{HttpError, LookupError};
 use crate::http::handlers::jobs::accepted;
 use crate::http::prefer::Prefer;
 use crate::http::result_or_job::{Obtained, Patience};
@@ -16,7 +17,6 @@ use crate::operations::mesh_files::{Described, write_mesh};
 use crate::operations::question::Question;
 use crate::operations::results::{MESH, Record, content, unpacked_mesh};
 use crate::wire::dexterity::SetName;
-use crate::wire::error::{Error, Fault};
 use crate::wire::format::MeshFormat;
 
 /// The figures that answer a question.
@@ -24,7 +24,7 @@ pub(crate) async fn figures(
     state: &State,
     question: &Question,
     patience: &Patience,
-) -> Result<Obtained<Delivery>, Error> {
+) -> Result<Obtained<Delivery>, HttpError> {
     Ok(match state.obtain(question, patience).await? {
         Obtained::Ready(record) => Obtained::Ready(summary(state, record)),
         Obtained::Pending(job) => Obtained::Pending(job),
@@ -32,14 +32,16 @@ pub(crate) async fn figures(
 }
 
 /// Which surface of a question's answer is meant: its name among the kept parts, and what its files say.
-fn surface(question: &Question, set: Option<SetName>) -> Result<(&'static str, Described<'_>), Error> {
+fn surface(question: &Question, set: Option<SetName>) -> Result<(&'static str, Described<'_>), HttpError> {
     match (question, set) {
         (Question::Workspace(workspace), None) => Ok((MESH, Described::workspace(workspace))),
         (Question::Workspace(_), Some(_)) => {
             let detail = "is allowed only for dexterity maps: a workspace has one mesh";
-            Err(Error::Fields(vec![Fault::new("/query/set", detail)]))
+            Err(HttpError::field("/query/set", detail))
         }
-        (Question::Family(_) | Question::Piece(_), _) => Err(Error::NoMesh(question.id().to_string())),
+        (Question::Family(_) | Question::Piece(_), _) => {
+            Err(LookupError::Mesh(question.id().to_string()).into())
+        }
         (Question::Dexterity(dexterity), set) => {
             let set = set.unwrap_or(SetName::Reachable);
             Ok((set.name(), Described::set(dexterity, set)))
@@ -54,7 +56,7 @@ pub(crate) async fn mesh(
     set: Option<SetName>,
     format: MeshFormat,
     patience: &Patience,
-) -> Result<Obtained<Delivery>, Error> {
+) -> Result<Obtained<Delivery>, HttpError> {
     let (id, name) = (question.id(), format.name());
     let sent = |content: Found, own| {
         let set = set.map(|set| format!("&set={}", set.name())).unwrap_or_default();
@@ -100,18 +102,18 @@ async fn made(
     format: MeshFormat,
     file: &str,
     client: Option<&str>,
-) -> Result<Option<Made>, Error> {
+) -> Result<Option<Made>, HttpError> {
     let (id, part) = (question.id(), surface(question, set)?.0);
     let mut turn = None;
     let make = Box::pin(async {
         let taken = Arc::clone(turn.insert(Arc::new(state.admission.mesh(client).await?)));
-        let Some(packed) = state.results.part(id, part).await else { return Ok(None) };
+        let Some(packed) = state.results.part(id, part).await else { return Ok::<_, HttpError>(None) };
         let question = question.clone();
         on_workers(move || {
             let _taken = taken;
             let Some(mesh) = unpacked_mesh(&packed) else { return Ok(None) };
             drop(packed);
-            write_mesh(&surface(&question, set)?.1, &mesh, format).map(Some)
+            Ok(Some(write_mesh(&surface(&question, set)?.1, &mesh, format)?))
         })
         .await
     });
@@ -126,7 +128,7 @@ pub(crate) fn respond(
     describe: impl FnOnce(Delivery) -> Delivery,
     prefer: Prefer,
     conditions: &Conditions,
-) -> Result<Response, Error> {
+) -> Result<Response, HttpError> {
     let mut response = match obtained {
         Obtained::Ready(delivery) => describe(delivery).answer(conditions)?,
         Obtained::Pending(job) => accepted(&job, &state.base)?,

@@ -13,7 +13,7 @@ use headers::{ETag, HeaderMapExt, IfNoneMatch};
 use tokio::sync::OnceCell;
 
 use crate::operations::compute_pool::on_workers;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 
 /// How hard Brotli tries, of 11: with the document the last two steps save one byte in nine and take thirteen times as long.
 const QUALITY: i32 = 9;
@@ -39,12 +39,12 @@ impl Fixed {
         &self,
         headers: &HeaderMap,
         cache_control: &'static str,
-    ) -> Result<Response, Error> {
+    ) -> Result<Response, OperationError> {
         let encoding = Encoding::accepted(headers);
         let name = encoding.map(Encoding::name);
         let tag = self.tag(name);
         let about = [(CACHE_CONTROL, cache_control), (ETAG, &tag), (VARY, ACCEPT_ENCODING.as_str())];
-        let etag: ETag = tag.parse().map_err(|_| Error::Internal)?;
+        let etag: ETag = tag.parse().map_err(|_| OperationError::Internal)?;
         if headers.typed_get::<IfNoneMatch>().is_some_and(|condition| !condition.precondition_passes(&etag)) {
             return Ok((StatusCode::NOT_MODIFIED, about).into_response());
         }
@@ -63,7 +63,7 @@ impl Fixed {
         format!("\"{}{encoding}\"", hash.as_str().get(..32).unwrap_or_default())
     }
 
-    async fn encoded(&self, encoding: Option<Encoding>) -> Result<Bytes, Error> {
+    async fn encoded(&self, encoding: Option<Encoding>) -> Result<Bytes, OperationError> {
         let Some(encoding) = encoding else { return Ok(self.plain.clone()) };
         let kept = match encoding {
             Encoding::Brotli => &self.brotli,
@@ -104,19 +104,20 @@ impl Encoding {
         }
     }
 
-    fn encode(self, mut plain: &[u8]) -> Result<Bytes, Error> {
+    fn encode(self, mut plain: &[u8]) -> Result<Bytes, OperationError> {
         let mut encoded = Vec::new();
         match self {
             Self::Brotli => {
                 let parameters = BrotliEncoderParams { quality: QUALITY, ..BrotliEncoderParams::default() };
-                brotli::BrotliCompress(&mut plain, &mut encoded, &parameters).map_err(|_| Error::Internal)?;
+                brotli::BrotliCompress(&mut plain, &mut encoded, &parameters)
+                    .map_err(|_| OperationError::Internal)?;
             }
             Self::Gzip => {
                 let mut encoder = GzEncoder::new(&mut encoded, Compression::best());
                 encoder
                     .write_all(plain)
                     .and_then(|()| encoder.finish().map(drop))
-                    .map_err(|_| Error::Internal)?;
+                    .map_err(|_| OperationError::Internal)?;
             }
         }
         Ok(encoded.into())

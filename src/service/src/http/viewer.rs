@@ -15,9 +15,9 @@ use axum::routing::get;
 use rust_embed::{EmbeddedFile, RustEmbed};
 
 use crate::http::conditional_response::FOR_EVER;
+use crate::http::error::HttpError;
 use crate::http::security_headers;
 use crate::http::static_content::Fixed;
-use crate::wire::error::Error;
 
 #[derive(RustEmbed)]
 #[folder = "$OUT_DIR/viewer"]
@@ -40,18 +40,18 @@ pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
 }
 
 /// The page names the files of its own build: it is asked for anew each time.
-async fn page(headers: HeaderMap) -> Result<Response, Error> {
+async fn page(headers: HeaderMap) -> Result<Response, HttpError> {
     match FILES.get("index.html") {
-        Some(file) => file.answer(&headers, "no-cache").await,
+        Some(file) => Ok(file.answer(&headers, "no-cache").await?),
         None => Ok(([(CACHE_CONTROL, "no-cache")], NO_VIEWER).into_response()),
     }
 }
 
 /// Names hold a hash of the content.
-async fn asset(name: Result<Path<String>, PathRejection>, headers: HeaderMap) -> Result<Response, Error> {
-    let Path(name) = name.map_err(|_| Error::NoSuchPath)?;
-    let file = FILES.get(format!("assets/{name}").as_str()).ok_or(Error::NoSuchPath)?;
-    file.answer(&headers, FOR_EVER).await
+async fn asset(name: Result<Path<String>, PathRejection>, headers: HeaderMap) -> Result<Response, HttpError> {
+    let Path(name) = name.map_err(|_| HttpError::UnknownPath)?;
+    let file = FILES.get(format!("assets/{name}").as_str()).ok_or(HttpError::UnknownPath)?;
+    Ok(file.answer(&headers, FOR_EVER).await?)
 }
 
 fn fixed(file: EmbeddedFile) -> Fixed {

@@ -16,8 +16,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use axum::body::Body;
 use axum::http::Response;
 
+use crate::limits::error::LimitError;
 use crate::limits::response_memory::Counted;
-use crate::wire::error::Error;
 
 use crate::limits::client_quota::{Share, Shares};
 
@@ -90,7 +90,11 @@ impl Admission {
     }
 
     /// A place for a request; there is one in any case for who only watches.
-    pub(crate) fn enter(self: &Arc<Self>, load: Load, client: Option<&str>) -> Result<Arc<Place>, Error> {
+    pub(crate) fn enter(
+        self: &Arc<Self>,
+        load: Load,
+        client: Option<&str>,
+    ) -> Result<Arc<Place>, LimitError> {
         let work = if load == Load::Work { Some(self.work.take(client)?) } else { None };
         let place = if load == Load::Watch { None } else { Some(self.all.take(client)?) };
         let client = client.map(str::to_owned);
@@ -98,29 +102,33 @@ impl Admission {
     }
 
     /// The memory of a body of which nothing is read yet.
-    pub(crate) fn body(&self, client: Option<&str>) -> Result<Memory, Error> {
+    pub(crate) fn body(&self, client: Option<&str>) -> Result<Memory, LimitError> {
         self.bodies.take(client).map(Memory)
     }
 
     /// A share of the batches.
-    pub(crate) fn batch(&self, client: Option<&str>) -> Result<Share, Error> {
+    pub(crate) fn batch(&self, client: Option<&str>) -> Result<Share, LimitError> {
         self.batches.take(client)
     }
 
     /// A mesh's turn to be made into a file; waits for it, in order.
-    pub(crate) async fn mesh(&self, client: Option<&str>) -> Result<Turn, Error> {
+    pub(crate) async fn mesh(&self, client: Option<&str>) -> Result<Turn, LimitError> {
         let share = self.meshes.take(client)?;
-        let turn = self.turns.wait(None).await.ok_or(Error::Internal)?;
+        let turn = self.turns.wait(None).await.ok_or(LimitError::Overloaded)?;
         Ok(Turn { _turn: turn, _share: share })
     }
 
     /// A stream of events.
-    pub(crate) fn stream(&self, client: Option<&str>) -> Result<Share, Error> {
+    pub(crate) fn stream(&self, client: Option<&str>) -> Result<Share, LimitError> {
         self.streams.take(client)
     }
 
     /// Counts the memory of an answer until it is sent.
-    pub(crate) fn send(&self, answer: Response<Body>, client: Option<&str>) -> Result<Response<Body>, Error> {
+    pub(crate) fn send(
+        &self,
+        answer: Response<Body>,
+        client: Option<&str>,
+    ) -> Result<Response<Body>, LimitError> {
         match crate::limits::response_memory::bytes_of(&answer) {
             Some(0) | None => Ok(answer),
             Some(bytes) => {
@@ -148,7 +156,7 @@ pub(crate) struct Memory(Share);
 
 impl Memory {
     /// The body has grown to so many bytes.
-    pub(crate) fn hold(&mut self, bytes: usize) -> Result<(), Error> {
+    pub(crate) fn hold(&mut self, bytes: usize) -> Result<(), LimitError> {
         match pages(bytes as u64).checked_sub(self.0.count()) {
             None | Some(0) => Ok(()),
             Some(more) => self.0.grow(more),
@@ -192,7 +200,7 @@ mod tests {
     use futures_util::FutureExt;
 
     use super::{Admission, Load};
-    use crate::wire::error::Error;
+    use crate::limits::error::LimitError;
 
     fn free(admission: &Admission) -> (usize, usize) {
         (admission.all.left(), admission.work.left())
@@ -257,7 +265,7 @@ mod tests {
         for turn in &mut waiting {
             assert!(turn.as_mut().now_or_never().is_none());
         }
-        assert_eq!(admission.mesh(Some("a")).await.unwrap_err(), Error::Overloaded);
+        assert_eq!(admission.mesh(Some("a")).await.unwrap_err(), LimitError::Overloaded);
         assert!(admission.mesh(Some("b")).now_or_never().is_none(), "others have the other half");
         drop(turns.pop());
         assert!(waiting[1].as_mut().now_or_never().is_none());

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
-use crate::wire::error::Error;
+use crate::limits::error::LimitError;
 
 /// The part of all shares that one client may have.
 const PART: usize = 2;
@@ -38,12 +38,16 @@ impl Shares {
     }
 
     /// One for a client, if it and all together have not too many.
-    pub(crate) fn take(self: &Arc<Self>, client: Option<&str>) -> Result<Share, Error> {
+    pub(crate) fn take(self: &Arc<Self>, client: Option<&str>) -> Result<Share, LimitError> {
         self.take_many(client, 1)
     }
 
     /// Several; no more than one client may have, so that what is larger still has a way.
-    pub(crate) fn take_many(self: &Arc<Self>, client: Option<&str>, count: usize) -> Result<Share, Error> {
+    pub(crate) fn take_many(
+        self: &Arc<Self>,
+        client: Option<&str>,
+        count: usize,
+    ) -> Result<Share, LimitError> {
         let mut share = self.owned_by(client, self.permits(0)?);
         share.grow(count.min(self.part))?;
         Ok(share)
@@ -72,9 +76,9 @@ impl Shares {
         Share { shares: Arc::clone(self), taken, client: client.map(str::to_owned) }
     }
 
-    fn permits(&self, count: usize) -> Result<OwnedSemaphorePermit, Error> {
-        let count = u32::try_from(count).map_err(|_| Error::Overloaded)?;
-        Arc::clone(&self.all).try_acquire_many_owned(count).map_err(|_| Error::Overloaded)
+    fn permits(&self, count: usize) -> Result<OwnedSemaphorePermit, LimitError> {
+        let count = u32::try_from(count).map_err(|_| LimitError::Overloaded)?;
+        Arc::clone(&self.all).try_acquire_many_owned(count).map_err(|_| LimitError::Overloaded)
     }
 
     fn by_client(&self) -> MutexGuard<'_, HashMap<String, usize>> {
@@ -84,7 +88,7 @@ impl Shares {
 
 impl Share {
     /// Takes so many more.
-    pub(crate) fn grow(&mut self, by: usize) -> Result<(), Error> {
+    pub(crate) fn grow(&mut self, by: usize) -> Result<(), LimitError> {
         let more = self.shares.permits(by)?;
         self.charge(by, self.shares.part)?;
         self.taken.merge(more);
@@ -96,12 +100,12 @@ impl Share {
         self.taken.num_permits()
     }
 
-    fn charge(&self, count: usize, most: usize) -> Result<(), Error> {
+    fn charge(&self, count: usize, most: usize) -> Result<(), LimitError> {
         let Some(client) = &self.client else { return Ok(()) };
         let mut by_client = self.shares.by_client();
         let has = by_client.get(client).copied().unwrap_or_default() + count;
         if has > most {
-            return Err(Error::Overloaded);
+            return Err(LimitError::Overloaded);
         }
         match by_client.get_mut(client) {
             Some(had) => *had = has,

@@ -9,7 +9,7 @@ use governor::{DefaultDirectRateLimiter, Quota, RateLimiter};
 use moka::policy::EvictionPolicy;
 use moka::sync::Cache;
 
-use crate::wire::error::Error;
+use crate::limits::error::LimitError;
 
 /// Most addresses that are remembered: the longest silent are forgotten first, and may begin anew.
 const ADDRESSES: u64 = 100_000;
@@ -39,10 +39,10 @@ impl Bucket {
     }
 
     /// Takes a request's token.
-    pub(crate) fn take(&self) -> Result<(), Error> {
+    pub(crate) fn take(&self) -> Result<(), LimitError> {
         self.0.check().map_err(|not_until| {
             let wait = not_until.wait_time_from(DefaultClock::default().now());
-            Error::TooManyRequests(seconds(wait))
+            LimitError::TooManyRequests(seconds(wait))
         })
     }
 }
@@ -67,7 +67,7 @@ impl Addresses {
     }
 
     /// Takes a token of an address.
-    pub(crate) fn take(&self, address: &str) -> Result<(), Error> {
+    pub(crate) fn take(&self, address: &str) -> Result<(), LimitError> {
         self.buckets.get_with_by_ref(address, || Arc::new(Bucket::new(self.rate))).take()
     }
 }

@@ -92,7 +92,7 @@ mod tests {
 
     use super::Own;
     use crate::limits::admission::Admission;
-    use crate::wire::error::Error;
+    use crate::limits::error::LimitError;
 
     /// A thirty-second of what may be under way, in memory once for all of these tests.
     fn large() -> Response<Body> {
@@ -110,7 +110,7 @@ mod tests {
         let mut body = unread.pop().unwrap().into_body();
         let handed_over = body.frame().await.unwrap().unwrap();
         drop(body);
-        assert_eq!(send("a").unwrap_err(), Error::Overloaded, "what is handed over is not sent yet");
+        assert_eq!(send("a").unwrap_err(), LimitError::Overloaded, "what is handed over is not sent yet");
         drop(handed_over);
         assert!(send("a").is_ok());
     }

@@ -6,8 +6,8 @@ use verne_solver::{Clearance, DOMAIN, Machine, Margin, Margins, Posture, Refusal
 
 use crate::operations::solutions::unheld;
 use crate::wire::batch::{Counts, Row, RowError, RowReport, Rows, Status};
-use crate::wire::error::Error;
-use crate::wire::field_errors::{Faults, LARGEST_ANGLE, is_angle, is_length, too_far};
+use crate::wire::error::OperationError;
+use crate::wire::field_errors::{FieldErrors, LARGEST_ANGLE, is_angle, is_length, too_far};
 use crate::wire::limit::{Limit, Unchecked};
 
 /// Rows that one task takes at least: enough to outweigh the cost of handing them over.
@@ -179,11 +179,11 @@ pub(crate) fn check_batch(
     lacking: Option<&str>,
     rows: usize,
     limit: usize,
-) -> Result<(), Error> {
+) -> Result<(), OperationError> {
     if rows > limit {
-        return Err(Error::TooManyRows { rows, limit });
+        return Err(OperationError::TooManyRows { rows, limit });
     }
-    let mut faults = Faults::default();
+    let mut faults = FieldErrors::default();
     faults.tool_length(shared.tool_length);
     faults.clearance(shared.table_clearance, shared.tool_radius, lacking);
     faults.into_result()

@@ -9,8 +9,8 @@ use crate::operations::registry::Registry;
 use crate::operations::workspace_question::{WorkspaceQuestion, workspace_error};
 use crate::wire::batch::{RowError, Rows};
 use crate::wire::contains::{ContainsAnswer, ContainsCounts, ContainsRequest};
-use crate::wire::error::Error;
-use crate::wire::field_errors::{Faults, out_of_proportion};
+use crate::wire::error::OperationError;
+use crate::wire::field_errors::{FieldErrors, out_of_proportion};
 use crate::wire::json::write_json;
 use crate::wire::limit::Limit;
 use crate::wire::parse::parse_body;
@@ -28,11 +28,11 @@ pub(crate) fn answer_contains(
     machines: &Registry,
     most_rows: usize,
     observer: &dyn Observer,
-) -> Result<Vec<u8>, Error> {
+) -> Result<Vec<u8>, OperationError> {
     let asked: ContainsRequest<'_> = parse_body(body)?;
     let (rows, limit) = (asked.points.len(), most_rows);
     if rows > limit {
-        return Err(Error::TooManyRows { rows, limit });
+        return Err(OperationError::TooManyRows { rows, limit });
     }
     let ContainsRequest { machine, kind, tool_length, table_clearance, tool_radius, phi1, phi2, points } =
         asked;
@@ -41,7 +41,7 @@ pub(crate) fn answer_contains(
         WorkspaceRequest { machine, kind, tool_length, table_clearance, tool_radius, phi1, phi2, tolerance };
     let question = WorkspaceQuestion::new(&whole, machines)?;
     let machine = &question.published.machine;
-    let mut faults = Faults::default();
+    let mut faults = FieldErrors::default();
     faults.proportion("/tool_length", question.request.tool_length.unwrap_or_default(), machine);
     faults.into_result()?;
     let (shape, points) = (Shape { lengths: &[3], words: "[x, y, z]" }, Rows::Text(points));
@@ -61,7 +61,7 @@ pub(crate) fn answer_contains(
     let mut found = found.into_iter();
     for point in read {
         match point {
-            Ok(_) => answer.add(found.next().ok_or(Error::Internal)?),
+            Ok(_) => answer.add(found.next().ok_or(OperationError::Internal)?),
             Err(detail) => answer.add_invalid(detail),
         }
     }

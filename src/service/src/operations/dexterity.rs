@@ -11,7 +11,7 @@ use crate::wire::degrees::to_degrees;
 use crate::wire::dexterity::{
     DexterityCells, DexterityLinks, DexteritySummary, GridObject, SetName, SetObject,
 };
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 use crate::wire::fixed_array::Exactly;
 use crate::wire::json::write_json;
 use crate::wire::limit::Unchecked;
@@ -42,7 +42,7 @@ pub(crate) fn merge_dexterity(
     slabs: &[impl AsRef<[u8]>],
     volumes: &[u8],
     observer: &dyn Observer,
-) -> Result<DexterityMap, Error> {
+) -> Result<DexterityMap, OperationError> {
     let request = DexterityRequest::from(&question.request);
     let slabs = slabs.iter().map(|slab| read_slab(slab.as_ref())).collect::<Result<_, _>>()?;
     let map = merge(&request, &grid(question, observer)?, slabs, read_volumes(volumes)?, observer)
@@ -55,14 +55,14 @@ pub(crate) fn merge_dexterity(
 }
 
 /// Refuses a grid of so many points.
-pub(crate) fn too_many_points(points: impl std::fmt::Display) -> Error {
-    Error::Fields(vec![Fault::new(
+pub(crate) fn too_many_points(points: impl std::fmt::Display) -> OperationError {
+    OperationError::Fields(vec![FieldError::new(
         "/cell",
         format!("makes a grid of {points} points; the limit is {POINTS}"),
     )])
 }
 
-fn meshed(region: &Region, set: SetName) -> Result<Mesh, Error> {
+fn meshed(region: &Region, set: SetName) -> Result<Mesh, OperationError> {
     let rgb = match set {
         SetName::Reachable => [0, 90, 158],
         SetName::Dexterous => [0, 158, 115],
@@ -70,7 +70,8 @@ fn meshed(region: &Region, set: SetName) -> Result<Mesh, Error> {
     let palette = vec![Swatch { name: set.name().to_owned(), rgb }];
     let palette = if region.triangles.is_empty() { Vec::new() } else { palette };
     let tags = vec![0; region.triangles.len()];
-    Mesh::new(region.positions.clone(), region.triangles.clone(), tags, palette).map_err(|_| Error::Internal)
+    Mesh::new(region.positions.clone(), region.triangles.clone(), tags, palette)
+        .map_err(|_| OperationError::Internal)
 }
 
 fn summarised(question: &DexterityQuestion, map: &Dexterity, meshes: &[Mesh; 2]) -> DexteritySummary {

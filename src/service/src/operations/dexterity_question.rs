@@ -7,8 +7,8 @@ use verne_solver::workspace::dexterity::DexterityRequest;
 use crate::operations::registry::{Published, Registry};
 use crate::wire::degrees::from_degrees;
 use crate::wire::dexterity::{CanonicalDexterity, DexterityBody, Inclinations};
-use crate::wire::error::Error;
-use crate::wire::field_errors::{Faults, is_angle};
+use crate::wire::error::OperationError;
+use crate::wire::field_errors::{FieldErrors, is_angle};
 use crate::wire::result_id::ResultId;
 use crate::wire::workspace::over_table;
 
@@ -36,8 +36,8 @@ pub(crate) struct DexterityQuestion {
 
 impl DexterityQuestion {
     /// Checks a request.
-    pub(crate) fn new(asked: &DexterityBody, machines: &Registry) -> Result<Self, Error> {
-        let mut faults = Faults::default();
+    pub(crate) fn new(asked: &DexterityBody, machines: &Registry) -> Result<Self, OperationError> {
+        let mut faults = FieldErrors::default();
         faults.tool_length(asked.tool_length);
         faults.clearance(asked.table_clearance, asked.tool_radius, None);
         faults.angle("/phi2", Some(asked.phi2));

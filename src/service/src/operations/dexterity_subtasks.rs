@@ -7,7 +7,7 @@ use verne_solver::workspace::{Observer, Volume};
 use crate::operations::dexterity::{POINTS, too_many_points};
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::workspace_question::workspace_error;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 
 /// A slab as it is kept.
 #[derive(Serialize, Deserialize)]
@@ -19,7 +19,7 @@ struct KeptSlab {
 }
 
 /// The grid of a map; refused where it has too many points.
-pub(crate) fn grid(question: &DexterityQuestion, observer: &dyn Observer) -> Result<Grid, Error> {
+pub(crate) fn grid(question: &DexterityQuestion, observer: &dyn Observer) -> Result<Grid, OperationError> {
     let request = DexterityRequest::from(&question.request);
     let grid = Grid::new(&question.published.machine, &request, observer).map_err(workspace_error)?;
     if grid.nodes() > POINTS { Err(too_many_points(grid.nodes())) } else { Ok(grid) }
@@ -30,7 +30,7 @@ pub(crate) fn compute_slab(
     question: &DexterityQuestion,
     [number, count]: [u32; 2],
     observer: &dyn Observer,
-) -> Result<Vec<u8>, Error> {
+) -> Result<Vec<u8>, OperationError> {
     let (grid, request) = (grid(question, observer)?, DexterityRequest::from(&question.request));
     let cut = |number: u32| {
         let layers = u64::from(grid.counts[0]) * u64::from(number) / u64::from(count.max(1));
@@ -43,13 +43,13 @@ pub(crate) fn compute_slab(
     let crossings =
         crossings.map(|found| found.into_iter().map(|crossing| (crossing.edge, crossing.at)).collect());
     let kept = KeptSlab { layers: [layers.start, layers.end], counts, intervals, crossings };
-    postcard::to_stdvec(&kept).map_err(|_| Error::Internal)
+    postcard::to_stdvec(&kept).map_err(|_| OperationError::Internal)
 }
 
 /// A slab that was kept.
-pub(crate) fn read_slab(bytes: &[u8]) -> Result<Slab, Error> {
+pub(crate) fn read_slab(bytes: &[u8]) -> Result<Slab, OperationError> {
     let KeptSlab { layers: [start, end], counts, intervals, crossings } =
-        postcard::from_bytes(bytes).map_err(|_| Error::Internal)?;
+        postcard::from_bytes(bytes).map_err(|_| OperationError::Internal)?;
     let crossings = crossings.map(|kept| kept.into_iter().map(|(edge, at)| Crossing { edge, at }).collect());
     Ok(Slab { layers: start..end, counts, intervals, crossings })
 }
@@ -58,18 +58,18 @@ pub(crate) fn read_slab(bytes: &[u8]) -> Result<Slab, Error> {
 pub(crate) fn compute_volumes(
     question: &DexterityQuestion,
     observer: &dyn Observer,
-) -> Result<Vec<u8>, Error> {
+) -> Result<Vec<u8>, OperationError> {
     let request = DexterityRequest::from(&question.request);
     let volumes = volumes(&question.published.machine, &request, observer).map_err(workspace_error)?;
     let kept = volumes.map(|volume| match volume {
         Volume::Value { value, error } => Some([value, error]),
         Volume::Folded => None,
     });
-    postcard::to_stdvec(&kept).map_err(|_| Error::Internal)
+    postcard::to_stdvec(&kept).map_err(|_| OperationError::Internal)
 }
 
 /// Volumes that were kept.
-pub(crate) fn read_volumes(bytes: &[u8]) -> Result<[Volume; 2], Error> {
-    let kept: [Option<[f64; 2]>; 2] = postcard::from_bytes(bytes).map_err(|_| Error::Internal)?;
+pub(crate) fn read_volumes(bytes: &[u8]) -> Result<[Volume; 2], OperationError> {
+    let kept: [Option<[f64; 2]>; 2] = postcard::from_bytes(bytes).map_err(|_| OperationError::Internal)?;
     Ok(kept.map(|kept| kept.map_or(Volume::Folded, |[value, error]| Volume::Value { value, error })))
 }

@@ -2,7 +2,7 @@
 
 use crate::operations::family_question::FamilyQuestion;
 use crate::operations::workspace_question::WorkspaceQuestion;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::family::{FamilyLinks, FamilyMember, FamilySummary, Figures};
 use crate::wire::json::write_json;
 use crate::wire::limit::Unchecked;
@@ -23,11 +23,13 @@ impl FamilyTable {
     pub(crate) fn add(
         &mut self,
         question: &WorkspaceQuestion,
-        summary: Result<&[u8], Error>,
-    ) -> Result<(), Error> {
+        summary: Result<&[u8], OperationError>,
+    ) -> Result<(), OperationError> {
         let (figures, failure) = match summary {
-            Ok(summary) => (Some(serde_json::from_slice(summary).map_err(|_| Error::Internal)?), None),
-            Err(Error::Fields(faults)) => {
+            Ok(summary) => {
+                (Some(serde_json::from_slice(summary).map_err(|_| OperationError::Internal)?), None)
+            }
+            Err(OperationError::Fields(faults)) => {
                 let words = faults.into_iter().map(|fault| format!("{} {}", fault.pointer, fault.detail));
                 (None, Some(words.collect::<Vec<_>>().join("; ")))
             }
@@ -41,7 +43,7 @@ impl FamilyTable {
     }
 
     /// The table, as it is sent.
-    pub(crate) fn written(self, question: &FamilyQuestion) -> Result<Vec<u8>, Error> {
+    pub(crate) fn written(self, question: &FamilyQuestion) -> Result<Vec<u8>, OperationError> {
         let bytes = MEMBER_BYTES * (1 + self.0.len());
         let summary = FamilySummary {
             id: question.id.to_string(),

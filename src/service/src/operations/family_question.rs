@@ -6,9 +6,9 @@ use verne_solver::workspace::Observer;
 
 use crate::operations::registry::{Published, Registry};
 use crate::operations::workspace_question::{WorkspaceQuestion, check_tolerance};
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::family::{FamilyRequest, WorkspaceBody};
-use crate::wire::field_errors::{Faults, is_angle, is_tool_length};
+use crate::wire::field_errors::{FieldErrors, is_angle, is_tool_length};
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::result_id::ResultId;
 use crate::wire::sweep::Span;
@@ -38,8 +38,8 @@ pub(crate) struct FamilyQuestion {
 
 impl FamilyQuestion {
     /// Checks a request.
-    pub(crate) fn new(asked: &WorkspaceBody, machines: &Registry) -> Result<Self, Error> {
-        let mut faults = Faults::default();
+    pub(crate) fn new(asked: &WorkspaceBody, machines: &Registry) -> Result<Self, OperationError> {
+        let mut faults = FieldErrors::default();
         let resolved = machines.resolve(&asked.machine);
         let (tool, part) = (asked.kind != KindName::Platform, asked.kind == KindName::Part);
         let mut written = |pointer: &str, span: &Span, effective: bool| {
@@ -124,7 +124,7 @@ impl FamilyQuestion {
 
     /// About how many triangles the largest mesh will have. A tool's length makes it larger, and the tool's inclination cuts
     /// the workspace of a part: the longest tool is looked at, and some of the members.
-    pub(crate) fn triangles(&self, observer: &dyn Observer) -> Result<f64, Error> {
+    pub(crate) fn triangles(&self, observer: &dyn Observer) -> Result<f64, OperationError> {
         let tool = |member: &&WorkspaceQuestion| member.request.tool_length.unwrap_or_default().abs();
         let longest = self.members.iter().max_by(|a, b| tool(a).total_cmp(&tool(b)));
         let some = self.members.iter().step_by(self.members.len().div_ceil(PROBES).max(1));

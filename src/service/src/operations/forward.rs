@@ -7,16 +7,16 @@ use crate::operations::registry::Registry;
 use crate::operations::solutions::{Findings, Found, Presentation};
 use crate::operations::table_angles::Stand;
 use crate::wire::answer::Answer;
-use crate::wire::error::Error;
-use crate::wire::field_errors::Faults;
+use crate::wire::error::OperationError;
+use crate::wire::field_errors::FieldErrors;
 use crate::wire::request::{FkRequest, Wanted};
 
 /// Answers a forward question.
-pub(crate) fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answer, Error> {
+pub(crate) fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answer, OperationError> {
     let table = checked_table(request)?;
     let published = machines.resolve(&request.machine)?;
     let rho = request.joints.rho.0;
-    let mut faults = Faults::default();
+    let mut faults = FieldErrors::default();
     for (i, &rho) in rho.iter().enumerate() {
         faults.proportion(&format!("/joints/rho/{i}"), rho, &published.machine);
     }
@@ -44,8 +44,8 @@ pub(crate) fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answ
 }
 
 /// The table's angles, once every number of the request has been looked at.
-fn checked_table(request: &FkRequest) -> Result<Option<Stand>, Error> {
-    let mut faults = Faults::default();
+fn checked_table(request: &FkRequest) -> Result<Option<Stand>, OperationError> {
+    let mut faults = FieldErrors::default();
     let joints = &request.joints;
     faults.lengths("/joints/rho", &joints.rho.0);
     faults.angle("/joints/theta1", joints.theta1);

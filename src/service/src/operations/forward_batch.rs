@@ -9,7 +9,7 @@ use crate::operations::batch_rows::{
 use crate::operations::registry::Registry;
 use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Row, Rows};
 use crate::wire::degrees::{from_degrees, to_degrees};
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::parse::{parse_body, parse_usual};
@@ -37,7 +37,7 @@ struct Question<'a> {
 }
 
 /// Reads a batch: at one go if every row is as it should be.
-fn read(body: &[u8]) -> Result<Question<'_>, Error> {
+fn read(body: &[u8]) -> Result<Question<'_>, OperationError> {
     if let Some(usual) = parse_usual(body) {
         let FkBatchNumbers { machine, tool_length, table_clearance, tool_radius, joints } = usual;
         let shared = Shared { tool_length, table_clearance, tool_radius };
@@ -49,7 +49,11 @@ fn read(body: &[u8]) -> Result<Question<'_>, Error> {
 }
 
 /// Answers a batch, from its body to the answer's; to be called on the worker threads.
-pub(crate) fn answer_fk_batch(body: &[u8], machines: &Registry, most_rows: usize) -> Result<Vec<u8>, Error> {
+pub(crate) fn answer_fk_batch(
+    body: &[u8],
+    machines: &Registry,
+    most_rows: usize,
+) -> Result<Vec<u8>, OperationError> {
     let question = read(body)?;
     check_batch(question.shared, None, question.rows.len(), most_rows)?;
     let published = machines.resolve(&question.machine)?;

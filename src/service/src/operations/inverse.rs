@@ -11,12 +11,12 @@ use crate::operations::registry::Registry;
 use crate::operations::solutions::{Findings, Found, Presentation};
 use crate::operations::table_angles::Orientation;
 use crate::wire::answer::Answer;
-use crate::wire::error::Error;
-use crate::wire::field_errors::Faults;
+use crate::wire::error::OperationError;
+use crate::wire::field_errors::FieldErrors;
 use crate::wire::request::{Frame, IkRequest, Wanted};
 
 /// Answers an inverse question.
-pub(crate) fn answer_ik(request: &IkRequest, machines: &Registry) -> Result<Answer, Error> {
+pub(crate) fn answer_ik(request: &IkRequest, machines: &Registry) -> Result<Answer, OperationError> {
     let orientations = checked_orientations(request)?;
     let published = machines.resolve(&request.machine)?;
     let machine = &published.machine;
@@ -41,8 +41,8 @@ pub(crate) fn answer_ik(request: &IkRequest, machines: &Registry) -> Result<Answ
 }
 
 /// The orientations asked for, once every number of the request has been looked at.
-fn checked_orientations(request: &IkRequest) -> Result<Orientations, Error> {
-    let mut faults = Faults::default();
+fn checked_orientations(request: &IkRequest) -> Result<Orientations, OperationError> {
+    let mut faults = FieldErrors::default();
     let pose = &request.pose;
     for (pointer, value) in [("/pose/x", pose.x), ("/pose/y", pose.y), ("/pose/z", pose.z)] {
         faults.length(pointer, value);
@@ -62,7 +62,7 @@ fn checked_orientations(request: &IkRequest) -> Result<Orientations, Error> {
 }
 
 /// Refuses lengths that are too long for the machine.
-fn in_proportion(request: &IkRequest, machine: &Machine) -> Result<(), Error> {
+fn in_proportion(request: &IkRequest, machine: &Machine) -> Result<(), OperationError> {
     let pose = &request.pose;
     let lengths = [
         ("/pose/x", pose.x),
@@ -70,7 +70,7 @@ fn in_proportion(request: &IkRequest, machine: &Machine) -> Result<(), Error> {
         ("/pose/z", pose.z),
         ("/tool_length", request.tool_length),
     ];
-    let mut faults = Faults::default();
+    let mut faults = FieldErrors::default();
     for (pointer, value) in lengths {
         faults.proportion(pointer, value, machine);
     }

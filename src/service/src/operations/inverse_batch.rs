@@ -12,7 +12,7 @@ use crate::operations::batch_rows::{
 use crate::operations::registry::Registry;
 use crate::operations::table_angles::{Orientation, Stand};
 use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, Row, Rows};
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::parse::{parse_body, parse_usual};
@@ -27,7 +27,7 @@ struct Question<'a> {
 }
 
 /// Reads a batch: at one go if every row is as it should be.
-fn read(body: &[u8]) -> Result<Question<'_>, Error> {
+fn read(body: &[u8]) -> Result<Question<'_>, OperationError> {
     if let Some(usual) = parse_usual(body) {
         let IkBatchNumbers { machine, frame, tool_length, table_clearance, tool_radius, poses } = usual;
         let shared = Shared { tool_length, table_clearance, tool_radius };
@@ -40,7 +40,11 @@ fn read(body: &[u8]) -> Result<Question<'_>, Error> {
 }
 
 /// Answers a batch, from its body to the answer's; to be called on the worker threads.
-pub(crate) fn answer_ik_batch(body: &[u8], machines: &Registry, most_rows: usize) -> Result<Vec<u8>, Error> {
+pub(crate) fn answer_ik_batch(
+    body: &[u8],
+    machines: &Registry,
+    most_rows: usize,
+) -> Result<Vec<u8>, OperationError> {
     let question = read(body)?;
     check_batch(question.shared, question.frame.without_tilt(), question.rows.len(), most_rows)?;
     let published = machines.resolve(&question.machine)?;

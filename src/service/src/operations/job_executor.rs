@@ -21,7 +21,7 @@ use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::telemetry::metrics::computations::Computations;
 use crate::wire::dexterity::SetName;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::result_id::ResultId;
 
@@ -49,7 +49,12 @@ impl Tasks {
     }
 
     /// A mesh may have `most` triangles.
-    fn answer(&self, question: &Question, most: usize, observer: &dyn Observer) -> Result<(), Error> {
+    fn answer(
+        &self,
+        question: &Question,
+        most: usize,
+        observer: &dyn Observer,
+    ) -> Result<(), OperationError> {
         match question {
             Question::Workspace(workspace) => self.workspace(workspace, most, observer).map(drop),
             Question::Family(family) => self.family(family, most, observer),
@@ -64,7 +69,7 @@ impl Tasks {
         asked: &WorkspaceQuestion,
         most: usize,
         observer: &dyn Observer,
-    ) -> Result<Vec<u8>, Error> {
+    ) -> Result<Vec<u8>, OperationError> {
         if let Some(record) = self.known(asked.id, &[MESH]) {
             return Ok(record.summary.bytes.to_vec());
         }
@@ -87,23 +92,28 @@ impl Tasks {
         member: &WorkspaceQuestion,
         most: usize,
         observer: &dyn Observer,
-    ) -> Result<Result<Vec<u8>, Error>, Error> {
+    ) -> Result<Result<Vec<u8>, OperationError>, OperationError> {
         let piece = Piece::Member(member.clone()).id();
         if let Some(fault) = self.kept(piece) {
-            let fault: TaskFault = serde_json::from_slice(&fault).map_err(|_| Error::Internal)?;
+            let fault: TaskFault = serde_json::from_slice(&fault).map_err(|_| OperationError::Internal)?;
             return Ok(Err(fault.into()));
         }
         match self.workspace(member, most, observer) {
-            Err(Error::Fields(faults)) => {
+            Err(OperationError::Fields(faults)) => {
                 let fault = write_json(&TaskFault::Fields(faults.clone()), FAULT_BYTES)?;
                 self.keep(piece, fault)?;
-                Ok(Err(Error::Fields(faults)))
+                Ok(Err(OperationError::Fields(faults)))
             }
             summary => summary.map(Ok),
         }
     }
 
-    fn family(&self, family: &FamilyQuestion, most: usize, observer: &dyn Observer) -> Result<(), Error> {
+    fn family(
+        &self,
+        family: &FamilyQuestion,
+        most: usize,
+        observer: &dyn Observer,
+    ) -> Result<(), OperationError> {
         let members = family.members.len();
         let mut table = FamilyTable::with_room(members);
         for (i, member) in family.members.iter().enumerate() {
@@ -116,7 +126,7 @@ impl Tasks {
     }
 
     /// A piece's bytes, kept or made. Of a member there are none unless it failed.
-    fn piece(&self, piece: &Piece, most: usize, observer: &dyn Observer) -> Result<Bytes, Error> {
+    fn piece(&self, piece: &Piece, most: usize, observer: &dyn Observer) -> Result<Bytes, OperationError> {
         if let Some(kept) = self.kept(piece.id()) {
             return Ok(kept);
         }
@@ -130,7 +140,12 @@ impl Tasks {
     }
 
     /// Merges a map from its pieces; one that has made room for others is made again.
-    fn dexterity(&self, map: &DexterityQuestion, most: usize, observer: &dyn Observer) -> Result<(), Error> {
+    fn dexterity(
+        &self,
+        map: &DexterityQuestion,
+        most: usize,
+        observer: &dyn Observer,
+    ) -> Result<(), OperationError> {
         if self.known(map.id, &MAP).is_some() {
             return Ok(());
         }
@@ -139,8 +154,8 @@ impl Tasks {
             .iter()
             .enumerate()
             .map(|(i, piece)| self.piece(piece, most, &part_of(observer, i, pieces.len())));
-        let made = made.collect::<Result<Vec<Bytes>, Error>>()?;
-        let Some((volumes, slabs)) = made.split_last() else { return Err(Error::Internal) };
+        let made = made.collect::<Result<Vec<Bytes>, OperationError>>()?;
+        let Some((volumes, slabs)) = made.split_last() else { return Err(OperationError::Internal) };
         let computed = merge_dexterity(map, slabs, volumes, observer)?;
         let [reachable, dexterous] = &computed.meshes;
         let parts = [packed_mesh(reachable)?, packed_mesh(dexterous)?, computed.cells];
@@ -153,7 +168,7 @@ impl Tasks {
         self.runtime.block_on(self.results.part(piece, PIECE)).map(|content| content.bytes)
     }
 
-    fn keep(&self, piece: ResultId, bytes: Vec<u8>) -> Result<Bytes, Error> {
+    fn keep(&self, piece: ResultId, bytes: Vec<u8>) -> Result<Bytes, OperationError> {
         self.runtime.block_on(self.results.keep_part(piece, PIECE, bytes)).map(|content| content.bytes)
     }
 
@@ -190,7 +205,7 @@ impl Work for Tasks {
             Question::Piece(piece).submission(Terms { cost, ..whole }, String::new(), None)
         };
         let mut pieces =
-            pieces.into_iter().map(submission).collect::<Result<Vec<_>, Error>>().map_err(stop)?;
+            pieces.into_iter().map(submission).collect::<Result<Vec<_>, OperationError>>().map_err(stop)?;
         // The longest first: at the end one worker would have it while the others had nothing.
         pieces.sort_by(|one, other| other.cost.total_cmp(&one.cost));
         Ok(pieces)
@@ -213,16 +228,18 @@ impl Work for Tasks {
     }
 }
 
-fn stop(error: Error) -> Stop {
+fn stop(error: OperationError) -> Stop {
     match error {
-        Error::Cancelled => Stop::Cancelled,
+        OperationError::Cancelled => Stop::Cancelled,
         // A worker of that version can, or one that reaches the store.
-        error @ (Error::OtherVersion | Error::DiskFailing) => Stop::Elsewhere(written(error)),
+        error @ (OperationError::OtherVersion | OperationError::StoreUnavailable) => {
+            Stop::Elsewhere(written(error))
+        }
         error => Stop::Failed(written(error)),
     }
 }
 
-fn written(error: Error) -> Bytes {
+fn written(error: OperationError) -> Bytes {
     write_json(&TaskFault::from(error), FAULT_BYTES).unwrap_or_default().into()
 }
 

@@ -9,7 +9,7 @@ use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::registry::Published;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::dexterity::SetName;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::format::MeshFormat;
 use crate::wire::limit::Unchecked;
 use crate::wire::result_id::ResultId;
@@ -99,7 +99,7 @@ pub(crate) fn write_mesh(
     described: &Described<'_>,
     mesh: &Mesh,
     format: MeshFormat,
-) -> Result<Vec<u8>, Error> {
+) -> Result<Vec<u8>, OperationError> {
     // glTF has no other unit than the metre.
     let unit = if format == MeshFormat::Glb { "m" } else { "mm" };
     let about = described.about(mesh, unit);
@@ -110,7 +110,7 @@ pub(crate) fn write_mesh(
         MeshFormat::Ply => ply::write(mesh, &comments(&about), &mut file),
         MeshFormat::Json => verne_mesh::json::write(mesh, &about, &mut file),
     };
-    written.map_err(|_| Error::Internal)?;
+    written.map_err(|_| OperationError::Internal)?;
     Ok(file)
 }
 

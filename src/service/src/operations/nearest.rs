@@ -4,11 +4,11 @@ use std::f64::consts::{PI, TAU};
 
 use crate::operations::solutions::Found;
 use crate::wire::degrees::from_degrees;
-use crate::wire::field_errors::Faults;
+use crate::wire::field_errors::FieldErrors;
 use crate::wire::request::{Joints, Near, NearPose};
 
 /// Checks the numbers of a place.
-pub(crate) fn check(near: &Near, faults: &mut Faults) {
+pub(crate) fn check(near: &Near, faults: &mut FieldErrors) {
     match near {
         Near::Joints(joints) => {
             faults.lengths("/near/rho", &joints.rho.0);

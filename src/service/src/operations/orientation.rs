@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use verne_solver::axis::{Preimages, preimages};
 
 use crate::wire::degrees::from_degrees;
-use crate::wire::field_errors::Faults;
+use crate::wire::field_errors::FieldErrors;
 use crate::wire::request::{Near, TargetPose};
 
 /// One orientation, or the two that share a tool axis; radians.
@@ -32,7 +32,7 @@ impl Orientations {
 }
 
 /// Reads the orientation of a pose; faults where it says too little or too much.
-pub(crate) fn orientations(pose: &TargetPose, near: Option<&Near>, faults: &mut Faults) -> Orientations {
+pub(crate) fn orientations(pose: &TargetPose, near: Option<&Near>, faults: &mut FieldErrors) -> Orientations {
     faults.angle("/pose/phi1", pose.phi1);
     faults.angle("/pose/phi2", pose.phi2);
     match (pose.phi1, pose.phi2, pose.axis) {
@@ -50,7 +50,12 @@ pub(crate) fn orientations(pose: &TargetPose, near: Option<&Near>, faults: &mut 
     }
 }
 
-fn along_axis(axis: [f64; 3], phi2: Option<f64>, near: Option<&Near>, faults: &mut Faults) -> Orientations {
+fn along_axis(
+    axis: [f64; 3],
+    phi2: Option<f64>,
+    near: Option<&Near>,
+    faults: &mut FieldErrors,
+) -> Orientations {
     match (preimages(axis), phi2) {
         (None, _) => {
             faults.add("/pose/axis", "must be a direction: three finite numbers, not all zero");
@@ -69,8 +74,8 @@ fn along_axis(axis: [f64; 3], phi2: Option<f64>, near: Option<&Near>, faults: &m
     }
 }
 
-/// Faults for an orientation where the frame has none.
-pub(crate) fn no_orientation(pose: &TargetPose, faults: &mut Faults) {
+/// Adds errors for an orientation where the frame has none.
+pub(crate) fn no_orientation(pose: &TargetPose, faults: &mut FieldErrors) {
     let given = [
         ("/pose/phi1", pose.phi1.is_some()),
         ("/pose/phi2", pose.phi2.is_some()),

@@ -14,7 +14,7 @@ use crate::operations::subtask::{Piece, WrittenPiece};
 use crate::operations::workspace_question;
 use crate::operations::workspace_question::{WorkspaceQuestion, check_triangles};
 use crate::wire::answer::MachineId;
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 use crate::wire::machine::MachineObject;
 use crate::wire::result_id::ResultId;
 
@@ -64,9 +64,9 @@ pub(crate) struct Terms {
 
 impl Terms {
     /// Those that are written with a question.
-    pub(crate) fn read(text: &[u8]) -> Result<Self, Error> {
-        let written: Written<'_> = serde_json::from_slice(text).map_err(|_| Error::OtherVersion)?;
-        written.terms.ok_or(Error::OtherVersion)
+    pub(crate) fn read(text: &[u8]) -> Result<Self, OperationError> {
+        let written: Written<'_> = serde_json::from_slice(text).map_err(|_| OperationError::OtherVersion)?;
+        written.terms.ok_or(OperationError::OtherVersion)
     }
 
     /// Most triangles of each mesh.
@@ -108,7 +108,7 @@ impl Question {
     /// On which terms a job may answer it: estimates its work, and refuses meshes of more triangles than `most`, of each
     /// member of a family. The grid of a dexterity map has a bound of its own. It takes some milliseconds: to be called on
     /// the worker threads.
-    pub(crate) fn terms(&self, most: u64, observer: &dyn Observer) -> Result<Terms, Error> {
+    pub(crate) fn terms(&self, most: u64, observer: &dyn Observer) -> Result<Terms, OperationError> {
         let cost = match self {
             Self::Workspace(question) => {
                 let triangles = question.triangles(observer)?;
@@ -121,17 +121,17 @@ impl Question {
                 workspace_question::cost(triangles) * f64::from(family.count())
             }
             Self::Dexterity(question) => question.cost(),
-            Self::Piece(_) => return Err(Error::Internal),
+            Self::Piece(_) => return Err(OperationError::Internal),
         };
         Ok(Terms { most_triangles: most, cost })
     }
 
     /// The question as text, without terms.
-    pub(crate) fn written(&self) -> Result<Vec<u8>, Error> {
+    pub(crate) fn written(&self) -> Result<Vec<u8>, OperationError> {
         self.written_on(None)
     }
 
-    fn written_on(&self, terms: Option<Terms>) -> Result<Vec<u8>, Error> {
+    fn written_on(&self, terms: Option<Terms>) -> Result<Vec<u8>, OperationError> {
         let (asked, request) = match self {
             Self::Workspace(question) => (Asked::Workspace, raw(&question.request)?),
             Self::Family(question) => (Asked::Family, raw(&question.request)?),
@@ -142,13 +142,14 @@ impl Question {
         let machine = MachineObject::from(published.machine.data());
         let hash = (*published.id.hash).to_owned();
         let written = Written { asked, machine, hash, terms, request: &request };
-        serde_json::to_vec(&written).map_err(|_| Error::Internal)
+        serde_json::to_vec(&written).map_err(|_| OperationError::Internal)
     }
 
     /// The question that was written. Another version of the service may have asked, and meant another answer.
-    pub(crate) fn read(text: &[u8], id: ResultId) -> Result<Self, Error> {
-        let written: Written<'_> = serde_json::from_slice(text).map_err(|_| Error::OtherVersion)?;
-        let published = Published::from_object(&written.machine).map_err(|_| Error::OtherVersion)?.into();
+    pub(crate) fn read(text: &[u8], id: ResultId) -> Result<Self, OperationError> {
+        let written: Written<'_> = serde_json::from_slice(text).map_err(|_| OperationError::OtherVersion)?;
+        let published =
+            Published::from_object(&written.machine).map_err(|_| OperationError::OtherVersion)?.into();
         let request = written.request.get();
         let question = match written.asked {
             Asked::Workspace => serde_json::from_str(request)
@@ -161,7 +162,7 @@ impl Question {
                 serde_json::from_str::<WrittenPiece>(request).map(|piece| Self::Piece(piece.read(published)))
             }
         };
-        question.ok().filter(|question| question.id() == id).ok_or(Error::OtherVersion)
+        question.ok().filter(|question| question.id() == id).ok_or(OperationError::OtherVersion)
     }
 
     /// The question as a job for a client.
@@ -170,14 +171,14 @@ impl Question {
         terms: Terms,
         client: String,
         deadline: Option<Duration>,
-    ) -> Result<Submission, Error> {
+    ) -> Result<Submission, OperationError> {
         let payload = self.written_on(Some(terms))?.into();
         Ok(Submission { id: self.id().job(), client, cost: terms.cost, payload, deadline })
     }
 }
 
-fn raw(request: &impl Serialize) -> Result<Box<RawValue>, Error> {
-    serde_json::value::to_raw_value(request).map_err(|_| Error::Internal)
+fn raw(request: &impl Serialize) -> Result<Box<RawValue>, OperationError> {
+    serde_json::value::to_raw_value(request).map_err(|_| OperationError::Internal)
 }
 
 /// What a written question says about itself, unchecked.
@@ -197,8 +198,8 @@ struct Name {
 
 impl<'a> Gist<'a> {
     /// Reads it.
-    pub(crate) fn of(written: &'a [u8]) -> Result<Self, Error> {
-        serde_json::from_slice(written).map_err(|_| Error::Internal)
+    pub(crate) fn of(written: &'a [u8]) -> Result<Self, OperationError> {
+        serde_json::from_slice(written).map_err(|_| OperationError::Internal)
     }
 
     /// The machine.
@@ -212,7 +213,7 @@ impl<'a> Gist<'a> {
 #[serde(rename_all = "snake_case")]
 pub(crate) enum TaskFault {
     /// These fields cannot be used, as only the work has shown.
-    Fields(Vec<Fault>),
+    Fields(Vec<FieldError>),
     /// Another version asked.
     OtherVersion,
     /// The store took nothing.
@@ -221,23 +222,23 @@ pub(crate) enum TaskFault {
     Internal,
 }
 
-impl From<Error> for TaskFault {
-    fn from(error: Error) -> Self {
+impl From<OperationError> for TaskFault {
+    fn from(error: OperationError) -> Self {
         match error {
-            Error::Fields(faults) => Self::Fields(faults),
-            Error::OtherVersion => Self::OtherVersion,
-            Error::DiskFailing => Self::NotKept,
+            OperationError::Fields(faults) => Self::Fields(faults),
+            OperationError::OtherVersion => Self::OtherVersion,
+            OperationError::StoreUnavailable => Self::NotKept,
             _ => Self::Internal,
         }
     }
 }
 
-impl From<TaskFault> for Error {
+impl From<TaskFault> for OperationError {
     fn from(fault: TaskFault) -> Self {
         match fault {
             TaskFault::Fields(faults) => Self::Fields(faults),
             TaskFault::OtherVersion => Self::OtherVersion,
-            TaskFault::NotKept => Self::DiskFailing,
+            TaskFault::NotKept => Self::StoreUnavailable,
             TaskFault::Internal => Self::Internal,
         }
     }

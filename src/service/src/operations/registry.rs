@@ -9,7 +9,7 @@ use verne_solver::{Machine, MachineData, MachineFault};
 
 use crate::operations::machine_hash::machine_hash;
 use crate::wire::answer::MachineId;
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 use crate::wire::machine::MachineObject;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::parse::parse_body;
@@ -44,7 +44,7 @@ impl Published {
     /// Reads a machine from a JSON file.
     pub(crate) fn from_file(path: &Path) -> Result<Self, BadFile> {
         let bad = |faults| BadFile { path: path.to_owned(), faults };
-        let text = std::fs::read(path).map_err(|error| bad(vec![Fault::new("", error.to_string())]))?;
+        let text = std::fs::read(path).map_err(|error| bad(vec![FieldError::new("", error.to_string())]))?;
         let object = parse_body::<MachineObject>(&text).map_err(|error| bad(faults_of(error)))?;
         Self::from_object(&object).map_err(|faults| bad(below("", faults)))
     }
@@ -54,13 +54,13 @@ impl Published {
 #[derive(Debug)]
 pub struct BadFile {
     path: PathBuf,
-    faults: Vec<Fault>,
+    faults: Vec<FieldError>,
 }
 
 impl fmt::Display for BadFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} is not a machine", self.path.display())?;
-        for Fault { pointer, detail } in &self.faults {
+        for FieldError { pointer, detail } in &self.faults {
             write!(f, "\n  {pointer}{}{detail}", if pointer.is_empty() { "" } else { ": " })?;
         }
         Ok(())
@@ -85,7 +85,7 @@ impl Registry {
     pub(crate) fn publish_directory(&mut self, directory: &Path) -> Result<(), BadFile> {
         let bad = |error: std::io::Error| BadFile {
             path: directory.to_owned(),
-            faults: vec![Fault::new("", error.to_string())],
+            faults: vec![FieldError::new("", error.to_string())],
         };
         for entry in std::fs::read_dir(directory).map_err(bad)? {
             let path = entry.map_err(bad)?.path();
@@ -100,7 +100,7 @@ impl Registry {
         let published = Published::from_file(path)?;
         let name = published.machine.name().to_owned();
         let refused = |detail: String| {
-            Err(BadFile { path: path.to_owned(), faults: vec![Fault::new("/name", detail)] })
+            Err(BadFile { path: path.to_owned(), faults: vec![FieldError::new("/name", detail)] })
         };
         // GET /machines/schema is the schema, so no machine can be had there.
         if name == "schema" || name.contains('/') {
@@ -124,28 +124,31 @@ impl Registry {
     }
 
     /// The machine that a request names or carries.
-    pub(crate) fn resolve(&self, wanted: &MachineRef) -> Result<Arc<Published>, Error> {
+    pub(crate) fn resolve(&self, wanted: &MachineRef) -> Result<Arc<Published>, OperationError> {
         let faults = match wanted {
             MachineRef::Name(name) => match self.get(name) {
                 Some(published) => return Ok(Arc::clone(published)),
-                None => vec![Fault::new("/machine", format!("no machine is published as {name:?}"))],
+                None => vec![FieldError::new("/machine", format!("no machine is published as {name:?}"))],
             },
             MachineRef::Whole(object) => match Published::from_object(object) {
                 Ok(published) => return Ok(Arc::new(published)),
                 Err(faults) => below("/machine", faults),
             },
         };
-        Err(Error::Fields(faults))
+        Err(OperationError::Fields(faults))
     }
 }
 
-fn below(pointer: &str, faults: Vec<MachineFault>) -> Vec<Fault> {
-    faults.into_iter().map(|fault| Fault::new(format!("{pointer}/{}", fault.field), fault.detail)).collect()
+fn below(pointer: &str, faults: Vec<MachineFault>) -> Vec<FieldError> {
+    faults
+        .into_iter()
+        .map(|fault| FieldError::new(format!("{pointer}/{}", fault.field), fault.detail))
+        .collect()
 }
 
-fn faults_of(error: Error) -> Vec<Fault> {
+fn faults_of(error: OperationError) -> Vec<FieldError> {
     match error {
-        Error::Fields(faults) => faults,
-        other => vec![Fault::new("", other.to_string())],
+        OperationError::Fields(faults) => faults,
+        other => vec![FieldError::new("", other.to_string())],
     }
 }

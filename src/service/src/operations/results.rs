@@ -6,7 +6,7 @@ use verne_mesh::{Mesh, packed};
 use verne_store::{Content, Found, Kept as Durability, Store};
 
 use crate::operations::question::Question;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::result_id::ResultId;
 
 /// An answered question.
@@ -60,10 +60,10 @@ impl Results {
     }
 
     /// Whether more can be kept.
-    pub(crate) async fn healthy(&self) -> Result<(), Error> {
+    pub(crate) async fn healthy(&self) -> Result<(), OperationError> {
         self.store.healthy().await.map_err(|reason| {
             tracing::error!(reason, "cannot store results");
-            Error::DiskFailing
+            OperationError::StoreUnavailable
         })
     }
 
@@ -80,21 +80,26 @@ impl Results {
         summary: &[u8],
         parts: Vec<(&str, Vec<u8>)>,
         inclination: Option<f64>,
-    ) -> Result<(), Error> {
+    ) -> Result<(), OperationError> {
         let id = question.id();
         for (name, bytes) in parts {
             self.keep_part(id, name, bytes).await?;
         }
         let (question, summary) = (raw(&question.written()?)?, raw(summary)?);
         let kept = Kept { question: &question, summary: &summary, inclination };
-        let bytes = serde_json::to_vec(&kept).map_err(|_| Error::Internal)?;
+        let bytes = serde_json::to_vec(&kept).map_err(|_| OperationError::Internal)?;
         self.keep_part(id, RECORD, bytes).await.map(drop)
     }
 
     /// Keeps a part of a result. Where other processes look for it, memory is not enough.
-    pub(crate) async fn keep_part(&self, id: ResultId, name: &str, bytes: Vec<u8>) -> Result<Content, Error> {
+    pub(crate) async fn keep_part(
+        &self,
+        id: ResultId,
+        name: &str,
+        bytes: Vec<u8>,
+    ) -> Result<Content, OperationError> {
         match self.store.put(&id.key(name), bytes.into()).await {
-            (_, Durability::MemoryOnly) if self.are_shared() => Err(Error::DiskFailing),
+            (_, Durability::MemoryOnly) if self.are_shared() => Err(OperationError::StoreUnavailable),
             (content, _) => Ok(content),
         }
     }
@@ -112,12 +117,12 @@ impl Results {
     /// A part of a result, made if it is not there.
     ///
     /// `None` where what it is made of is not there either.
-    pub(crate) async fn part_or(
+    pub(crate) async fn part_or<E: Clone + Send + Sync + 'static>(
         &self,
         id: ResultId,
         name: &str,
-        make: impl Future<Output = Result<Option<Vec<u8>>, Error>> + Send,
-    ) -> Result<Option<Content>, Error> {
+        make: impl Future<Output = Result<Option<Vec<u8>>, E>> + Send,
+    ) -> Result<Option<Content>, E> {
         // The store keeps what is made, and nothing else.
         let make = async { make.await.map_err(Some)?.map(Into::into).ok_or(None) };
         match self.store.get_or_make(&id.key(name), make).await {
@@ -129,8 +134,8 @@ impl Results {
 }
 
 /// A mesh as a part of a result.
-pub(crate) fn packed_mesh(mesh: &Mesh) -> Result<Vec<u8>, Error> {
-    packed::pack(mesh).map_err(|_| Error::Internal)
+pub(crate) fn packed_mesh(mesh: &Mesh) -> Result<Vec<u8>, OperationError> {
+    packed::pack(mesh).map_err(|_| OperationError::Internal)
 }
 
 /// A mesh that is part of a result. One that cannot be read is as if not there: another version wrote it.
@@ -138,9 +143,9 @@ pub(crate) fn unpacked_mesh(part: &Content) -> Option<Mesh> {
     packed::unpack(&part.bytes).ok()
 }
 
-fn raw(json: &[u8]) -> Result<Box<RawValue>, Error> {
-    let text = std::str::from_utf8(json).map_err(|_| Error::Internal)?;
-    RawValue::from_string(text.to_owned()).map_err(|_| Error::Internal)
+fn raw(json: &[u8]) -> Result<Box<RawValue>, OperationError> {
+    let text = std::str::from_utf8(json).map_err(|_| OperationError::Internal)?;
+    RawValue::from_string(text.to_owned()).map_err(|_| OperationError::Internal)
 }
 
 fn read(bytes: &[u8], id: ResultId) -> Option<Record> {

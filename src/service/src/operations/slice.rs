@@ -6,8 +6,8 @@ use crate::operations::drawing;
 use crate::operations::workspace_question::{WorkspaceQuestion, workspace_error};
 use crate::wire::alphas::Alphas;
 use crate::wire::degrees::{from_degrees, to_degrees};
-use crate::wire::error::Error;
-use crate::wire::field_errors::Faults;
+use crate::wire::error::OperationError;
+use crate::wire::field_errors::FieldErrors;
 use crate::wire::format::SliceFormat;
 use crate::wire::json::write_json;
 use crate::wire::slice::SliceObject;
@@ -26,8 +26,8 @@ pub(crate) fn answer_slice(
     alphas: &Alphas,
     format: SliceFormat,
     observer: &dyn Observer,
-) -> Result<Vec<u8>, Error> {
-    let mut faults = Faults::default();
+) -> Result<Vec<u8>, OperationError> {
+    let mut faults = FieldErrors::default();
     faults.length("/z", z);
     faults.into_result()?;
     let alphas = angles(alphas, inclination);

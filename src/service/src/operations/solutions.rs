@@ -11,7 +11,7 @@ use crate::operations::nearest;
 use crate::operations::registry::Published;
 use crate::operations::table_angles::Stand;
 use crate::wire::answer::{Answer, Free, ModeObject, PartObject, Reason, Solution};
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 use crate::wire::field_errors::too_far;
 use crate::wire::fixed_array::Exactly;
 use crate::wire::limit::{Limit, Unchecked};
@@ -74,7 +74,7 @@ pub(crate) struct Presentation<'a> {
 
 impl Presentation<'_> {
     /// The answer.
-    pub(crate) fn answer(&self, mut findings: Findings) -> Result<Answer, Error> {
+    pub(crate) fn answer(&self, mut findings: Findings) -> Result<Answer, OperationError> {
         findings.found.sort_by(order);
         let mut kept = Vec::with_capacity(findings.found.len());
         let mut violated = None;
@@ -141,19 +141,22 @@ impl Presentation<'_> {
         &self,
         violated: Option<Margin>,
         refusal: Option<Refusal>,
-    ) -> Result<(Option<Reason>, Option<Limit>), Error> {
+    ) -> Result<(Option<Reason>, Option<Limit>), OperationError> {
         let (reason, margin) = match (violated, refusal) {
             (Some(margin), _) => (Reason::Infeasible, margin),
             (None, Some(Refusal::Blocked(margin))) => (Reason::Unreachable, margin),
             (None, Some(Refusal::SelfMotion)) => (Reason::SelfMotion, unheld(self.machine())),
             (None, Some(Refusal::OutOfDomain)) => {
-                return Err(Error::Fields(vec![Fault::new("", "the numbers together are too large")]));
+                return Err(OperationError::Fields(vec![FieldError::new(
+                    "",
+                    "the numbers together are too large",
+                )]));
             }
             (None, Some(Refusal::TooFar)) => {
                 let detail = format!("pose, tool and table together {}", too_far(self.machine()));
-                return Err(Error::Fields(vec![Fault::new("", detail)]));
+                return Err(OperationError::Fields(vec![FieldError::new("", detail)]));
             }
-            (None, None) => return Err(Error::Internal),
+            (None, None) => return Err(OperationError::Internal),
         };
         Ok((Some(reason), Some(margin.into())))
     }

@@ -6,7 +6,7 @@ use verne_solver::workspace::{Measure, Observer, Request, Surface, Volume, agree
 use crate::operations::subprogress::Stage;
 use crate::operations::workspace_colours::coloured;
 use crate::operations::workspace_question::{WorkspaceQuestion, workspace_error};
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::fixed_array::Exactly;
 use crate::wire::json::write_json;
 use crate::wire::workspace_summary::{BoundsObject, Links, WorkspaceSummary};
@@ -38,7 +38,7 @@ pub(crate) fn compute_workspace(
     question: &WorkspaceQuestion,
     most: usize,
     observer: &dyn Observer,
-) -> Result<Workspace, Error> {
+) -> Result<Workspace, OperationError> {
     let (machine, request) = (&question.published.machine, Request::from(&question.request));
     let measuring = Stage::of(observer, 0.0, MEASURING);
     let measure = measure(machine, &request, &measuring).map_err(workspace_error)?;
@@ -52,13 +52,14 @@ pub(crate) fn compute_workspace(
     Ok(Workspace { summary, mesh, inclination: measure.inclination })
 }
 
-fn go_on(observer: &dyn Observer) -> Result<(), Error> {
-    if observer.cancelled() { Err(Error::Cancelled) } else { Ok(()) }
+fn go_on(observer: &dyn Observer) -> Result<(), OperationError> {
+    if observer.cancelled() { Err(OperationError::Cancelled) } else { Ok(()) }
 }
 
-fn meshed(surface: Surface) -> Result<Mesh, Error> {
+fn meshed(surface: Surface) -> Result<Mesh, OperationError> {
     let (tags, palette) = coloured(&surface.bindings);
-    let mesh = Mesh::new(surface.positions, surface.triangles, tags, palette).map_err(|_| Error::Internal)?;
+    let mesh = Mesh::new(surface.positions, surface.triangles, tags, palette)
+        .map_err(|_| OperationError::Internal)?;
     debug_assert!(mesh.audit().is_watertight(), "{:?}", mesh.audit());
     Ok(mesh)
 }

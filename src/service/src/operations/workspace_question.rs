@@ -7,8 +7,8 @@ use verne_solver::workspace::{Observer, Request, WorkspaceError, expected_triang
 
 use crate::operations::dexterity::too_many_points;
 use crate::operations::registry::{Published, Registry};
-use crate::wire::error::{Error, Fault};
-use crate::wire::field_errors::Faults;
+use crate::wire::error::{FieldError, OperationError};
+use crate::wire::field_errors::FieldErrors;
 use crate::wire::result_id::ResultId;
 use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest};
 
@@ -39,8 +39,8 @@ pub(crate) struct WorkspaceQuestion {
 
 impl WorkspaceQuestion {
     /// Checks a request.
-    pub(crate) fn new(asked: &WorkspaceRequest, machines: &Registry) -> Result<Self, Error> {
-        let mut faults = Faults::default();
+    pub(crate) fn new(asked: &WorkspaceRequest, machines: &Registry) -> Result<Self, OperationError> {
+        let mut faults = FieldErrors::default();
         faults.tool_length(asked.tool_length);
         faults.clearance(asked.table_clearance, asked.tool_radius, asked.kind.without_tilt());
         faults.angle("/phi1", Some(asked.phi1));
@@ -69,20 +69,20 @@ impl WorkspaceQuestion {
     }
 
     /// About how many triangles the mesh will have. It takes some milliseconds: to be called on the worker threads.
-    pub(crate) fn triangles(&self, observer: &dyn Observer) -> Result<f64, Error> {
+    pub(crate) fn triangles(&self, observer: &dyn Observer) -> Result<f64, OperationError> {
         expected_triangles(&self.published.machine, &Request::from(&self.request), observer)
             .map_err(workspace_error)
     }
 }
 
 /// Refuses a mesh of so many triangles if they are more than this.
-pub(crate) fn check_triangles(triangles: f64, most: u64) -> Result<(), Error> {
+pub(crate) fn check_triangles(triangles: f64, most: u64) -> Result<(), OperationError> {
     let most = count(most);
     if triangles <= most {
         return Ok(());
     }
     let detail = format!("would make about {} triangles; the limit is {}", rounded(triangles), rounded(most));
-    Err(Error::Fields(vec![Fault::new("/tolerance", detail)]))
+    Err(OperationError::Fields(vec![FieldError::new("/tolerance", detail)]))
 }
 
 /// Estimated work, seconds of one core, of a workspace with so many triangles.
@@ -91,7 +91,7 @@ pub(crate) fn cost(triangles: f64) -> f64 {
 }
 
 /// Refuses a tolerance that is too fine for the machine, or no tolerance.
-pub(crate) fn check_tolerance(tolerance: f64, published: Option<&Published>, faults: &mut Faults) {
+pub(crate) fn check_tolerance(tolerance: f64, published: Option<&Published>, faults: &mut FieldErrors) {
     let [mut finest, coarsest] = TOLERANCES;
     if let Some(published) = published {
         finest = finest.max(FINEST * longest(published.machine.data()));
@@ -120,25 +120,26 @@ pub(crate) fn longest(machine: &MachineData) -> f64 {
 }
 
 /// What the solver refuses, in the words of the request.
-pub(crate) fn workspace_error(error: WorkspaceError) -> Error {
+pub(crate) fn workspace_error(error: WorkspaceError) -> OperationError {
     match error {
         WorkspaceError::OutOfDomain { field } => {
-            Error::Fields(vec![Fault::new(format!("/{field}"), "is out of range")])
+            OperationError::Fields(vec![FieldError::new(format!("/{field}"), "is out of range")])
         }
-        WorkspaceError::TooFine => {
-            Error::Fields(vec![Fault::new("/tolerance", "would need more vertices than a mesh can index")])
-        }
+        WorkspaceError::TooFine => OperationError::Fields(vec![FieldError::new(
+            "/tolerance",
+            "would need more vertices than a mesh can index",
+        )]),
         WorkspaceError::TooManyTriangles { most } => {
             let detail = format!("makes more triangles than the limit of {most}");
-            Error::Fields(vec![Fault::new("/tolerance", detail)])
+            OperationError::Fields(vec![FieldError::new("/tolerance", detail)])
         }
         WorkspaceError::TooManyNodes { nodes } => too_many_points(nodes),
-        WorkspaceError::Open => Error::Fields(vec![Fault::new(
+        WorkspaceError::Open => OperationError::Fields(vec![FieldError::new(
             "/tolerance",
             "gives a surface that the service cannot close for this machine; try a finer or coarser tolerance",
         )]),
-        WorkspaceError::Disagreement => Error::Internal,
-        WorkspaceError::Cancelled => Error::Cancelled,
+        WorkspaceError::Disagreement => OperationError::Internal,
+        WorkspaceError::Cancelled => OperationError::Cancelled,
     }
 }
 
@@ -150,7 +151,7 @@ mod tests {
     use super::{WorkspaceQuestion, rounded};
     use crate::operations::registry::Registry;
     use crate::operations::workspace::compute_workspace;
-    use crate::wire::error::{Error, Fault};
+    use crate::wire::error::{FieldError, OperationError};
     use crate::wire::machine_ref::MachineRef;
     use crate::wire::workspace::{KindName, WorkspaceRequest};
 
@@ -193,7 +194,7 @@ mod tests {
         let question = WorkspaceQuestion::new(&request, &Registry::default()).unwrap();
         let refused = compute_workspace(&question, 1_000, &Unobserved).map(drop).unwrap_err();
         let detail = "makes more triangles than the limit of 1000";
-        assert_eq!(refused, Error::Fields(vec![Fault::new("/tolerance", detail)]));
+        assert_eq!(refused, OperationError::Fields(vec![FieldError::new("/tolerance", detail)]));
     }
 
     #[test]

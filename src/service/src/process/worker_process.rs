@@ -14,6 +14,7 @@ use tokio_util::sync::CancellationToken;
 use verne_jobs::Backend;
 use verne_jobs::jetstream::{Worker, WorkerConfig as Threads};
 
+use crate::http::error::HttpError;
 use crate::http::handlers::service;
 use crate::http::middleware;
 use crate::http::readiness::Readiness;
@@ -102,7 +103,12 @@ fn serve(
             "/readyz",
             get(|State(probed): State<Arc<Probed>>| async move { probed.readiness.told().await }),
         )
-        .route("/metrics", get(|State(probed): State<Arc<Probed>>| async move { probed.metrics.answer() }))
+        .route(
+            "/metrics",
+            get(|State(probed): State<Arc<Probed>>| async move {
+                probed.metrics.answer().map_err(HttpError::from)
+            }),
+        )
         .fallback(service::nothing_here)
         .with_state(probed);
     let router = middleware::wrap(routes, requests, terms.stall, &Browsers::default(), Vec::new());

@@ -23,7 +23,7 @@ use verne_store::Store;
 use crate::limits::admission::Admission;
 use crate::telemetry::metrics::bounds::Bounds;
 use crate::telemetry::metrics::seats::{Here, OfWorker};
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 
 use crate::telemetry::metrics::computations::Computations;
 use crate::telemetry::metrics::connections::Connections;
@@ -70,9 +70,10 @@ impl Metrics {
     }
 
     /// The text.
-    pub(crate) fn answer(&self) -> Result<impl IntoResponse + use<>, Error> {
+    pub(crate) fn answer(&self) -> Result<impl IntoResponse + use<>, OperationError> {
         let mut text = String::new();
-        prometheus_client::encoding::text::encode(&mut text, &self.registry).map_err(|_| Error::Internal)?;
+        prometheus_client::encoding::text::encode(&mut text, &self.registry)
+            .map_err(|_| OperationError::Internal)?;
         Ok(([(CONTENT_TYPE, OPEN_METRICS)], text))
     }
 }

@@ -2,19 +2,19 @@
 
 use verne_solver::{DOMAIN, MOST_RATIO, Machine};
 
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 
 /// Largest angle accepted, degrees.
 pub(crate) const LARGEST_ANGLE: f64 = 36_000.0;
 
 /// The bad fields found so far.
 #[derive(Debug, Default)]
-pub(crate) struct Faults(Vec<Fault>);
+pub(crate) struct FieldErrors(Vec<FieldError>);
 
-impl Faults {
+impl FieldErrors {
     /// Adds a fault.
     pub(crate) fn add(&mut self, pointer: impl Into<String>, detail: impl Into<String>) {
-        self.0.push(Fault::new(pointer, detail));
+        self.0.push(FieldError::new(pointer, detail));
     }
 
     /// A length in mm, of any sign.
@@ -72,8 +72,8 @@ impl Faults {
     }
 
     /// Ends the collection: an error if anything was found.
-    pub(crate) fn into_result(self) -> Result<(), Error> {
-        if self.0.is_empty() { Ok(()) } else { Err(Error::Fields(self.0)) }
+    pub(crate) fn into_result(self) -> Result<(), OperationError> {
+        if self.0.is_empty() { Ok(()) } else { Err(OperationError::Fields(self.0)) }
     }
 }
 

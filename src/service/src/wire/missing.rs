@@ -7,11 +7,11 @@ use utoipa::ToSchema;
 use utoipa::openapi::schema::Object;
 use utoipa::openapi::{RefOr, Schema};
 
-use crate::wire::error::Fault;
+use crate::wire::error::FieldError;
 use crate::wire::parse::push;
 
 /// The missing fields of a body that should be a `T`, the outer ones first.
-pub(crate) fn missing_fields<T: ToSchema>(body: &[u8]) -> Vec<Fault> {
+pub(crate) fn missing_fields<T: ToSchema>(body: &[u8]) -> Vec<FieldError> {
     let Ok(body) = serde_json::from_slice::<Value>(body) else { return Vec::new() };
     let mut named = Vec::new();
     T::schemas(&mut named);
@@ -23,14 +23,14 @@ pub(crate) fn missing_fields<T: ToSchema>(body: &[u8]) -> Vec<Fault> {
 struct Search {
     /// Schemas by the names that references have.
     named: BTreeMap<String, RefOr<Schema>>,
-    found: Vec<Fault>,
+    found: Vec<FieldError>,
 }
 
 impl Search {
     fn visit(&mut self, schema: &RefOr<Schema>, value: &Value, pointer: &str) {
         let (Some(object), Value::Object(fields)) = (self.object(schema).cloned(), value) else { return };
         for name in object.required.iter().filter(|name| !fields.contains_key(*name)) {
-            self.found.push(Fault::missing(pointer_to(pointer, name), name));
+            self.found.push(FieldError::missing(pointer_to(pointer, name), name));
         }
         for (name, schema) in &object.properties {
             if let Some(value) = fields.get(name) {

@@ -5,7 +5,7 @@ use serde_json::error::Category;
 use serde_path_to_error::{Path, Segment};
 use utoipa::ToSchema;
 
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 use crate::wire::missing::missing_fields;
 use crate::wire::strict_object::Object;
 
@@ -16,7 +16,7 @@ const MARK: &[u8] = b"\xEF\xBB\xBF";
 const SHOWN: usize = 64;
 
 /// Parses a JSON body that holds an object.
-pub(crate) fn parse_body<'de, T: Deserialize<'de> + ToSchema>(body: &'de [u8]) -> Result<T, Error> {
+pub(crate) fn parse_body<'de, T: Deserialize<'de> + ToSchema>(body: &'de [u8]) -> Result<T, OperationError> {
     let body = without_mark(body);
     // Tracking the path costs time on every field: only a body that failed is read again with it.
     serde_json::from_slice(body).map(|Object(request)| request).map_err(|_| explain_body::<T>(body))
@@ -31,7 +31,7 @@ fn without_mark(body: &[u8]) -> &[u8] {
     body.strip_prefix(MARK).unwrap_or(body)
 }
 
-fn explain_body<'de, T: Deserialize<'de> + ToSchema>(body: &'de [u8]) -> Error {
+fn explain_body<'de, T: Deserialize<'de> + ToSchema>(body: &'de [u8]) -> OperationError {
     let mut json = serde_json::Deserializer::from_slice(body);
     let Err(error) = serde_path_to_error::deserialize::<_, Object<T>>(&mut json) else {
         let rest = json.end().err();
@@ -40,8 +40,8 @@ fn explain_body<'de, T: Deserialize<'de> + ToSchema>(body: &'de [u8]) -> Error {
     let message = error.inner().to_string();
     if let Some(name) = missing_name(&message) {
         let missing = missing_fields::<T>(body);
-        let first = || vec![Fault::missing(pointer(error.path(), &message), name)];
-        return Error::Fields(if missing.is_empty() { first() } else { missing });
+        let first = || vec![FieldError::missing(pointer(error.path(), &message), name)];
+        return OperationError::Fields(if missing.is_empty() { first() } else { missing });
     }
     let detail = if message.starts_with("number out of range") {
         "must be a number that double precision can hold".to_owned()
@@ -52,17 +52,17 @@ fn explain_body<'de, T: Deserialize<'de> + ToSchema>(body: &'de [u8]) -> Error {
     } else {
         return not_json(body, &message);
     };
-    Error::Fields(vec![Fault::new(pointer(error.path(), &message), detail)])
+    OperationError::Fields(vec![FieldError::new(pointer(error.path(), &message), detail)])
 }
 
-fn not_json(body: &[u8], reason: &str) -> Error {
+fn not_json(body: &[u8], reason: &str) -> OperationError {
     if body.is_empty() {
-        return Error::Syntax("the body is empty".to_owned());
+        return OperationError::Syntax("the body is empty".to_owned());
     }
     let shown = body.get(..SHOWN).unwrap_or(body);
     let escaped = shown.escape_ascii().to_string().replace("\\'", "'");
     let more = if shown.len() < body.len() { "..." } else { "" };
-    Error::Syntax(format!("{reason}; it begins with \"{escaped}\"{more}"))
+    OperationError::Syntax(format!("{reason}; it begins with \"{escaped}\"{more}"))
 }
 
 /// Whether the parser stumbled over one of the words that other languages write for numbers that

@@ -4,7 +4,7 @@ use clap::Args;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 use crate::wire::fixed_array::{ListedJoints, ListedPose, ListedTriple};
 use crate::wire::machine_ref::{MachineRef, REFERENCE};
 use crate::wire::request::{FkRequest, Frame, IkRequest, Joints, Near, NearPose, TargetPose, Wanted};
@@ -139,7 +139,7 @@ pub(crate) struct IkQuery {
 
 impl FkQuery {
     /// The question as POST would put it.
-    pub(crate) fn into_request(self) -> Result<FkRequest, Error> {
+    pub(crate) fn into_request(self) -> Result<FkRequest, OperationError> {
         Ok(FkRequest {
             near: near(self.near_joints, self.near_pose)?,
             machine: MachineRef::Name(self.machine),
@@ -154,7 +154,7 @@ impl FkQuery {
 
 impl IkQuery {
     /// The question as POST would put it.
-    pub(crate) fn into_request(self) -> Result<IkRequest, Error> {
+    pub(crate) fn into_request(self) -> Result<IkRequest, OperationError> {
         let axis = self.axis.map(|axis| axis.first_three());
         Ok(IkRequest {
             near: near(self.near_joints, self.near_pose)?,
@@ -169,7 +169,7 @@ impl IkQuery {
     }
 }
 
-fn near(joints: Option<ListedJoints>, pose: Option<ListedPose>) -> Result<Option<Near>, Error> {
+fn near(joints: Option<ListedJoints>, pose: Option<ListedPose>) -> Result<Option<Near>, OperationError> {
     match (joints, pose) {
         (None, None) => Ok(None),
         (Some(joints), None) => {
@@ -181,15 +181,16 @@ fn near(joints: Option<ListedJoints>, pose: Option<ListedPose>) -> Result<Option
             let [x, y, z] = position.0;
             Ok(Some(Near::Pose(NearPose { x, y, z, alpha })))
         }
-        (Some(_), Some(_)) => {
-            Err(Error::Fields(vec![Fault::new("/near", "takes near_joints or near_pose, not both")]))
-        }
+        (Some(_), Some(_)) => Err(OperationError::Fields(vec![FieldError::new(
+            "/near",
+            "takes near_joints or near_pose, not both",
+        )])),
     }
 }
 
 /// Turns the pointers of a question's body into those of its query.
-pub(crate) fn point_into_query(error: Error) -> Error {
-    let Error::Fields(faults) = error else { return error };
+pub(crate) fn point_into_query(error: OperationError) -> OperationError {
+    let OperationError::Fields(faults) = error else { return error };
     let moved = faults.into_iter().map(|fault| {
         let name = match fault.pointer.strip_prefix("/near") {
             Some(inside) if ["/x", "/y", "/z", "/alpha"].contains(&inside) => "/near_pose",
@@ -197,7 +198,7 @@ pub(crate) fn point_into_query(error: Error) -> Error {
             Some(_) => "/near_joints",
             None => fault.pointer.trim_start_matches("/pose").trim_start_matches("/joints"),
         };
-        Fault::new(format!("/query{name}"), fault.detail)
+        FieldError::new(format!("/query{name}"), fault.detail)
     });
-    Error::Fields(moved.collect())
+    OperationError::Fields(moved.collect())
 }

@@ -6,11 +6,11 @@ use utoipa::IntoParams;
 use utoipa::openapi::Required;
 use utoipa::openapi::path::Parameter;
 
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 use crate::wire::parse::pointer;
 
 /// Parses a query string. A list is `name=1,2`, `name=1&name=2` or `name=[1,2]`.
-pub(crate) fn parse_query<T: DeserializeOwned + IntoParams>(query: &str) -> Result<T, Error> {
+pub(crate) fn parse_query<T: DeserializeOwned + IntoParams>(query: &str) -> Result<T, OperationError> {
     // Nearly every query can be read as it is: only another one is compared with the parameters.
     read(query).or_else(|_| {
         let parameters = T::into_params(|| None);
@@ -18,26 +18,26 @@ pub(crate) fn parse_query<T: DeserializeOwned + IntoParams>(query: &str) -> Resu
         if missing.is_empty() {
             read(&with_plain_lists(query, &parameters))
         } else {
-            Err(Error::Fields(missing))
+            Err(OperationError::Fields(missing))
         }
     })
 }
 
-fn read<T: DeserializeOwned>(query: &str) -> Result<T, Error> {
+fn read<T: DeserializeOwned>(query: &str) -> Result<T, OperationError> {
     let pairs = serde_urlencoded::Deserializer::new(form_urlencoded::parse(query.as_bytes()));
     serde_path_to_error::deserialize(pairs).map_err(|error| {
         let message = error.inner().to_string();
         let pointer = format!("/query{}", pointer(error.path(), &message));
-        Error::Fields(vec![Fault::new(pointer, message)])
+        OperationError::Fields(vec![FieldError::new(pointer, message)])
     })
 }
 
-fn missing(query: &str, parameters: &[Parameter]) -> Vec<Fault> {
+fn missing(query: &str, parameters: &[Parameter]) -> Vec<FieldError> {
     let given = |name: &str| form_urlencoded::parse(query.as_bytes()).any(|(given, _)| given == name);
     parameters
         .iter()
         .filter(|parameter| parameter.required == Required::True && !given(&parameter.name))
-        .map(|parameter| Fault::missing(format!("/query/{}", parameter.name), &parameter.name))
+        .map(|parameter| FieldError::missing(format!("/query/{}", parameter.name), &parameter.name))
         .collect()
 }
 

@@ -4,13 +4,13 @@ use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::header::{CONTENT_TYPE, HeaderName};
 
+use crate::http::error::HttpError;
 use crate::http::extract::Batch;
 use crate::http::openapi::problems::BatchProblems;
 use crate::http::state::Shared;
 use crate::operations::forward_batch::answer_fk_batch;
 use crate::operations::inverse_batch::answer_ik_batch;
 use crate::wire::batch::{FkBatchAnswer, FkBatchRequest, IkBatchAnswer, IkBatchRequest};
-use crate::wire::error::Error;
 
 type JsonBytes = ([(HeaderName, &'static str); 1], Bytes);
 
@@ -27,7 +27,7 @@ fn json(body: Bytes) -> JsonBytes {
     request_body(content = FkBatchRequest, description = "The rows of joints."),
     responses((status = 200, description = "One entry for each row.", body = FkBatchAnswer), BatchProblems)
 )]
-pub(crate) async fn fk_batch(State(state): State<Shared>, batch: Batch) -> Result<JsonBytes, Error> {
+pub(crate) async fn fk_batch(State(state): State<Shared>, batch: Batch) -> Result<JsonBytes, HttpError> {
     let answer = batch.answer(move |body, _| answer_fk_batch(body, &state.machines, state.limits.rows));
     answer.await.map(json)
 }
@@ -41,7 +41,7 @@ pub(crate) async fn fk_batch(State(state): State<Shared>, batch: Batch) -> Resul
     request_body(content = IkBatchRequest, description = "The rows of poses."),
     responses((status = 200, description = "One entry for each row.", body = IkBatchAnswer), BatchProblems)
 )]
-pub(crate) async fn ik_batch(State(state): State<Shared>, batch: Batch) -> Result<JsonBytes, Error> {
+pub(crate) async fn ik_batch(State(state): State<Shared>, batch: Batch) -> Result<JsonBytes, HttpError> {
     let answer = batch.answer(move |body, _| answer_ik_batch(body, &state.machines, state.limits.rows));
     answer.await.map(json)
 }

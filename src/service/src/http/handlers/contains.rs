@@ -4,12 +4,12 @@ use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::header::{CONTENT_TYPE, HeaderName};
 
+use crate::http::error::HttpError;
 use crate::http::extract::Batch;
 use crate::http::openapi::problems::BatchProblems;
 use crate::http::state::Shared;
 use crate::operations::contains::answer_contains;
 use crate::wire::contains::{ContainsAnswer, ContainsRequest};
-use crate::wire::error::Error;
 
 /// Test whether points belong to a workspace
 ///
@@ -24,7 +24,7 @@ use crate::wire::error::Error;
 pub(crate) async fn post_contains(
     State(state): State<Shared>,
     batch: Batch,
-) -> Result<([(HeaderName, &'static str); 1], Bytes), Error> {
+) -> Result<([(HeaderName, &'static str); 1], Bytes), HttpError> {
     let answer = batch
         .answer(move |body, observer| answer_contains(body, &state.machines, state.limits.rows, observer));
     Ok(([(CONTENT_TYPE, "application/json")], answer.await?))

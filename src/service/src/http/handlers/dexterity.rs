@@ -4,6 +4,7 @@ use axum::extract::State;
 use axum::response::Response;
 
 use crate::http::conditional_response::{Conditions, Delivery, FOR_EVER};
+use crate::http::error::{HttpError, LookupError};
 use crate::http::extract::Single;
 use crate::http::handlers::workspace_results::{Id, kept};
 use crate::http::job_document::JobObject;
@@ -17,7 +18,6 @@ use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::question::Question;
 use crate::operations::results::CELLS;
 use crate::wire::dexterity::{DexterityBody, DexterityCells, DexteritySummary};
-use crate::wire::error::Error;
 
 /// Dexterity map: the inclinations that reach each point of the part
 ///
@@ -41,7 +41,7 @@ pub(crate) async fn post_dexterity(
     prefer: Prefer,
     conditions: Conditions,
     Single(body): Single<DexterityBody>,
-) -> Result<Response, Error> {
+) -> Result<Response, HttpError> {
     accept.choose([("application/json", ())])?;
     let question = Question::Dexterity(DexterityQuestion::new(&body, &state.machines)?);
     let obtained = figures(&state, &question, &prefer.patience).await?;
@@ -68,12 +68,12 @@ pub(crate) async fn get_cells(
     accept: Accept,
     prefer: Prefer,
     conditions: Conditions,
-) -> Result<Response, Error> {
-    let record = kept(&state, id.map_err(|_| Error::NoSuchPath)?).await?;
+) -> Result<Response, HttpError> {
+    let record = kept(&state, id.map_err(|_| HttpError::UnknownPath)?).await?;
     accept.choose([("application/json", ())])?;
     let (id, question) = (record.question.id(), record.question);
     if !matches!(question, Question::Dexterity(_)) {
-        return Err(Error::NoCells(id.to_string()));
+        return Err(LookupError::Grid(id.to_string()).into());
     }
     let cells = || state.results.found(id, CELLS);
     let obtained = match state.part(&question, &prefer.patience, cells).await? {

@@ -15,13 +15,13 @@ use humantime::format_rfc3339_millis;
 use verne_jobs::{Filter, Job, JobId};
 
 use crate::http::caller::Caller;
+use crate::http::error::{HttpError, LookupError};
 use crate::http::extract::Params;
 use crate::http::job_document::{JobList, JobObject, JobsQuery};
 use crate::http::openapi::binary::JobEvent;
 use crate::http::openapi::problems::{JobProblems, JobsProblems};
 use crate::http::proxy::BasePath;
 use crate::http::state::Shared;
-use crate::wire::error::{Error, Fault};
 
 type Id = Result<Path<String>, PathRejection>;
 
@@ -50,8 +50,8 @@ pub(crate) async fn get_jobs(
     State(state): State<Shared>,
     caller: Caller,
     Params(query): Params<JobsQuery>,
-) -> Result<impl IntoResponse, Error> {
-    let fault = |name, detail| Error::Fields(vec![Fault::new(format!("/query/{name}"), detail)]);
+) -> Result<impl IntoResponse, HttpError> {
+    let fault = |name, detail| HttpError::field(format!("/query/{name}"), detail);
     let JobsQuery { state: wanted, limit, after } = query;
     if !(1..=Filter::MAX_LIMIT).contains(&limit) {
         return Err(fault("limit", "must be a number from 1 to 100"));
@@ -76,7 +76,7 @@ pub(crate) async fn get_job(
     State(state): State<Shared>,
     caller: Caller,
     id: Id,
-) -> Result<impl IntoResponse, Error> {
+) -> Result<impl IntoResponse, HttpError> {
     let job = visible(&state, &caller, id).await?;
     Ok(([LIVE], Json(JobObject::new(&job, &state.base)?)))
 }
@@ -104,12 +104,12 @@ pub(crate) async fn get_events(
     caller: Caller,
     id: Id,
     headers: HeaderMap,
-) -> Result<Response, Error> {
+) -> Result<Response, HttpError> {
     let job = visible(&state, &caller, id).await?;
     if job.state.is_final() && headers.get(LAST_EVENT).is_some_and(|last| *last == *event_id(&job)) {
         return Ok(([LIVE], StatusCode::NO_CONTENT).into_response());
     }
-    let watcher = state.jobs.watch(job.id).await?.ok_or_else(|| Error::NoSuchJob(job.id.to_string()))?;
+    let watcher = state.jobs.watch(job.id).await?.ok_or_else(|| LookupError::Job(job.id.to_string()))?;
     let stopping = state.stopping.clone().cancelled_owned();
     let stream = state.admission.stream(caller.sharer())?;
     let revoked = Box::pin(caller.revoked());
@@ -151,26 +151,26 @@ pub(crate) async fn delete_job(
     State(state): State<Shared>,
     caller: Caller,
     id: Id,
-) -> Result<impl IntoResponse, Error> {
+) -> Result<impl IntoResponse, HttpError> {
     let Job { id, .. } = visible(&state, &caller, id).await?;
     let ended = match caller.sees_only() {
         Some(client) => state.jobs.leave(id, client).await?,
         None => state.jobs.cancel(id).await?,
     };
-    let job = ended.ok_or_else(|| Error::NoSuchJob(id.to_string()))?;
+    let job = ended.ok_or_else(|| LookupError::Job(id.to_string()))?;
     Ok(([LIVE], Json(JobObject::new(&job, &state.base)?)))
 }
 
 /// The job, if it is there for this caller: another's is as one that is not.
-async fn visible(state: &crate::http::state::State, caller: &Caller, id: Id) -> Result<Job, Error> {
-    let Path(text) = id.map_err(|_| Error::NoSuchPath)?;
-    let Ok(id) = text.parse::<JobId>() else { return Err(Error::NoSuchJob(text)) };
+async fn visible(state: &crate::http::state::State, caller: &Caller, id: Id) -> Result<Job, HttpError> {
+    let Path(text) = id.map_err(|_| HttpError::UnknownPath)?;
+    let Ok(id) = text.parse::<JobId>() else { return Err(LookupError::Job(text).into()) };
     let job = state.jobs.get(id).await?.filter(|job| caller.sees(job));
-    job.ok_or(Error::NoSuchJob(text))
+    Ok(job.ok_or(LookupError::Job(text))?)
 }
 
 /// 202: a job will have the answer.
-pub(crate) fn accepted(job: &Job, base: &BasePath) -> Result<Response, Error> {
+pub(crate) fn accepted(job: &Job, base: &BasePath) -> Result<Response, HttpError> {
     let object = JobObject::new(job, base)?;
     let headers =
         [(LOCATION, JobObject::path(job.id)), (RETRY_AFTER, "1".to_owned()), (LIVE.0, LIVE.1.to_owned())];

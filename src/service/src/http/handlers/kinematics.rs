@@ -3,13 +3,14 @@
 use axum::extract::State;
 use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, HeaderName};
 
+use crate::http::error::HttpError;
 use crate::http::extract::{Params, Single};
 use crate::http::openapi::problems::{BodyProblems, QueryProblems};
 use crate::http::state::Shared;
 use crate::operations::forward::answer_fk;
 use crate::operations::inverse::answer_ik;
 use crate::wire::answer::Answer;
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::query::{FkQuery, IkQuery, point_into_query};
 use crate::wire::request::{FkRequest, IkRequest};
@@ -24,7 +25,7 @@ const SOLUTION_BYTES: usize = 2048;
 
 type Written<const HEADERS: usize> = ([(HeaderName, &'static str); HEADERS], Vec<u8>);
 
-fn write(answer: &Answer) -> Result<Vec<u8>, Error> {
+fn write(answer: &Answer) -> Result<Vec<u8>, OperationError> {
     write_json(answer, SOLUTION_BYTES * answer.solutions.len().max(1))
 }
 
@@ -40,7 +41,7 @@ fn write(answer: &Answer) -> Result<Vec<u8>, Error> {
 pub(crate) async fn get_fk(
     State(state): State<Shared>,
     Params(query): Params<FkQuery>,
-) -> Result<Written<2>, Error> {
+) -> Result<Written<2>, HttpError> {
     let answer = query.into_request().and_then(|request| answer_fk(&request, &state.machines));
     let text = answer.and_then(|answer| write(&answer)).map_err(point_into_query)?;
     Ok(([JSON, CACHEABLE], text))
@@ -58,7 +59,7 @@ pub(crate) async fn get_fk(
 pub(crate) async fn post_fk(
     State(state): State<Shared>,
     Single(request): Single<FkRequest>,
-) -> Result<Written<1>, Error> {
+) -> Result<Written<1>, HttpError> {
     let answer = answer_fk(&request, &state.machines)?;
     Ok(([JSON], write(&answer)?))
 }
@@ -75,7 +76,7 @@ pub(crate) async fn post_fk(
 pub(crate) async fn get_ik(
     State(state): State<Shared>,
     Params(query): Params<IkQuery>,
-) -> Result<Written<2>, Error> {
+) -> Result<Written<2>, HttpError> {
     let answer = query.into_request().and_then(|request| answer_ik(&request, &state.machines));
     let text = answer.and_then(|answer| write(&answer)).map_err(point_into_query)?;
     Ok(([JSON, CACHEABLE], text))
@@ -93,7 +94,7 @@ pub(crate) async fn get_ik(
 pub(crate) async fn post_ik(
     State(state): State<Shared>,
     Single(request): Single<IkRequest>,
-) -> Result<Written<1>, Error> {
+) -> Result<Written<1>, HttpError> {
     let answer = answer_ik(&request, &state.machines)?;
     Ok(([JSON], write(&answer)?))
 }

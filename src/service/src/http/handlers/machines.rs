@@ -5,12 +5,12 @@ use axum::extract::rejection::PathRejection;
 use axum::extract::{Path, State};
 use serde_json::Value;
 
+use crate::http::error::{HttpError, LookupError};
 use crate::http::openapi::machine_schema::machine_schema;
 use crate::http::openapi::problems::{MachineProblems, ServiceProblems};
 use crate::http::state::Shared;
 use crate::operations::registry::{Published, Registry};
 use crate::wire::catalogue::{MachineAnswer, MachineEntry, MachineList};
-use crate::wire::error::Error;
 use crate::wire::machine::MachineObject;
 
 /// The published machines, with what is said of each.
@@ -23,8 +23,8 @@ pub(crate) fn list(machines: &Registry) -> MachineList {
 }
 
 /// One published machine with its numbers.
-pub(crate) fn show(machines: &Registry, name: &str) -> Result<MachineAnswer, Error> {
-    let published = machines.get(name).ok_or_else(|| Error::NoSuchMachine(name.to_owned()))?;
+pub(crate) fn show(machines: &Registry, name: &str) -> Result<MachineAnswer, LookupError> {
+    let published = machines.get(name).ok_or_else(|| LookupError::Machine(name.to_owned()))?;
     let definition = MachineObject::from(published.machine.data());
     Ok(MachineAnswer { machine: published.id.clone(), definition })
 }
@@ -51,9 +51,9 @@ pub(crate) async fn get_machines(State(state): State<Shared>) -> Json<MachineLis
 pub(crate) async fn get_machine(
     State(state): State<Shared>,
     name: Result<Path<String>, PathRejection>,
-) -> Result<Json<MachineAnswer>, Error> {
-    let Path(name) = name.map_err(|_| Error::NoSuchPath)?;
-    show(&state.machines, &name).map(Json)
+) -> Result<Json<MachineAnswer>, HttpError> {
+    let Path(name) = name.map_err(|_| HttpError::UnknownPath)?;
+    Ok(Json(show(&state.machines, &name)?))
 }
 
 /// JSON Schema of the machine object

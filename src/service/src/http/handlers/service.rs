@@ -7,14 +7,15 @@ use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Response};
 use axum::{Extension, Json};
 
+use crate::http::error::HttpError;
 use crate::http::openapi::binary::Text;
 use crate::http::openapi::problems::{ReadyProblems, ServiceProblems};
 use crate::http::proxy::BasePath;
 use crate::http::request_head::Unreadable;
 use crate::http::state::Shared;
 use crate::http::static_content::Fixed;
+use crate::limits::error::LimitError;
 use crate::wire::catalogue::{Health, Status};
-use crate::wire::error::Error;
 
 /// The OpenAPI document as it is sent: the committed copy. The tests hold it equal to the generated one; its examples
 /// are the solver's answers, which take too long to compute at every start.
@@ -40,8 +41,11 @@ const SERVER: &str = "\"url\": \"/\"";
     get, path = "/openapi.json", operation_id = "openapi", tag = "service",
     responses((status = 200, description = "The document.", body = Object), ServiceProblems)
 )]
-pub(crate) async fn get_openapi(State(state): State<Shared>, headers: HeaderMap) -> Result<Response, Error> {
-    state.document.answer(&headers, "no-cache").await
+pub(crate) async fn get_openapi(
+    State(state): State<Shared>,
+    headers: HeaderMap,
+) -> Result<Response, HttpError> {
+    Ok(state.document.answer(&headers, "no-cache").await?)
 }
 
 /// Liveness
@@ -64,7 +68,7 @@ pub(crate) async fn get_livez() -> Json<Health> {
     get, path = "/readyz", operation_id = "readyz", tag = "service",
     responses((status = 200, description = "The service is ready.", body = Health), ReadyProblems)
 )]
-pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Health>, Error> {
+pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Health>, HttpError> {
     state.readiness.told().await
 }
 
@@ -76,16 +80,16 @@ pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Healt
     responses((status = 200, description = "The metrics.", content((Text = "application/openmetrics-text"))),
         ServiceProblems)
 )]
-pub(crate) async fn get_metrics(State(state): State<Shared>) -> Result<impl IntoResponse, Error> {
-    state.metrics.answer()
+pub(crate) async fn get_metrics(State(state): State<Shared>) -> Result<impl IntoResponse, HttpError> {
+    Ok(state.metrics.answer()?)
 }
 
 /// What is asked for when all connections are taken.
-pub(crate) async fn no_place_here() -> Error {
-    Error::Overloaded
+pub(crate) async fn no_place_here() -> HttpError {
+    LimitError::Overloaded.into()
 }
 
 /// What is asked for where nothing lives, or in a way that cannot be read.
-pub(crate) async fn nothing_here(unreadable: Option<Extension<Unreadable>>) -> Error {
-    unreadable.map_or(Error::NoSuchPath, |Extension(Unreadable(error))| error)
+pub(crate) async fn nothing_here(unreadable: Option<Extension<Unreadable>>) -> HttpError {
+    unreadable.map_or(HttpError::UnknownPath, |Extension(Unreadable(error))| error.into())
 }

@@ -4,6 +4,7 @@ use axum::extract::State as Extracted;
 use axum::response::Response;
 
 use crate::http::conditional_response::{Conditions, Delivery};
+use crate::http::error::{HttpError, LookupError};
 use crate::http::extract::{Params, Single};
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
@@ -16,7 +17,6 @@ use crate::http::state::{Shared, State};
 use crate::operations::family_question::FamilyQuestion;
 use crate::operations::question::Question;
 use crate::operations::workspace_question::WorkspaceQuestion;
-use crate::wire::error::Error;
 use crate::wire::family::WorkspaceBody;
 use crate::wire::format::MeshFormat;
 use crate::wire::query::point_into_query;
@@ -50,11 +50,11 @@ pub(crate) async fn get_workspace(
     accept: Accept,
     prefer: Prefer,
     conditions: Conditions,
-) -> Result<Response, Error> {
+) -> Result<Response, HttpError> {
     let wanted = wanted(query.format, &accept)?;
     let question =
         WorkspaceQuestion::new(&query.into_request(), &state.machines).map_err(point_into_query)?;
-    let obtained = answer(&state, question, wanted, &prefer.patience).await.map_err(point_into_query)?;
+    let obtained = answer(&state, question, wanted, &prefer.patience).await.map_err(HttpError::in_query)?;
     let fresh = |delivery| Delivery { cache_control: Some(FOR_A_WHILE), ..delivery };
     respond(&state, obtained, fresh, prefer, &conditions)
 }
@@ -84,7 +84,7 @@ pub(crate) async fn post_workspace(
     prefer: Prefer,
     conditions: Conditions,
     Single(body): Single<WorkspaceBody>,
-) -> Result<Response, Error> {
+) -> Result<Response, HttpError> {
     let obtained = if let Some(single) = body.single() {
         let wanted = wanted(query.format, &accept)?;
         let question = WorkspaceQuestion::new(&single, &state.machines)?;
@@ -92,7 +92,7 @@ pub(crate) async fn post_workspace(
     } else {
         let question = FamilyQuestion::new(&body, &state.machines)?;
         match query.format {
-            Some(_) => return Err(Error::NoMesh(question.id.to_string())),
+            Some(_) => return Err(LookupError::Mesh(question.id.to_string()).into()),
             None => accept.choose([("application/json", ())])?,
         }
         figures(&state, &Question::Family(question), &prefer.patience).await?
@@ -101,7 +101,7 @@ pub(crate) async fn post_workspace(
 }
 
 /// The mesh's format, or nothing for the summary.
-fn wanted(format: Option<MeshFormat>, accept: &Accept) -> Result<Option<MeshFormat>, Error> {
+fn wanted(format: Option<MeshFormat>, accept: &Accept) -> Result<Option<MeshFormat>, HttpError> {
     if format.is_some() {
         return Ok(format);
     }
@@ -115,7 +115,7 @@ async fn answer(
     question: WorkspaceQuestion,
     wanted: Option<MeshFormat>,
     patience: &Patience,
-) -> Result<Obtained<Delivery>, Error> {
+) -> Result<Obtained<Delivery>, HttpError> {
     let question = Question::Workspace(question);
     match wanted {
         None => figures(state, &question, patience).await,

@@ -5,6 +5,7 @@ use axum::extract::{Path, State};
 use axum::response::Response;
 
 use crate::http::conditional_response::{Conditions, Delivery, FOR_EVER};
+use crate::http::error::{HttpError, LookupError};
 use crate::http::extract::Params;
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
@@ -19,7 +20,6 @@ use crate::operations::results::{Record, content};
 use crate::operations::slice::answer_slice;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::dexterity::KeptMeshQuery;
-use crate::wire::error::Error;
 use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::query::point_into_query;
 use crate::wire::slice::SliceObject;
@@ -46,8 +46,8 @@ pub(crate) async fn get_summary(
     id: Id,
     accept: Accept,
     conditions: Conditions,
-) -> Result<Response, Error> {
-    let id = id.map_err(|_| Error::NoSuchPath)?;
+) -> Result<Response, HttpError> {
+    let id = id.map_err(|_| HttpError::UnknownPath)?;
     accept.choose([("application/json", ())])?;
     let delivery = summary(&state, kept(&state, id).await?);
     Delivery { cache_control: Some(FOR_EVER), ..delivery }.answer(&conditions)
@@ -78,8 +78,8 @@ pub(crate) async fn get_mesh(
     accept: Accept,
     prefer: Prefer,
     conditions: Conditions,
-) -> Result<Response, Error> {
-    let id = id.map_err(|_| Error::NoSuchPath)?;
+) -> Result<Response, HttpError> {
+    let id = id.map_err(|_| HttpError::UnknownPath)?;
     let format = match query.format {
         Some(format) => format,
         None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format)))?,
@@ -112,8 +112,8 @@ pub(crate) async fn get_slice(
     Params(query): Params<SliceQuery>,
     accept: Accept,
     conditions: Conditions,
-) -> Result<Response, Error> {
-    let id = id.map_err(|_| Error::NoSuchPath)?;
+) -> Result<Response, HttpError> {
+    let id = id.map_err(|_| HttpError::UnknownPath)?;
     let SliceQuery { z, alpha, format } = query;
     let (format, media) = match format {
         Some(format) => (format, format.media()[0]),
@@ -140,17 +140,20 @@ pub(crate) async fn get_slice(
 }
 
 /// The record under an id.
-pub(crate) async fn kept(state: &crate::http::state::State, Path(id): Path<String>) -> Result<Record, Error> {
+pub(crate) async fn kept(
+    state: &crate::http::state::State,
+    Path(id): Path<String>,
+) -> Result<Record, LookupError> {
     match id.parse() {
-        Ok(known) => state.results.record(known).await.ok_or(Error::NoSuchWorkspace(id)),
-        Err(_) => Err(Error::NoSuchWorkspace(id)),
+        Ok(known) => state.results.record(known).await.ok_or(LookupError::Result(id)),
+        Err(_) => Err(LookupError::Result(id)),
     }
 }
 
 /// The one workspace that a record is of, and its greatest |alpha|.
-fn workspace(record: Record) -> Result<(WorkspaceQuestion, Option<f64>), Error> {
+fn workspace(record: Record) -> Result<(WorkspaceQuestion, Option<f64>), LookupError> {
     match record.question {
         Question::Workspace(question) => Ok((question, record.inclination)),
-        _ => Err(Error::NoSlice(record.question.id().to_string())),
+        _ => Err(LookupError::Slice(record.question.id().to_string())),
     }
 }

@@ -1,5 +1,7 @@
 //! An example of each operation: the request here, the answer from the solver.
 
+use std::fmt::Display;
+
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use verne_solver::workspace::Unobserved;
@@ -17,7 +19,7 @@ use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::alphas::Alphas;
 use crate::wire::catalogue::{Health, Status};
-use crate::wire::error::Error;
+use crate::wire::error::OperationError;
 use crate::wire::family::WorkspaceBody;
 use crate::wire::format::SliceFormat;
 use crate::wire::parse::parse_body;
@@ -152,7 +154,7 @@ fn of_bodies(registry: &Registry) -> Vec<Example> {
 fn of_workspaces(machines: &Registry) -> Vec<Example> {
     let asked = json!({"machine": "verne", "kind": "part", "tool_length": 50, "table_clearance": 0, "phi1": 30, "tolerance": 10});
     let question = parse_body(asked.to_string().as_bytes())
-        .and_then(|body: WorkspaceBody| body.single().ok_or(Error::Internal))
+        .and_then(|body: WorkspaceBody| body.single().ok_or(OperationError::Internal))
         .and_then(|request| WorkspaceQuestion::new(&request, machines));
     let computed = question.clone().and_then(|question| {
         compute_workspace(&question, usize::MAX, &Unobserved).map(|computed| (question, computed))
@@ -166,8 +168,8 @@ fn of_workspaces(machines: &Registry) -> Vec<Example> {
     let id = question.map(|question| question.id.to_string()).unwrap_or_default();
     let dexterity = json!({"tool_length": 50, "phi1": {"from": -20, "to": 20}, "cell": 200});
     let get = |path, asked, answer| Example { method: "get", path, asked: Asked::Parameters(asked), answer };
-    let summary: Value = answered(summary as Result<Value, Error>);
-    let slice: Value = answered(slice as Result<Value, Error>);
+    let summary: Value = answered(summary as Result<Value, OperationError>);
+    let slice: Value = answered(slice as Result<Value, OperationError>);
     vec![
         get("/workspace", asked.clone(), Some(summary.clone())),
         post("/workspace", asked, |_| Ok(summary.clone())),
@@ -193,13 +195,13 @@ fn of_workspaces(machines: &Registry) -> Vec<Example> {
     ]
 }
 
-fn post(path: &'static str, body: Value, answer: impl Fn(&[u8]) -> Result<Value, Error>) -> Example {
+fn post(path: &'static str, body: Value, answer: impl Fn(&[u8]) -> Result<Value, OperationError>) -> Example {
     let answer = answered(answer(body.to_string().as_bytes()));
     Example { method: "post", path, asked: Asked::Body(body), answer: Some(answer) }
 }
 
 /// The answer as JSON; a question that fails shows its failure, which the tests take for stale.
-fn answered(answer: Result<impl Serialize, Error>) -> Value {
+fn answered(answer: Result<impl Serialize, impl Display>) -> Value {
     match answer {
         Ok(answer) => json!(answer),
         Err(error) => Value::Object(Map::from_iter([("error".to_owned(), error.to_string().into())])),

@@ -9,8 +9,6 @@ use utoipa::openapi::{Content, OpenApi, Ref, RefOr, Response};
 
 use crate::http::problem::code::Code;
 use crate::http::problem::{PROBLEM_JSON, Problem};
-use crate::wire::error::{Error, Fault};
-use crate::wire::role::Role;
 
 /// Failures of every operation.
 const ALWAYS: &[Code] = &[Code::InvalidRequest, Code::NotAcceptable, Code::Internal, Code::TimedOut];
@@ -114,70 +112,12 @@ pub(crate) fn with_codes(mut document: OpenApi) -> OpenApi {
     for &code in Code::ALL {
         let (name, status, meaning) = (code.name(), code.status().as_u16(), code.meaning());
         rows = format!("{rows}| `{name}` | {status} | {meaning} |\n");
-        let example = ExampleBuilder::new().summary(meaning).value(Some(json!(Problem::from(example(code)))));
+        let example =
+            ExampleBuilder::new().summary(meaning).value(Some(json!(Problem::from(code.example()))));
         let examples = &mut document.components.get_or_insert_default().examples;
         examples.insert(name.to_owned(), example.build().into());
     }
     let description = document.info.description.get_or_insert_default();
     *description = format!("{description}\n\n| code | status | meaning |\n|---|---|---|\n{rows}");
     document
-}
-
-/// An error of a code.
-fn example(code: Code) -> Error {
-    let id = || "1f2e".to_owned();
-    match code {
-        Code::BadJson => {
-            Error::Syntax("expected value at line 1 column 1; it begins with \"rho=674,685,250\"".to_owned())
-        }
-        Code::BadRequest => Error::BodyLost("it cannot be decoded from gzip: invalid gzip header".to_owned()),
-        Code::Unauthorized => Error::Unauthorized,
-        Code::Forbidden => Error::Forbidden(Role::Compute),
-        Code::OtherOrigin => Error::OtherOrigin,
-        Code::HostNotAllowed => Error::HostNotAllowed("example.org".to_owned()),
-        Code::UriTooLong => Error::UriTooLong(16_384),
-        Code::HeadersTooLarge => Error::HeadersTooLarge,
-        Code::NotFound => Error::NoSuchPath,
-        Code::MachineNotFound => Error::NoSuchMachine("nautilus".to_owned()),
-        Code::WorkspaceNotFound => Error::NoSuchWorkspace(id()),
-        Code::NoMesh => Error::NoMesh(id()),
-        Code::NoSlice => Error::NoSlice(id()),
-        Code::NoCells => Error::NoCells(id()),
-        Code::JobNotFound => Error::NoSuchJob(id()),
-        Code::MethodNotAllowed => Error::MethodNotAllowed,
-        Code::NotAcceptable => Error::NotAcceptable(vec!["application/json"]),
-        Code::JobCancelled => Error::JobCancelled,
-        Code::OtherVersion => Error::OtherVersion,
-        Code::BodyTooLarge => Error::BodyTooLarge(65_536),
-        Code::TooManyRows => Error::TooManyRows { rows: 200_000, limit: 100_000 },
-        Code::UnsupportedMediaType => Error::NotJson(None),
-        Code::UnsupportedCoding => Error::UnknownCoding("zstd".to_owned()),
-        Code::RangeNotSatisfiable => Error::RangeNotSatisfiable(162_300),
-        Code::InvalidRequest => {
-            Error::Fields(vec![Fault::new("/query/tool_length", "must be a number from 0 to 1e7 mm")])
-        }
-        Code::TooManyRequests => Error::TooManyRequests(1),
-        Code::Internal => Error::Internal,
-        Code::Overloaded => Error::Overloaded,
-        Code::QueueFull => Error::QueueFull(12),
-        Code::Stopping => Error::Stopping,
-        Code::JobsUnavailable => Error::JobsUnavailable,
-        Code::DiskFailing => Error::DiskFailing,
-        Code::JobTooLong => Error::JobTooLong,
-        Code::TimedOut => Error::TimedOut,
-        Code::NoRoom => Error::NoRoom,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::example;
-    use crate::http::problem::code::Code;
-
-    #[test]
-    fn every_example_has_the_code_that_it_shows() {
-        for &code in Code::ALL {
-            assert_eq!(Code::from(&example(code)), code);
-        }
-    }
 }

@@ -11,7 +11,7 @@ use crate::operations::forward::answer_fk;
 use crate::operations::inverse::answer_ik;
 use crate::operations::registry::Registry;
 use crate::wire::answer::Answer;
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::parse::parse_body;
 use crate::wire::query::{FkQuery, IkQuery, point_into_query};
@@ -78,21 +78,21 @@ pub(crate) fn machine(name: &str) -> Result<MachineRef, String> {
 }
 
 /// An error in the words of the command line.
-pub(crate) fn in_flags(error: Error) -> String {
-    let Error::Fields(faults) = point_into_query(error) else {
+pub(crate) fn in_flags(error: OperationError) -> String {
+    let OperationError::Fields(faults) = point_into_query(error) else {
         return "internal error of this program".to_owned();
     };
-    let flags = faults.into_iter().map(|Fault { pointer, detail }| {
+    let flags = faults.into_iter().map(|FieldError { pointer, detail }| {
         let path = pointer.trim_start_matches("/query/");
         let (flag, inside) = path.split_once('/').unwrap_or((path, ""));
         let separator = if inside.is_empty() { "" } else { " " };
-        Fault::new(format!("--{}{separator}{inside}", flag.replace('_', "-")), detail)
+        FieldError::new(format!("--{}{separator}{inside}", flag.replace('_', "-")), detail)
     });
-    format!("the request is invalid{}", listed(Error::Fields(flags.collect())))
+    format!("the request is invalid{}", listed(OperationError::Fields(flags.collect())))
 }
 
-fn listed(error: Error) -> String {
-    let Error::Fields(faults) = error else { return format!(": {error}") };
+fn listed(error: OperationError) -> String {
+    let OperationError::Fields(faults) = error else { return format!(": {error}") };
     faults.into_iter().fold(String::new(), |mut text, fault| {
         // Writing to a string cannot fail.
         let _ = write!(text, "\n  {}: {}", fault.pointer, fault.detail);

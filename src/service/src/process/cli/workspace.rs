@@ -14,7 +14,7 @@ use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::process::cli::progress::Bar;
 use crate::process::cli::question::{in_flags, machine, written};
 use crate::wire::alphas::Alphas;
-use crate::wire::error::{Error, Fault};
+use crate::wire::error::{FieldError, OperationError};
 use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::parse::parse_body;
 use crate::wire::workspace::WorkspaceRequest;
@@ -96,11 +96,11 @@ fn print(json: &[u8], out: &mut impl Write, pretty: bool) -> Result<(), String> 
 }
 
 /// The height is --slice here.
-fn named(error: Error) -> Error {
-    let Error::Fields(faults) = error else { return error };
+fn named(error: OperationError) -> OperationError {
+    let OperationError::Fields(faults) = error else { return error };
     let renamed = faults.into_iter().map(|fault| match fault.pointer.as_str() {
-        "/z" => Fault::new("/slice", fault.detail),
+        "/z" => FieldError::new("/slice", fault.detail),
         _ => fault,
     });
-    Error::Fields(renamed.collect())
+    OperationError::Fields(renamed.collect())
 }
