@@ -1,45 +1,47 @@
+//! A caller's claim on a job.
+
 use std::fmt;
 
-use crate::feed::Feed;
-use crate::{Job, Watcher};
+use crate::job::Job;
+use crate::job_watch::{JobReceiver, Watcher};
 
-/// Somebody's interest in a job.
+/// A caller's claim on a job.
 ///
-/// When the last claim on a queued or running job is dropped and nobody has [kept](Claim::keep) it, the job is cancelled.
-/// May be dropped on any thread, in a runtime or not.
+/// If the last claim on a queued or running job is dropped and none was [detached](Claim::detach), the job is
+/// cancelled. A claim may be dropped on any thread, inside or outside of a runtime.
 pub struct Claim {
-    feed: Feed,
-    interest: Box<dyn Interest>,
+    job: JobReceiver,
+    guard: Box<dyn ClaimGuard>,
 }
 
-/// A back end's side of a claim; the interest ends when this is dropped.
-pub(crate) trait Interest: Send + Sync {
-    fn keep(&self);
+/// A back end's side of a claim. Dropping it ends the claim.
+pub(crate) trait ClaimGuard: Send + Sync {
+    fn detach(&self);
 }
 
 impl Claim {
-    pub(crate) fn new(feed: Feed, interest: Box<dyn Interest>) -> Self {
-        Self { feed, interest }
+    pub(crate) fn new(job: JobReceiver, guard: Box<dyn ClaimGuard>) -> Self {
+        Self { job, guard }
     }
 
-    /// The job as it stands.
+    /// The job now.
     pub fn job(&self) -> Job {
-        self.feed.job()
+        self.job.job()
     }
 
-    /// The job at its end; as it stands, if the back end closes before.
+    /// Waits for the job's end and returns the job. If the back end closes before, returns the job's last state.
     pub async fn finished(&self) -> Job {
-        self.feed.finished().await
+        self.job.finished().await
     }
 
-    /// The job as it stands, then at each change.
+    /// Watches the job.
     pub fn watch(&self) -> Watcher {
-        Watcher::new(self.feed.clone())
+        Watcher::new(self.job.clone())
     }
 
-    /// From now on the job is wanted whoever waits for it.
-    pub fn keep(&self) {
-        self.interest.keep();
+    /// From now on the job continues even if all claims are dropped.
+    pub fn detach(&self) {
+        self.guard.detach();
     }
 }
 

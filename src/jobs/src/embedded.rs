@@ -1,19 +1,18 @@
-//! The back end inside the process: SQLite for what must last, memory for what moves.
+//! The back end in one process: SQLite records jobs durably, and memory holds their progress.
 //!
-//! A process that dies leaves its queued and running jobs to the next one that opens the directory. Without a directory
-//! all is as with one, in memory.
+//! If the process dies, the next one that opens the directory runs its queued and running jobs. Without a directory the
+//! database is in memory and everything else is the same.
 
-mod board;
 mod config;
-mod keeper;
-mod parts;
+mod job_table;
 mod queue;
-mod recorder;
 mod records;
+mod scheduler;
+mod waiting_parent;
+mod writer;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::thread;
 use std::time::Duration;
 
@@ -21,162 +20,158 @@ use async_trait::async_trait;
 use tokio::sync::Semaphore;
 use tokio::time::timeout;
 
-use crate::threads::pools;
-use crate::threads::run::Told;
-use crate::{
-    Backend, Claim, Counts, Cursor, Filter, Job, JobId, Page, Seats, Submission, SubmitError, Unavailable,
-    Watcher, Work,
-};
-use board::Board;
-use keeper::Keeper;
+use crate::backend::Backend;
+use crate::claim::Claim;
+use crate::counts::{Counts, Slots};
+use crate::error::{SubmitError, UnavailableError};
+use crate::execution::slot::slots;
+use crate::job::{Job, Submission};
+use crate::job_id::{JobId, JobKey};
+use crate::job_watch::Watcher;
+use crate::page::{Cursor, Filter, Page};
+use crate::work::Work;
+use job_table::JobTable;
 use queue::Queue;
-use recorder::Recorder;
-use records::{Opened, Record, Records};
+use records::Records;
+use records::open::Opened;
+use scheduler::Scheduler;
+use writer::Writer;
 
 pub use config::{Config, OpenError};
-pub use records::Retention;
 
-/// How much nicer jobs are than who answers short questions in the same process: a tenth of its share of a full core.
-const COURTESY: i32 = 10;
+/// Added to the niceness of job threads: on a busy core they get about a tenth of the time of the threads that answer
+/// short requests.
+const NICENESS: i32 = 10;
 
-/// Callers that read the records at the same time; others wait.
+/// Most callers that read the records at the same time; others wait.
 const READERS: usize = 64;
 
-/// How long the end of a drain may take to be recorded.
-const CLOSING: Duration = Duration::from_secs(2);
+/// Longest time to record the end of a drain.
+const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
 
-/// Jobs kept in SQLite and run in this process. Dropped without a [drain](Backend::drain) it tells its runs to stop and
-/// does not wait for them.
+/// Records jobs in SQLite and runs them in this process. If it is dropped without a [drain](Backend::drain), it tells
+/// its runs to stop and does not wait for them.
 pub struct Embedded {
-    keeper: Arc<Keeper>,
+    scheduler: Arc<Scheduler>,
     readers: Semaphore,
-    set_aside: Option<PathBuf>,
-    seats: usize,
+    damaged_database: Option<PathBuf>,
+    slots: usize,
 }
 
 impl Embedded {
-    /// Opens, or begins, the records, and sets to work on the jobs that are left in them. Reads the whole database: not for a
-    /// thread of the runtime.
+    /// Opens or creates the database and starts the jobs in it. Reads the whole database: do not call it on a thread of
+    /// the runtime.
+    ///
+    /// # Errors
+    ///
+    /// Another process uses the directory; the database is a later version's; a file cannot be used; or threads cannot
+    /// be started.
     pub fn open(config: Config, work: Arc<dyn Work>) -> Result<Self, OpenError> {
-        let Opened { records, live, last_life, given_up, set_aside } =
-            records::open(config.directory.as_deref(), config.retention, config.max_attempts)?;
-        let seats = pools::seats(config.threads, config.slots, COURTESY)
-            .map_err(|fault| OpenError::Threads(fault.to_string()))?;
-        let threads = |fault: std::io::Error| OpenError::Threads(fault.to_string());
-        let recorder = Recorder::start(records).map_err(threads)?;
-        let places = seats.len();
-        let board = Board::new(Queue::new(config.overdue), seats, last_life, given_up);
-        let keeper = Arc::new(Keeper::new(board, recorder, config, work));
-        let deadlines = Arc::clone(&keeper);
+        let Opened { records, unfinished, last_generation, given_up, damaged_database } =
+            records::open::open(config.directory.as_deref(), config.retention, config.max_attempts)?;
+        let free_slots = slots(config.threads, config.slots, NICENESS)
+            .map_err(|error| OpenError::Threads(error.to_string()))?;
+        let no_thread = |error: std::io::Error| OpenError::Threads(error.to_string());
+        let writer = Writer::start(records).map_err(no_thread)?;
+        let slots = free_slots.len();
+        let table = JobTable::new(Queue::new(config.overdue_after), free_slots, last_generation, given_up);
+        let scheduler = Arc::new(Scheduler::new(table, writer, config, work));
+        let deadlines = Arc::clone(&scheduler);
         thread::Builder::new()
             .name("jobs-deadlines".to_owned())
             .spawn(move || deadlines.watch_deadlines())
-            .map_err(threads)?;
-        keeper.resume(live);
-        Ok(Self { keeper, readers: Semaphore::new(READERS), set_aside, seats: places })
+            .map_err(no_thread)?;
+        scheduler.resume(unfinished);
+        Ok(Self { scheduler, readers: Semaphore::new(READERS), damaged_database, slots })
     }
 
-    /// Where a damaged database was put when this one was begun in its place; its jobs are lost.
-    pub fn set_aside(&self) -> Option<&Path> {
-        self.set_aside.as_deref()
+    /// New path of a damaged database, if this call of [`Embedded::open`] has replaced one. Its jobs are lost.
+    pub fn damaged_database(&self) -> Option<&Path> {
+        self.damaged_database.as_deref()
     }
 
-    /// How busy it is.
-    pub fn seats(&self) -> Seats {
-        let free = self.keeper.board.lock().free.len();
-        Seats { all: self.seats, busy: self.seats.saturating_sub(free) }
+    /// Slots of this process.
+    pub fn slots(&self) -> Slots {
+        let free = self.scheduler.table.lock().free_slots.len();
+        Slots { total: self.slots, busy: self.slots.saturating_sub(free) }
     }
 
     async fn read<T: Send + 'static>(
         &self,
-        read: impl FnOnce(&Records) -> Result<T, Unavailable> + Send + 'static,
-    ) -> Result<T, Unavailable> {
-        let _permit = self.readers.acquire().await.map_err(|fault| Unavailable(fault.to_string()))?;
-        self.keeper.recorder.read(read).await
+        read: impl FnOnce(&Records) -> Result<T, UnavailableError> + Send + 'static,
+    ) -> Result<T, UnavailableError> {
+        let _permit = self.readers.acquire().await.map_err(UnavailableError::new)?;
+        self.scheduler.writer.read(read).await
     }
 
-    fn live(&self, id: JobId) -> Option<Job> {
-        self.keeper.board.lock().live.get(&id).map(|entry| entry.feeder.job())
-    }
-
-    /// The records' page, with what has happened since.
-    fn refreshed(&self, records: Vec<Record>, filter: &Filter) -> Vec<Job> {
-        let mut board = self.keeper.board.lock();
-        let jobs = records.into_iter().map(|Record { life, job, .. }| match board.entry(job.id, life) {
-            Some(entry) => entry.feeder.job(),
-            None => job,
-        });
-        let client = filter.client.as_deref();
-        jobs.filter(|job| filter.state.is_none_or(|state| state == job.state))
-            .filter(|job| client.is_none_or(|client| job.clients.contains(client)))
-            .collect()
+    /// A changed job, when the changes before are recorded; without one, the job's record.
+    async fn recorded(&self, id: JobId, changed: Option<Job>) -> Result<Option<Job>, UnavailableError> {
+        match changed {
+            Some(job) => self.read(|_| Ok(Some(job))).await,
+            None => self.read(move |records| records.get(id)).await,
+        }
     }
 }
 
 #[async_trait]
 impl Backend for Embedded {
     async fn submit(&self, submission: Submission) -> Result<Claim, SubmitError> {
-        let (claim, mut recorded) = self.keeper.submit(submission)?;
-        let closed = || Unavailable("closed".to_owned());
-        let result = recorded.wait_for(Option::is_some).await.map_err(|_| closed())?.clone();
-        result.unwrap_or_else(|| Err(closed()))?;
+        let (claim, mut recorded) = self.scheduler.submit(submission)?;
+        let result =
+            recorded.wait_for(Option::is_some).await.map_err(|_| UnavailableError::closed())?.clone();
+        result.unwrap_or_else(|| Err(UnavailableError::closed()))?;
         Ok(claim)
     }
 
-    async fn get(&self, id: JobId) -> Result<Option<Job>, Unavailable> {
-        match self.live(id) {
+    async fn get(&self, id: JobId) -> Result<Option<Job>, UnavailableError> {
+        let live = self.scheduler.table.lock().jobs.get(&id).map(|entry| entry.job.job());
+        match live {
             Some(job) => Ok(Some(job)),
-            None => self.read(move |records| records.get(id)).await,
+            None => self.recorded(id, None).await,
         }
     }
 
-    async fn list(&self, filter: Filter) -> Result<Page, Unavailable> {
-        let limit = filter.limit.clamp(1, Filter::MAX_LIMIT);
-        let wanted = filter.clone();
-        let mut records = self.read(move |records| records.list(&wanted, limit + 1)).await?;
-        let more = records.len() > limit;
-        records.truncate(limit);
-        let next = records.last().filter(|_| more).map(|record| Cursor(record.life));
-        Ok(Page { jobs: self.refreshed(records, &filter), next })
+    async fn list(&self, filter: Filter) -> Result<Page, UnavailableError> {
+        let (size, wanted) = (filter.page_size(), filter.clone());
+        // One record more shows whether there is a next page.
+        let mut records = self.read(move |records| records.list(&wanted, size + 1)).await?;
+        let has_more = records.len() > size;
+        records.truncate(size);
+        let next = records.last().filter(|_| has_more).map(|record| Cursor(record.generation));
+        let mut table = self.scheduler.table.lock();
+        let present = records.into_iter().map(|record| {
+            let live = table.entry(JobKey { id: record.job.id, generation: record.generation });
+            live.map_or(record.job, |entry| entry.job.job())
+        });
+        Ok(Page { jobs: present.filter(|job| filter.matches(job)).collect(), next })
     }
 
-    async fn watch(&self, id: JobId) -> Result<Option<Watcher>, Unavailable> {
-        let feed = self.keeper.board.lock().live.get(&id).map(|entry| entry.feeder.subscribe());
-        match feed {
-            Some(feed) => Ok(Some(Watcher::new(feed))),
-            None => Ok(self.read(move |records| records.get(id)).await?.map(Watcher::of)),
+    async fn watch(&self, id: JobId) -> Result<Option<Watcher>, UnavailableError> {
+        let live = self.scheduler.table.lock().jobs.get(&id).map(|entry| entry.job.subscribe());
+        match live {
+            Some(job) => Ok(Some(Watcher::new(job))),
+            None => Ok(self.recorded(id, None).await?.map(Watcher::of_ended)),
         }
     }
 
-    async fn cancel(&self, id: JobId) -> Result<Option<Job>, Unavailable> {
-        match self.keeper.cancel(id) {
-            Some(job) => {
-                // Answered after the writes that were asked for before.
-                self.read(|_| Ok(())).await?;
-                Ok(Some(job))
-            }
-            None => self.read(move |records| records.get(id)).await,
-        }
+    async fn cancel(&self, id: JobId) -> Result<Option<Job>, UnavailableError> {
+        let changed = self.scheduler.cancel(id);
+        self.recorded(id, changed).await
     }
 
-    async fn leave(&self, id: JobId, client: &str) -> Result<Option<Job>, Unavailable> {
-        match self.keeper.leave(id, client) {
-            Some(job) => {
-                // As with cancel.
-                self.read(|_| Ok(())).await?;
-                Ok(Some(job))
-            }
-            None => self.read(move |records| records.get(id)).await,
-        }
+    async fn leave(&self, id: JobId, client: &str) -> Result<Option<Job>, UnavailableError> {
+        let changed = self.scheduler.leave(id, client);
+        self.recorded(id, changed).await
     }
 
-    /// As the last changes went, while the database's files are in their places. After a change that was refused as much is
-    /// written anew, so that it is known when there is room again though nobody submits anything.
-    async fn reachable(&self) -> Result<(), Unavailable> {
-        if !self.keeper.recorder.is_failing() {
-            return self.read(Records::check_files).await;
+    /// Checks that the database's files are in place. After a change has failed, writes as many bytes again; so the end
+    /// of the failure is found though nobody submits a job.
+    async fn reachable(&self) -> Result<(), UnavailableError> {
+        if self.scheduler.writer.is_failing() {
+            let _permit = self.readers.acquire().await.map_err(UnavailableError::new)?;
+            return self.scheduler.writer.probe().await;
         }
-        self.read(self.keeper.recorder.probe()).await
+        self.read(Records::check_files).await
     }
 
     fn is_shared(&self) -> bool {
@@ -184,38 +179,23 @@ impl Backend for Embedded {
     }
 
     fn counts(&self) -> Counts {
-        let board = self.keeper.board.lock();
-        Counts {
-            queued: board.queue.len(),
-            running: board.running.len(),
-            started: self.keeper.started.load(Ordering::Relaxed),
-            succeeded: board.tally.succeeded,
-            failed: board.tally.failed,
-            cancelled: board.tally.cancelled,
-        }
+        let table = self.scheduler.table.lock();
+        Counts { queued: table.queue.len(), running: table.running.len(), ..table.counts }
     }
 
     async fn drain(&self, limit: Duration) {
-        self.stop();
-        // The runs that do not stop in time go back to the queue all the same, though they are still under way.
-        drop(timeout(limit, self.keeper.idle()).await);
-        self.keeper.requeue_all();
-        drop(timeout(CLOSING, self.keeper.recorder.close()).await);
-        self.keeper.board.lock().live.clear();
-    }
-}
-
-impl Embedded {
-    fn stop(&self) {
-        let mut board = self.keeper.board.lock();
-        self.keeper.close(&mut board);
-        board.running.values().for_each(|run| run.tell(Told::Drained));
+        self.scheduler.close();
+        // Jobs whose runs do not stop in time return to the queue too.
+        drop(timeout(limit, self.scheduler.wait_until_idle()).await);
+        self.scheduler.requeue_running();
+        drop(timeout(CLOSE_TIMEOUT, self.scheduler.writer.close()).await);
+        self.scheduler.table.lock().jobs.clear();
     }
 }
 
 impl Drop for Embedded {
     fn drop(&mut self) {
-        self.stop();
+        self.scheduler.close();
     }
 }
 
@@ -228,12 +208,12 @@ mod tests {
     use tempfile::TempDir;
 
     use super::{Config, Embedded};
-    use crate::{Backend, JobId, Stop, Submission, SubmitError, Watch, Work};
+    use crate::{Backend, JobId, RunControl, Submission, SubmitError, Work, WorkError};
 
-    struct Nothing;
+    struct NoWork;
 
-    impl Work for Nothing {
-        fn run(&self, _: &JobId, _: &[u8], _: &dyn Watch) -> Result<(), Stop> {
+    impl Work for NoWork {
+        fn run(&self, _: &JobId, _: &[u8], _: &dyn RunControl) -> Result<(), WorkError> {
             Ok(())
         }
     }
@@ -248,9 +228,9 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_disk_that_takes_nothing_is_told_until_it_does_again() {
+    async fn a_disk_that_refuses_writes_is_reported_until_it_accepts_them() {
         let directory = TempDir::new().unwrap();
-        let jobs = Embedded::open(Config::in_directory(directory.path()), Arc::new(Nothing)).unwrap();
+        let jobs = Embedded::open(Config::in_directory(directory.path()), Arc::new(NoWork)).unwrap();
         assert_eq!(jobs.reachable().await, Ok(()));
         refuse_writes(&jobs, true).await;
         let refused = jobs.submit(submission(1)).await.map(drop).unwrap_err();
@@ -258,19 +238,19 @@ mod tests {
         for _ in 0..2 {
             assert!(jobs.reachable().await.is_err());
         }
-        // Nobody submits anything.
+        // Nobody submits a job.
         refuse_writes(&jobs, false).await;
         assert_eq!(jobs.reachable().await, Ok(()));
     }
 
     #[tokio::test]
-    async fn what_is_recorded_ends_the_failure() {
-        let jobs = Embedded::open(Config::default(), Arc::new(Nothing)).unwrap();
+    async fn a_recorded_job_ends_the_failure() {
+        let jobs = Embedded::open(Config::default(), Arc::new(NoWork)).unwrap();
         refuse_writes(&jobs, true).await;
         jobs.submit(submission(1)).await.map(drop).unwrap_err();
         refuse_writes(&jobs, false).await;
-        assert!(jobs.keeper.recorder.is_failing());
+        assert!(jobs.scheduler.writer.is_failing());
         jobs.submit(submission(2)).await.unwrap();
-        assert!(!jobs.keeper.recorder.is_failing());
+        assert!(!jobs.scheduler.writer.is_failing());
     }
 }

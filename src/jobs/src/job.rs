@@ -1,57 +1,60 @@
+//! Jobs, their states and how they end.
+
 use std::time::{Duration, SystemTime};
 
 use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 
-use crate::moment::now;
-use crate::threads::run::Outcome;
-use crate::{Clients, JobId};
+use crate::clients::Clients;
+use crate::job_id::JobId;
+use crate::timestamp::now;
 
-/// What is asked for: data, so that any process that knows the [`Work`](crate::Work) can do it.
+/// A request for a job. It is data, so every process that has the same [`Work`](crate::Work) can run it.
 #[derive(Clone, Debug)]
 pub struct Submission {
-    /// Hash of what it makes.
+    /// Hash of the result.
     pub id: JobId,
-    /// Whose share of the cores the job is charged to.
+    /// The client for which the job counts in the fair queue.
     pub client: String,
-    /// Estimated work in seconds of one core; taken between a millisecond and [`MAX_COST`].
+    /// Estimated work in seconds of one core; values outside of a millisecond to [`MAX_COST`] are clamped.
     pub cost: f64,
-    /// The question in the work's own terms. Kept as long as the job; bounding one payload is the caller's part,
-    /// their sum in the queue is bounded here.
+    /// Input of the work, in its own format. It is stored as long as the job. The caller bounds one payload; the queue
+    /// bounds their sum.
     pub payload: Bytes,
-    /// After this long in the queue and running together the job fails with [`Failure::DeadlinePassed`]. It counts from the
-    /// submission, and anew from a restart. Of equal submissions the latest deadline holds; `None` is the latest.
+    /// Most time in the queue and running together, from the submission, and again from a restart. Then the job fails
+    /// with
+    /// [`Failure::DeadlinePassed`]. Of equal submissions the latest deadline applies; `None` is the latest.
     pub deadline: Option<Duration>,
 }
 
-/// Greatest cost that is told apart, seconds of one core.
+/// Greatest cost of a job, seconds of one core.
 pub const MAX_COST: f64 = 1e6;
 
-/// Where a job stands.
+/// State of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum State {
-    /// Waits for its turn.
+    /// The job waits in the queue.
     Queued,
-    /// Is computed, or its parts are.
+    /// The job or its subtasks are being computed.
     Running,
-    /// Its result exists.
+    /// The result exists.
     Succeeded,
-    /// There is no result, see [`Job::failure`].
+    /// There is no result; [`Job::failure`] states why.
     Failed,
-    /// Nobody wanted it any more, or somebody said so.
+    /// The job had no claims left, or somebody cancelled it.
     Cancelled,
 }
 
 impl State {
-    /// In the order of a life.
+    /// All states, in the order in which a job may have them.
     pub const ALL: [Self; 5] = [Self::Queued, Self::Running, Self::Succeeded, Self::Failed, Self::Cancelled];
 
-    /// Whether nothing follows.
+    /// Whether the job has ended.
     pub const fn is_final(self) -> bool {
         matches!(self, Self::Succeeded | Self::Failed | Self::Cancelled)
     }
 
-    /// Its lowercase name.
+    /// The name in lowercase letters.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Queued => "queued",
@@ -66,74 +69,104 @@ impl State {
 /// Why a job failed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Failure {
-    /// The work's own reason, in its own terms.
+    /// The work failed with this reason, in its own format.
     Work(Bytes),
-    /// The work panicked with this message: a defect of the work.
+    /// The work panicked with this message: it has a defect.
     Panicked(String),
-    /// See [`Submission::deadline`].
+    /// [`Submission::deadline`] passed.
     DeadlinePassed,
-    /// The process died in each of the allowed attempts, by this job or beside it.
+    /// The process died in each of the allowed attempts, because of this job or of one beside it.
     TooManyAttempts,
 }
 
-/// A job as it stood at one moment.
+/// A job at one time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Job {
-    /// Hash of what it makes.
+    /// Hash of the result.
     pub id: JobId,
-    /// To whom it was charged first.
+    /// The client whose submission started the job.
     pub client: String,
-    /// Who has submitted this life of it; nobody, as long as it has only been asked for as a part.
+    /// Clients that have submitted this generation of the job; empty if it is only a subtask.
     pub clients: Clients,
-    /// Seconds of one core, estimated.
+    /// Estimated work, seconds of one core.
     pub cost: f64,
-    /// The question, in the work's own terms.
+    /// Input of the work, in its own format.
     pub payload: Bytes,
-    /// Where it stands.
+    /// Present state.
     pub state: State,
-    /// Part of the work that is done, from 0 to 1; never falls while the job runs.
+    /// Fraction of the work that is done, from 0 to 1; never falls while the job runs.
     pub progress: f64,
-    /// When this life of it was submitted.
+    /// Time of the submission that started this generation.
     pub created: SystemTime,
-    /// When the last attempt was begun.
+    /// Start of the last attempt.
     pub started: Option<SystemTime>,
-    /// When it ended.
+    /// End of the job.
     pub finished: Option<SystemTime>,
-    /// How often it was begun.
+    /// Number of attempts.
     pub attempts: u32,
-    /// There when the state is [`State::Failed`].
+    /// Present if the state is [`State::Failed`].
     pub failure: Option<Failure>,
 }
 
-/// As it enters the queue.
-pub(crate) fn queued(submission: Submission, as_part: bool) -> Job {
-    Job {
-        id: submission.id,
-        clients: if as_part { Clients::default() } else { Clients::of(&submission.client) },
-        client: submission.client,
-        cost: told_apart(submission.cost),
-        payload: submission.payload,
-        state: State::Queued,
-        progress: 0.0,
-        created: now(),
-        started: None,
-        finished: None,
-        attempts: 0,
-        failure: None,
+/// How a job ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    Succeeded,
+    Failed(Failure),
+    Cancelled,
+}
+
+impl Job {
+    /// A job that enters the queue.
+    pub(crate) fn new(submission: Submission, as_subtask: bool) -> Self {
+        Self {
+            id: submission.id,
+            clients: if as_subtask { Clients::default() } else { Clients::of(&submission.client) },
+            client: submission.client,
+            cost: clamp_cost(submission.cost),
+            payload: submission.payload,
+            state: State::Queued,
+            progress: 0.0,
+            created: now(),
+            started: None,
+            finished: None,
+            attempts: 0,
+            failure: None,
+        }
+    }
+
+    /// Starts an attempt.
+    pub(crate) fn start(&mut self) {
+        self.state = State::Running;
+        self.attempts = self.attempts.saturating_add(1);
+        self.started = Some(now());
+    }
+
+    /// Returns to the queue. Only the number of attempts stays.
+    pub(crate) fn requeue(&mut self) {
+        (self.state, self.progress, self.started) = (State::Queued, 0.0, None);
+    }
+
+    pub(crate) fn finish(&mut self, outcome: Outcome) {
+        self.finished = Some(now());
+        match outcome {
+            Outcome::Succeeded => (self.state, self.progress) = (State::Succeeded, 1.0),
+            Outcome::Failed(failure) => (self.state, self.failure) = (State::Failed, Some(failure)),
+            Outcome::Cancelled => self.state = State::Cancelled,
+        }
+    }
+
+    /// How the end of a subtask ends its parent; `None` if the parent continues.
+    pub(crate) fn parent_outcome(&self) -> Option<Outcome> {
+        match (self.state, &self.failure) {
+            (State::Succeeded, _) => None,
+            (State::Failed, Some(failure)) => Some(Outcome::Failed(failure.clone())),
+            _ => Some(Outcome::Cancelled),
+        }
     }
 }
 
-/// As it ends.
-pub(crate) fn finish(job: &mut Job, outcome: Outcome) {
-    job.finished = Some(now());
-    match outcome {
-        Outcome::Succeeded => (job.state, job.progress) = (State::Succeeded, 1.0),
-        Outcome::Failed(failure) => (job.state, job.failure) = (State::Failed, Some(failure)),
-        Outcome::Cancelled => job.state = State::Cancelled,
-    }
-}
-
-/// A cost that sums well: what is not a number counts as the greatest.
-pub(crate) fn told_apart(cost: f64) -> f64 {
+/// A cost whose sums are finite. NaN becomes the greatest cost.
+pub(crate) fn clamp_cost(cost: f64) -> f64 {
     if cost.is_nan() { MAX_COST } else { cost.clamp(1e-3, MAX_COST) }
 }

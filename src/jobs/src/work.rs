@@ -1,45 +1,51 @@
+//! The interface to the computations that jobs run.
+
 use bytes::Bytes;
 
-use crate::{JobId, Submission};
+use crate::job::Submission;
+use crate::job_id::JobId;
 
-/// What jobs compute.
+/// Computes what jobs ask for.
 ///
-/// A run makes its result exist somewhere else, named by the job's id, and returns nothing. It must be idempotent: after
-/// a crash, and rarely while an abandoned run still ends, the same job is run again.
+/// A run stores its result elsewhere under the job's id and returns nothing. A run must be idempotent: the same job is
+/// run again after a crash, and rarely while an abandoned run of it is still ending.
 pub trait Work: Send + Sync + 'static {
-    /// The jobs whose results this one's run is merged from; none: it is run whole. Called before [`Work::run`], on such a
-    /// thread; cheap, and the same at each call. What equals a job that is there already is shared with it; the part's
-    /// client is not looked at, it is the job's. No job may come to have itself as a part, directly or through others.
-    fn parts(&self, job: &JobId, payload: &[u8]) -> Result<Vec<Submission>, Stop> {
+    /// The subtasks from whose results [`Work::run`] merges the job's result, or none if the job is computed directly.
+    ///
+    /// Called before [`Work::run`], on the same kind of thread. Must be cheap and return the same subtasks at each
+    /// call.
+    /// [`Submission::client`] of a subtask is ignored: it is the parent's client. A job must not have itself as a
+    /// subtask, directly or through others.
+    fn subtasks(&self, job: &JobId, payload: &[u8]) -> Result<Vec<Submission>, WorkError> {
         let _ = (job, payload);
         Ok(Vec::new())
     }
 
-    /// Makes the result; of a job with parts, when all of them have succeeded.
+    /// Computes and stores the result. If the job has subtasks, all of them have succeeded.
     ///
-    /// Called on a thread of a rayon pool that is the job's own while it runs; may use rayon inside.
-    fn run(&self, job: &JobId, payload: &[u8], watch: &dyn Watch) -> Result<(), Stop>;
+    /// Called on a thread of a rayon pool that no other job uses at the same time; may use rayon inside.
+    fn run(&self, job: &JobId, payload: &[u8], control: &dyn RunControl) -> Result<(), WorkError>;
 }
 
-/// Why a run ended without its result.
+/// A run ended without a result.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Stop {
-    /// [`Watch::cancelled`] said so.
+pub enum WorkError {
+    /// [`RunControl::cancelled`] was true.
     Cancelled,
-    /// For good: the same payload would fail again. The reason is kept as it is.
+    /// The same payload would fail again. The job fails with this reason.
     Failed(Bytes),
-    /// This process cannot do it, another may: the payload is another version's, the result cannot be put where it belongs.
-    /// Where there are other processes the job is left to them, and comes back if they cannot either; else, and after a
-    /// hundred times, it fails with this reason.
-    Elsewhere(Bytes),
+    /// This process cannot run the job, but another one may: for example, another version wrote the payload, or the
+    /// store of results is not available. If other processes exist, the job returns to the queue for them. Otherwise,
+    /// and after a hundred times, it fails with this reason.
+    CannotRunHere(Bytes),
 }
 
-/// How a run is watched and stopped.
-pub trait Watch: Sync {
-    /// Tells the part of the work that is done, from 0 to 1. What falls behind an earlier call is ignored.
-    fn progress(&self, part: f64);
+/// Connects a run with the queue.
+pub trait RunControl: Sync {
+    /// Reports the fraction of the work that is done, from 0 to 1. A value below an earlier one is ignored.
+    fn progress(&self, fraction: f64);
 
-    /// Whether to stop. To be asked at least every 10 ms on each thread of the work; may hold the thread for a while
-    /// in which a small job or another client's job runs.
+    /// Whether the run must stop. Call it at least every 10 ms on each thread. It may block the thread for a while, in
+    /// which a small job or another client's job runs.
     fn cancelled(&self) -> bool;
 }

@@ -1,53 +1,53 @@
-//! Jobs as their callers see them: the contract that every back end keeps, and what only one of them promises.
+//! Tests of the public interface: what every back end does, and what only one of them does.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
 #[path = "contract/claims.rs"]
 mod claims;
-#[path = "contract/ends.rs"]
-mod ends;
 #[path = "contract/lists.rs"]
 mod lists;
 #[path = "contract/order.rs"]
 mod order;
-#[path = "contract/parts.rs"]
-mod parts;
-#[path = "contract/seats.rs"]
-mod seats;
-#[path = "contract/watching.rs"]
-mod watching;
+#[path = "contract/outcomes.rs"]
+mod outcomes;
+#[path = "contract/slots.rs"]
+mod slots;
+#[path = "contract/subtasks.rs"]
+mod subtasks;
+#[path = "contract/watchers.rs"]
+mod watchers;
 
 #[path = "embedded/backup.rs"]
 mod backup;
-#[path = "embedded/closing.rs"]
-mod closing;
-#[path = "embedded/damage.rs"]
-mod damage;
-#[path = "embedded/killed.rs"]
-mod killed;
-#[path = "embedded/lanes.rs"]
-mod lanes;
-#[path = "embedded/parts_restart.rs"]
-mod parts_restart;
+#[path = "embedded/crashes.rs"]
+mod crashes;
+#[path = "embedded/damaged_database.rs"]
+mod damaged_database;
+#[path = "embedded/draining.rs"]
+mod draining;
 #[path = "embedded/restart.rs"]
 mod restart;
+#[path = "embedded/settings.rs"]
+mod settings;
+#[path = "embedded/subtasks_restart.rs"]
+mod subtasks_restart;
 
-#[path = "jetstream/access.rs"]
-mod access;
-#[path = "jetstream/denials.rs"]
-mod denials;
-#[path = "jetstream/losses.rs"]
-mod losses;
-#[path = "jetstream/nodes.rs"]
-mod nodes;
-#[path = "jetstream/turnover.rs"]
-mod turnover;
+#[path = "jetstream/authentication.rs"]
+mod authentication;
+#[path = "jetstream/lost_processes.rs"]
+mod lost_processes;
+#[path = "jetstream/many_processes.rs"]
+mod many_processes;
+#[path = "jetstream/permissions.rs"]
+mod permissions;
+#[path = "jetstream/restarts.rs"]
+mod restarts;
 
 #[path = "support/broker.rs"]
 mod broker;
-#[path = "support/child.rs"]
-mod child;
-#[path = "support/stage.rs"]
-mod stage;
-#[path = "support/stand.rs"]
-mod stand;
+#[path = "support/child_process.rs"]
+mod child_process;
+#[path = "support/fixture.rs"]
+mod fixture;
+#[path = "support/scripted_work.rs"]
+mod scripted_work;

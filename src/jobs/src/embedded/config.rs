@@ -1,29 +1,30 @@
-use std::fmt;
+//! Settings of the embedded back end.
+
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::records::Retention;
+use crate::retention::Retention;
 
-/// How the embedded back end keeps and runs jobs.
+/// How the embedded back end stores and runs jobs.
 #[derive(Clone, Debug)]
 pub struct Config {
-    /// Where the database is; `None`: in memory, for this process only.
+    /// Directory of the database; `None`: in memory, for this process only.
     pub directory: Option<PathBuf>,
-    /// How many cores jobs keep busy; at least one.
+    /// Number of cores that jobs use; at least one.
     pub threads: usize,
-    /// How many jobs run at once in the main lane; between one and `threads`, which are dealt out among them.
+    /// Number of main slots, from one to `threads`. They share the threads.
     pub slots: usize,
     /// Most jobs in the queue; at least one.
     pub queue: usize,
     /// Most bytes of payload in the queue.
     pub queue_bytes: usize,
-    /// Greatest cost that the express lane takes, seconds of one core.
-    pub small: f64,
-    /// A job that has waited longer goes before all that have not.
-    pub overdue: Duration,
-    /// A job that was running when the process died so many times is not run again.
+    /// Greatest cost of a small job, seconds of one core.
+    pub small_cost: f64,
+    /// A job that has waited longer goes before all jobs that have not.
+    pub overdue_after: Duration,
+    /// A job that was running at so many deaths of the process is not run again.
     pub max_attempts: u32,
-    /// What is kept of finished jobs.
+    /// Limits on the records of ended jobs.
     pub retention: Retention,
 }
 
@@ -35,10 +36,10 @@ impl Default for Config {
             slots: 1,
             queue: 10_000,
             queue_bytes: 256 << 20,
-            small: 2.0,
-            overdue: Duration::from_mins(10),
+            small_cost: 2.0,
+            overdue_after: Duration::from_mins(10),
             max_attempts: 5,
-            retention: Retention { count: 10_000, age: Duration::from_hours(7 * 24) },
+            retention: Retention::default(),
         }
     }
 }
@@ -50,15 +51,17 @@ impl Config {
     }
 }
 
-/// Why the back end cannot be opened.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The back end cannot be opened.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OpenError {
     /// Another process runs the jobs of this directory.
+    #[error("{}: another process runs these jobs", directory.display())]
     InUse {
-        /// Where the database is.
+        /// Directory of the database.
         directory: PathBuf,
     },
     /// A later version of this program wrote the database.
+    #[error("{}: written by a later version (schema {version})", path.display())]
     Newer {
         /// The database.
         path: PathBuf,
@@ -66,29 +69,14 @@ pub enum OpenError {
         version: i64,
     },
     /// The file or directory cannot be written or read.
+    #[error("{}: {reason}", path.display())]
     Unusable {
         /// The file or directory.
         path: PathBuf,
-        /// What the system or SQLite says.
+        /// Reason that the system or SQLite states.
         reason: String,
     },
     /// Threads cannot be started.
+    #[error("threads for jobs cannot be started: {0}")]
     Threads(String),
 }
-
-impl fmt::Display for OpenError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::InUse { directory } => {
-                write!(f, "{}: another process runs these jobs", directory.display())
-            }
-            Self::Newer { path, version } => {
-                write!(f, "{}: written by a later version (schema {version})", path.display())
-            }
-            Self::Unusable { path, reason } => write!(f, "{}: {reason}", path.display()),
-            Self::Threads(reason) => write!(f, "threads for jobs cannot be started: {reason}"),
-        }
-    }
-}
-
-impl std::error::Error for OpenError {}

@@ -1,22 +1,23 @@
-//! Which job is next: self-clocked fair queueing in two bands, small and other.
+//! The order of queued jobs: self-clocked fair queueing in two bands, small jobs and others.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::time::{Duration, Instant};
 
-use crate::JobId;
-use crate::threads::pools::Lane;
+use crate::execution::slot::SlotKind;
+use crate::job_id::JobId;
 
-/// A queued job.
+/// A job in the queue.
 #[derive(Clone, Debug)]
-pub(super) struct Waiting {
+pub(super) struct QueuedJob {
     pub(super) id: JobId,
-    /// To whom it is charged.
+    /// The client for which it counts.
     pub(super) client: String,
     /// Seconds of one core.
     pub(super) cost: f64,
+    /// Length of the payload.
     pub(super) bytes: usize,
-    /// It is for the express lane as well.
+    /// The express slot may run it.
     pub(super) is_small: bool,
     pub(super) since: Instant,
 }
@@ -29,7 +30,7 @@ impl Tag {
     /// Before all others.
     const FIRST: Self = Self(f64::NEG_INFINITY);
 
-    /// Where a share of `cost` that begins here ends.
+    /// End of a share of `cost` that begins here.
     pub(super) fn plus(self, cost: f64) -> Self {
         Self(self.0 + cost)
     }
@@ -55,172 +56,169 @@ impl Ord for Tag {
     }
 }
 
-/// A job that has left the queue for its turn.
+/// A job that has left the queue to run.
 #[derive(Clone, Debug)]
-pub(super) struct Taken {
-    pub(super) life: u64,
-    pub(super) job: Waiting,
+pub(super) struct DequeuedJob {
+    pub(super) generation: u64,
+    pub(super) job: QueuedJob,
     pub(super) tag: Tag,
 }
 
-impl Taken {
-    /// Where its share begins.
+impl DequeuedJob {
+    /// Start of its share.
     pub(super) fn start(&self) -> Tag {
         self.tag.plus(-self.job.cost)
     }
 }
 
-/// Tag and life: the earlier submission first where tags are equal.
-type Place = (Tag, u64);
+/// Tag and generation: of equal tags the earlier submission is first.
+type Position = (Tag, u64);
 
 #[derive(Default)]
 struct Band {
-    by_tag: BTreeSet<Place>,
-    /// By life, which is by age.
-    by_age: BTreeMap<u64, (Waiting, Tag)>,
+    by_tag: BTreeSet<Position>,
+    /// By generation, which is the order of submission.
+    by_age: BTreeMap<u64, (QueuedJob, Tag)>,
 }
 
-/// The queue's order. A job is named by its life, a number that grows with every submission.
+/// The queue. Generations name its jobs; they grow with every submission.
 pub(super) struct Queue {
     small: Band,
     other: Band,
-    /// What each client has queued; its last is the client's last tag.
-    clients: HashMap<String, BTreeSet<Place>>,
-    /// Virtual time.
-    now: Tag,
+    /// Positions of each client's jobs; the last one is the client's last tag.
+    clients: HashMap<String, BTreeSet<Position>>,
+    virtual_time: Tag,
     bytes: usize,
     cost: f64,
-    /// A job that has waited longer goes before all that have not.
-    overdue: Duration,
+    overdue_after: Duration,
 }
 
 impl Queue {
-    pub(super) fn new(overdue: Duration) -> Self {
+    pub(super) fn new(overdue_after: Duration) -> Self {
         let (small, other) = (Band::default(), Band::default());
-        Self { small, other, clients: HashMap::new(), now: Tag(0.0), bytes: 0, cost: 0.0, overdue }
+        let (clients, virtual_time) = (HashMap::new(), Tag(0.0));
+        Self { small, other, clients, virtual_time, bytes: 0, cost: 0.0, overdue_after }
     }
 
     pub(super) fn len(&self) -> usize {
         self.small.by_age.len() + self.other.by_age.len()
     }
 
-    /// Of all payloads.
+    /// Sum of all payloads.
     pub(super) fn bytes(&self) -> usize {
         self.bytes
     }
 
-    /// Of all jobs, seconds of one core.
+    /// Sum of all jobs, seconds of one core.
     pub(super) fn cost(&self) -> f64 {
         self.cost
     }
 
-    /// `after`: where its share begins, if that is settled; otherwise it is behind what its client has queued.
-    pub(super) fn push(&mut self, life: u64, job: Waiting, after: Option<Tag>) {
-        let tag = self.tag(&job.client, job.cost, after);
+    /// Adds a job. Its share begins at `start`; without it, after what its client has in the queue.
+    pub(super) fn push(&mut self, generation: u64, job: QueuedJob, start: Option<Tag>) {
+        let tag = self.tag(&job.client, job.cost, start);
         self.bytes += job.bytes;
         self.cost += job.cost;
-        self.insert(life, job, tag);
+        self.insert(generation, job, tag);
     }
 
-    /// It had its turn before, and is the next.
-    pub(super) fn push_first(&mut self, life: u64, job: Waiting) {
-        self.push(life, job, Some(Tag::FIRST));
+    /// Adds a job that has left the queue before. It is the next to leave.
+    pub(super) fn push_front(&mut self, generation: u64, job: QueuedJob) {
+        self.push(generation, job, Some(Tag::FIRST));
     }
 
-    /// `client` asks for a queued job as well: it moves to where its own submission would stand, if that is earlier, and
-    /// is then charged to it. It is small if it is for one of them.
-    pub(super) fn join(&mut self, life: u64, client: &str, is_small: bool, after: Option<Tag>) {
-        let Some((job, tag)) = self.extract(life) else {
+    /// Another client submits a queued job. If its own submission would be earlier, the job moves there and counts for
+    /// this client. The job is small if it is small for one of them.
+    pub(super) fn join(&mut self, generation: u64, client: &str, is_small: bool, start: Option<Tag>) {
+        let Some((job, tag)) = self.extract(generation) else {
             return;
         };
         let is_small = is_small || job.is_small;
-        let own = self.tag(client, job.cost, after);
+        let own = self.tag(client, job.cost, start);
         if own < tag {
-            self.insert(life, Waiting { client: client.to_owned(), is_small, ..job }, own);
+            self.insert(generation, QueuedJob { client: client.to_owned(), is_small, ..job }, own);
         } else {
-            self.insert(life, Waiting { is_small, ..job }, tag);
+            self.insert(generation, QueuedJob { is_small, ..job }, tag);
         }
     }
 
-    pub(super) fn remove(&mut self, life: u64) -> Option<Waiting> {
-        let (job, _) = self.extract(life)?;
-        self.forget(&job);
-        Some(job)
+    pub(super) fn remove(&mut self, generation: u64) {
+        self.dequeue(generation);
     }
 
-    /// The next job for `lane`, at `now`.
-    pub(super) fn take(&mut self, lane: Lane, now: Instant) -> Option<Taken> {
-        let life = self.overdue(lane, now).or_else(|| self.least(lane).map(|(_, life)| life))?;
-        self.taken(life)
+    /// Takes the next job for a slot of this kind.
+    pub(super) fn take(&mut self, kind: SlotKind, now: Instant) -> Option<DequeuedJob> {
+        let next = || self.least(kind).map(|(_, generation)| generation);
+        let generation = self.overdue(kind, now).or_else(next)?;
+        self.dequeue(generation)
     }
 
-    /// The next job for the main lane of another client than this one, at `now`.
-    pub(super) fn take_other(&mut self, client: &str, now: Instant) -> Option<Taken> {
-        let overdue = self.overdue(Lane::Main, now);
-        let is_other = |life: &u64| {
-            let mut bands = self.bands(Lane::Main).filter_map(|band| band.by_age.get(life));
+    /// Takes the next job of another client than this one, for a main or the guest slot.
+    pub(super) fn take_other(&mut self, client: &str, now: Instant) -> Option<DequeuedJob> {
+        let is_other = |generation: &u64| {
+            let mut bands = self.bands(SlotKind::Main).filter_map(|band| band.by_age.get(generation));
             bands.any(|(job, _)| job.client != client)
         };
+        let overdue = self.overdue(SlotKind::Main, now).filter(is_other);
         let others = self.clients.iter().filter(|(other, _)| *other != client);
-        let least = others.filter_map(|(_, places)| places.first()).min().map(|(_, life)| *life);
-        self.taken(overdue.filter(is_other).or(least)?)
+        let least =
+            others.filter_map(|(_, positions)| positions.first()).min().map(|(_, generation)| *generation);
+        self.dequeue(overdue.or(least)?)
     }
 
-    fn taken(&mut self, life: u64) -> Option<Taken> {
-        let (job, tag) = self.extract(life)?;
-        self.forget(&job);
-        Some(Taken { life, job, tag })
+    fn dequeue(&mut self, generation: u64) -> Option<DequeuedJob> {
+        let (job, tag) = self.extract(generation)?;
+        self.bytes -= job.bytes;
+        self.cost -= job.cost;
+        Some(DequeuedJob { generation, job, tag })
     }
 
-    /// A job that was taken uses its share whole, not by its parts.
-    pub(super) fn reached(&mut self, tag: Tag) {
-        // What has passed others, small or overdue, must not set back those who come after them.
-        let reached = self.least(Lane::Main).map_or(tag, |(waiting, _)| waiting.min(tag));
-        self.now = self.now.max(reached);
+    /// Advances the virtual time: a job with this tag runs. A parent does not run before its subtasks have succeeded.
+    pub(super) fn advance(&mut self, tag: Tag) {
+        // A small or overdue job that has passed others must not set back the clients that submit after it.
+        let reached = self.least(SlotKind::Main).map_or(tag, |(waiting, _)| waiting.min(tag));
+        self.virtual_time = self.virtual_time.max(reached);
     }
 
-    fn bands(&self, lane: Lane) -> impl Iterator<Item = &Band> {
-        std::iter::once(&self.small).chain((lane == Lane::Main).then_some(&self.other))
+    /// The bands whose jobs a slot of this kind runs.
+    fn bands(&self, kind: SlotKind) -> impl Iterator<Item = &Band> {
+        std::iter::once(&self.small).chain((kind == SlotKind::Main).then_some(&self.other))
     }
 
-    fn overdue(&self, lane: Lane, now: Instant) -> Option<u64> {
-        let oldest =
-            self.bands(lane).filter_map(|band| band.by_age.first_key_value()).min_by_key(|(life, _)| **life);
-        let (life, (job, _)) = oldest?;
-        (now.saturating_duration_since(job.since) > self.overdue).then_some(*life)
+    fn overdue(&self, kind: SlotKind, now: Instant) -> Option<u64> {
+        let oldest = self.bands(kind).filter_map(|band| band.by_age.first_key_value());
+        let (generation, (job, _)) = oldest.min_by_key(|(generation, _)| **generation)?;
+        (now.saturating_duration_since(job.since) > self.overdue_after).then_some(*generation)
     }
 
-    fn least(&self, lane: Lane) -> Option<Place> {
-        self.bands(lane).filter_map(|band| band.by_tag.first()).min().copied()
+    fn least(&self, kind: SlotKind) -> Option<Position> {
+        self.bands(kind).filter_map(|band| band.by_tag.first()).min().copied()
     }
 
-    fn tag(&self, client: &str, cost: f64, after: Option<Tag>) -> Tag {
-        let last = || self.clients.get(client).and_then(BTreeSet::last).map_or(self.now, |(tag, _)| *tag);
-        after.unwrap_or_else(|| self.now.max(last())).plus(cost)
+    fn tag(&self, client: &str, cost: f64, start: Option<Tag>) -> Tag {
+        let last =
+            || self.clients.get(client).and_then(BTreeSet::last).map_or(self.virtual_time, |(tag, _)| *tag);
+        start.unwrap_or_else(|| self.virtual_time.max(last())).plus(cost)
     }
 
-    fn insert(&mut self, life: u64, job: Waiting, tag: Tag) {
-        self.clients.entry(job.client.clone()).or_default().insert((tag, life));
+    fn insert(&mut self, generation: u64, job: QueuedJob, tag: Tag) {
+        self.clients.entry(job.client.clone()).or_default().insert((tag, generation));
         let band = if job.is_small { &mut self.small } else { &mut self.other };
-        band.by_tag.insert((tag, life));
-        band.by_age.insert(life, (job, tag));
+        band.by_tag.insert((tag, generation));
+        band.by_age.insert(generation, (job, tag));
     }
 
-    fn extract(&mut self, life: u64) -> Option<(Waiting, Tag)> {
-        let band = if self.small.by_age.contains_key(&life) { &mut self.small } else { &mut self.other };
-        let (job, tag) = band.by_age.remove(&life)?;
-        band.by_tag.remove(&(tag, life));
-        if let Some(places) = self.clients.get_mut(&job.client) {
-            places.remove(&(tag, life));
-            if places.is_empty() {
+    fn extract(&mut self, generation: u64) -> Option<(QueuedJob, Tag)> {
+        let is_small = self.small.by_age.contains_key(&generation);
+        let band = if is_small { &mut self.small } else { &mut self.other };
+        let (job, tag) = band.by_age.remove(&generation)?;
+        band.by_tag.remove(&(tag, generation));
+        if let Some(positions) = self.clients.get_mut(&job.client) {
+            positions.remove(&(tag, generation));
+            if positions.is_empty() {
                 self.clients.remove(&job.client);
             }
         }
         Some((job, tag))
-    }
-
-    fn forget(&mut self, job: &Waiting) {
-        self.bytes -= job.bytes;
-        self.cost -= job.cost;
     }
 }

@@ -1,52 +1,55 @@
-use std::fmt;
+//! Settings of the back end at a broker.
+
 use std::path::PathBuf;
 use std::time::Duration;
 
 use async_nats::ConnectErrorKind;
 
-use super::bus::Line;
-use crate::embedded::Retention;
+use super::queue_class::QueueClass;
+use crate::retention::Retention;
 
-/// Where the broker is and how jobs are kept there. What is marked as shared must be the same in all processes.
+/// The broker, and how jobs are recorded there. Shared settings must be the same in all processes.
 #[derive(Clone, Debug)]
 pub struct Config {
-    /// `nats://host:4222`, or `tls://`; several of a cluster separated by commas. May hold user and password, or a token.
+    /// `nats://host:4222` or `tls://`; several servers of a cluster are separated by commas. May contain user and
+    /// password, or a token.
     pub url: String,
-    /// A file of credentials: a JWT and its seed.
+    /// File of credentials: a JWT and its seed.
     pub credentials: Option<PathBuf>,
-    /// A file with the seed of an nkey.
+    /// File with the seed of an nkey.
     pub nkey: Option<PathBuf>,
-    /// Certificates, in PEM, of who may have signed the broker's, in place of the system's.
+    /// PEM file of the authorities that may have signed the broker's certificate, instead of the system's.
     pub authorities: Option<PathBuf>,
-    /// The client's certificate and its key, in PEM.
+    /// PEM files of the client's certificate and its key.
     pub certificate: Option<(PathBuf, PathBuf)>,
-    /// Begins the names of all that is kept: letters, digits, `-` and `_`. Shared.
+    /// Prefix of all names at the broker: letters, digits, `-` and `_`. Shared.
     pub name: String,
-    /// How many brokers keep each record. Shared.
+    /// Number of servers that store each record. Shared.
     pub replicas: usize,
-    /// Most jobs in the queue; at least one. Each process counts what it knows of, so those submitted elsewhere at the same
-    /// moment may come on top.
+    /// Most jobs in the queue; at least one. A process counts the jobs that it knows, so submissions of other processes
+    /// at the same time may exceed it.
     pub queue: usize,
-    /// Most bytes of payload in the queue, counted so.
+    /// Most bytes of payload in the queue, counted in the same way.
     pub queue_bytes: usize,
-    /// Greatest cost that the express lane takes, seconds of one core.
-    pub small: f64,
-    /// How long the broker waits for a sign of life from who runs a job before it gives the job to another. Shared.
+    /// Greatest cost of a small job, seconds of one core.
+    pub small_cost: f64,
+    /// Time without a keep-alive message from a worker after which the broker gives its job to another. Shared.
     pub ack_wait: Duration,
-    /// A job whose worker was lost so many times is not run again. Shared.
+    /// A job that has lost its worker so many times is not run again. Shared.
     pub max_attempts: u32,
-    /// A process that has not been heard of for so long waits for nothing any more. Shared.
+    /// Time without a heartbeat after which the claims of a process end. Shared.
     pub lease: Duration,
-    /// How long a worker keeps a job that it cannot do ([`Stop::Elsewhere`](crate::Stop::Elsewhere)) before it hands it on.
-    pub handing_on: Duration,
-    /// How long a job may be recorded before its absence from the queue is mended.
-    pub mend_after: Duration,
-    /// What is kept of finished jobs. Shared.
+    /// Time for which a worker keeps a job that it [cannot run](crate::WorkError::CannotRunHere) before it returns the
+    /// job.
+    pub return_delay: Duration,
+    /// Age of a record after which a job that is missing in the queue is queued again.
+    pub requeue_after: Duration,
+    /// Limits on the records of ended jobs. Shared.
     pub retention: Retention,
 }
 
 impl Config {
-    /// The defaults, with a broker.
+    /// The defaults with this broker.
     pub fn at(url: impl Into<String>) -> Self {
         Self {
             url: url.into(),
@@ -58,32 +61,32 @@ impl Config {
             replicas: 1,
             queue: 10_000,
             queue_bytes: 256 << 20,
-            small: 2.0,
+            small_cost: 2.0,
             ack_wait: Duration::from_secs(30),
             max_attempts: 5,
             lease: Duration::from_secs(20),
-            handing_on: Duration::from_secs(3),
-            mend_after: Duration::from_secs(10),
-            retention: Retention { count: 10_000, age: Duration::from_hours(7 * 24) },
+            return_delay: Duration::from_secs(3),
+            requeue_after: Duration::from_secs(10),
+            retention: Retention::default(),
         }
     }
 
-    /// For a job that is no part.
-    pub(super) fn line(&self, cost: f64) -> Line {
-        if cost <= self.small { Line::Small } else { Line::Large }
+    /// Class of a job that is no subtask of a large one.
+    pub(super) fn class(&self, cost: f64) -> QueueClass {
+        if cost <= self.small_cost { QueueClass::Small } else { QueueClass::Large }
     }
 }
 
 /// How a worker runs jobs.
 #[derive(Clone, Copy, Debug)]
 pub struct WorkerConfig {
-    /// How many cores jobs keep busy; at least one.
+    /// Number of cores that jobs use; at least one.
     pub threads: usize,
-    /// How many jobs run at once, beside a small one; between one and `threads`, which are dealt out among them.
+    /// Number of main slots, from one to `threads`. They share the threads.
     pub slots: usize,
 }
 
-/// What of a [`Config`] may be unusable by itself.
+/// A setting of [`Config`] that can be unusable by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
     /// [`Config::url`].
@@ -96,50 +99,42 @@ pub enum Setting {
     Nkey,
     /// [`Config::authorities`].
     Authorities,
-    /// The first of [`Config::certificate`].
+    /// The first file of [`Config::certificate`].
     Certificate,
-    /// The second of [`Config::certificate`], or it is another certificate's.
+    /// The second file of [`Config::certificate`], also if it belongs to another certificate.
     Key,
 }
 
-/// Why there is no back end.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The back end cannot be opened.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ConnectError {
-    /// A setting cannot be used, whatever the broker says.
+    /// A setting cannot be used, whatever the broker answers.
+    #[error("{reason}")]
     Unusable {
-        /// Which.
+        /// The setting.
         setting: Setting,
-        /// What is wrong with it.
+        /// The defect.
         reason: String,
     },
-    /// The broker is not there, or cannot keep jobs now.
+    /// The broker does not answer, or cannot record jobs now.
+    #[error("the broker of jobs cannot be used: {0}")]
     Broker(String),
-    /// The broker refuses this process: its password or key is wrong, or the broker forbids it what jobs need.
+    /// The broker refuses this process: its password or key is wrong, or the broker forbids an operation that jobs
+    /// need.
+    #[error("the broker of jobs refuses this process: {0}")]
     Refused(String),
     /// Threads cannot be started.
+    #[error("threads for jobs cannot be started: {0}")]
     Threads(String),
 }
 
 impl From<async_nats::ConnectError> for ConnectError {
-    fn from(fault: async_nats::ConnectError) -> Self {
-        match fault.kind() {
+    fn from(error: async_nats::ConnectError) -> Self {
+        match error.kind() {
             ConnectErrorKind::AuthorizationViolation | ConnectErrorKind::Authentication => {
-                Self::Refused(fault.to_string())
+                Self::Refused(error.to_string())
             }
-            _ => Self::Broker(fault.to_string()),
+            _ => Self::Broker(error.to_string()),
         }
     }
 }
-
-impl fmt::Display for ConnectError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unusable { reason, .. } => f.write_str(reason),
-            Self::Broker(reason) => write!(f, "the broker of jobs cannot be used: {reason}"),
-            Self::Refused(reason) => write!(f, "the broker of jobs refuses this process: {reason}"),
-            Self::Threads(reason) => write!(f, "threads for jobs cannot be started: {reason}"),
-        }
-    }
-}
-
-impl std::error::Error for ConnectError {}

@@ -1,4 +1,4 @@
-//! A job as the broker keeps it.
+//! A job's record at the broker.
 
 use std::collections::BTreeSet;
 use std::time::SystemTime;
@@ -6,90 +6,99 @@ use std::time::SystemTime;
 use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 
-use super::bus::Line;
-use crate::job::{finish, queued};
-use crate::moment::now;
-use crate::threads::run::{Outcome, Told};
-use crate::{Job, JobId, State, Submission};
+use super::queue_class::QueueClass;
+use crate::execution::stop::StopSignal;
+use crate::job::{Job, Outcome, State, Submission};
+use crate::job_id::JobKey;
+use crate::timestamp::now;
 
-/// Of records and messages. It is in their names at the broker: processes of different layouts have each their own jobs
-/// there, and what the ones write the others need not read.
+/// Version of the layout of records and messages. It is in their names at the broker, so processes with different
+/// layouts have separate jobs and need not read each other's records.
 pub(super) const LAYOUT: &str = "4";
 
-/// Whose interest keeps a job alive.
+/// Keeps a job from being cancelled. The order of the variants must not change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) enum Claimant {
-    /// A process in which somebody waits.
+    /// A process with claims on the job.
     Process(u64),
-    /// A life of a job of which it is a part.
-    Whole(JobId, u64),
+    /// A job whose subtask it is.
+    Parent(JobKey),
 }
 
+/// A job's record. Its encoding depends on the order of the fields.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Record {
-    /// Grows with each submission that begins a life, and with time.
-    pub(super) life: u64,
-    /// How often this life was queued again.
-    pub(super) turn: u32,
+    /// Grows with every submission that starts a generation, and with time.
+    pub(super) generation: u64,
+    /// How often this generation returned to the queue.
+    pub(super) requeues: u32,
     pub(super) job: Job,
     pub(super) deadline: Option<SystemTime>,
-    /// In which it waits.
-    pub(super) line: Line,
-    /// It has only been asked for as a part.
-    pub(super) hidden: bool,
-    pub(super) kept: bool,
+    pub(super) class: QueueClass,
+    /// No client has submitted the job.
+    pub(super) is_only_subtask: bool,
+    /// The job continues without claims.
+    pub(super) is_detached: bool,
     pub(super) claimants: BTreeSet<Claimant>,
-    /// A running job is to stop.
-    pub(super) told: Option<Told>,
-    /// It waits for its parts, or merges them.
-    pub(super) split: bool,
+    /// The running job must stop.
+    pub(super) stop_signal: Option<StopSignal>,
+    /// The job waits for its subtasks, or merges their results.
+    pub(super) is_waiting: bool,
 }
 
 impl Record {
     pub(super) fn new(
-        life: u64,
+        generation: u64,
         submission: Submission,
-        line: Line,
+        class: QueueClass,
         claimant: Claimant,
-        hidden: bool,
+        is_only_subtask: bool,
     ) -> Self {
-        let as_part = matches!(claimant, Claimant::Whole(..));
-        let deadline = submission.deadline.and_then(|limit| now().checked_add(limit));
-        let mut job = queued(submission, as_part);
-        job.progress = 0.0;
-        let claimants = BTreeSet::from([claimant]);
-        Self { life, turn: 0, job, deadline, line, hidden, kept: false, claimants, told: None, split: false }
+        let as_subtask = matches!(claimant, Claimant::Parent(_));
+        Self {
+            generation,
+            requeues: 0,
+            deadline: deadline(&submission),
+            job: Job::new(submission, as_subtask),
+            class,
+            is_only_subtask,
+            is_detached: false,
+            claimants: BTreeSet::from([claimant]),
+            stop_signal: None,
+            is_waiting: false,
+        }
     }
 
     pub(super) fn encode(&self) -> Option<Bytes> {
         postcard::to_stdvec(self).ok().map(Bytes::from)
     }
 
-    /// `None`: it is damaged.
+    /// `None` if the record is damaged.
     pub(super) fn decode(bytes: &[u8]) -> Option<Self> {
         postcard::from_bytes(bytes).ok()
     }
 
-    /// Whether a submission joins it; not what has ended, or has been told to.
-    pub(super) fn goes_on(&self) -> bool {
-        !self.job.state.is_final() && self.told.is_none()
+    pub(super) fn key(&self) -> JobKey {
+        JobKey { id: self.job.id, generation: self.generation }
+    }
+
+    /// Whether a submission can join the job: it has not ended and was not told to stop.
+    pub(super) fn is_active(&self) -> bool {
+        !self.job.state.is_final() && self.stop_signal.is_none()
     }
 
     pub(super) fn is_wanted(&self) -> bool {
-        self.kept || !self.claimants.is_empty()
+        self.is_detached || !self.claimants.is_empty()
     }
 
-    /// Takes a submission in; whether that changes it.
-    pub(super) fn join(&mut self, submission: &Submission, claimant: Claimant, as_part: bool) -> bool {
+    /// An equal submission joins the job. Returns whether the record changes.
+    pub(super) fn join(&mut self, submission: &Submission, claimant: Claimant) -> bool {
         let mut changes = self.claimants.insert(claimant);
-        if !as_part {
-            changes |= self.job.clients.join(&submission.client);
+        if matches!(claimant, Claimant::Process(_)) {
+            changes |= self.job.clients.add(&submission.client);
+            changes |= std::mem::take(&mut self.is_only_subtask);
         }
-        if self.hidden && !as_part {
-            self.hidden = false;
-            changes = true;
-        }
-        let deadline = submission.deadline.and_then(|limit| now().checked_add(limit));
+        let deadline = deadline(submission);
         if self.deadline.is_some() && deadline.is_none_or(|later| Some(later) > self.deadline) {
             self.deadline = deadline;
             changes = true;
@@ -97,61 +106,51 @@ impl Record {
         changes
     }
 
-    /// A client does not want it any more; whether that changes anything.
+    /// Removes a client. Returns whether the record changes.
     pub(super) fn leave(&mut self, client: &str) -> bool {
-        if !self.goes_on() || !self.job.clients.contains(client) {
+        if !self.is_active() || !self.job.clients.contains(client) {
             return false;
         }
         let is_last = self.job.clients.is_only(client);
         if is_last {
-            self.kept = false;
-            self.claimants.retain(|claimant| matches!(claimant, Claimant::Whole(..)));
+            self.is_detached = false;
+            self.claimants.retain(|claimant| matches!(claimant, Claimant::Parent(_)));
         }
         if is_last && !self.is_wanted() {
-            self.stop(Told::Cancelled);
+            self.stop(StopSignal::Cancelled);
         } else {
-            self.job.clients.leave(client);
+            self.job.clients.remove(client);
         }
         true
     }
 
-    /// A queued job ends, a running one is told to.
-    pub(super) fn stop(&mut self, told: Told) {
-        match (self.job.state, told) {
-            (State::Queued, Told::DeadlinePassed) => {
-                self.end(Outcome::Failed(crate::Failure::DeadlinePassed));
-            }
-            (State::Queued, _) => self.end(Outcome::Cancelled),
-            (State::Running, _) if self.told.is_none() => self.told = Some(told),
-            _ => {}
+    /// Ends a queued job, or tells a running one to stop.
+    pub(super) fn stop(&mut self, signal: StopSignal) {
+        match self.job.state {
+            State::Queued => self.end(signal.outcome()),
+            State::Running => self.stop_signal = self.stop_signal.or(Some(signal)),
+            State::Succeeded | State::Failed | State::Cancelled => {}
         }
     }
 
     pub(super) fn end(&mut self, outcome: Outcome) {
-        finish(&mut self.job, outcome);
-        (self.told, self.split) = (None, false);
+        self.job.finish(outcome);
+        (self.stop_signal, self.is_waiting) = (None, false);
         self.claimants.clear();
     }
 
-    /// As it was told to.
-    pub(super) fn end_as(&mut self, told: Told) {
-        self.end(match told {
-            Told::DeadlinePassed => Outcome::Failed(crate::Failure::DeadlinePassed),
-            Told::Cancelled | Told::Drained | Told::Overran => Outcome::Cancelled,
-        });
+    pub(super) fn start(&mut self) {
+        self.job.start();
+        self.is_waiting = false;
     }
 
-    pub(super) fn begin(&mut self) {
-        self.job.state = State::Running;
-        self.job.attempts = self.job.attempts.saturating_add(1);
-        self.job.started = Some(now());
-        self.split = false;
-    }
-
-    /// As if it had not been begun; only the attempts stay.
     pub(super) fn requeue(&mut self) {
-        (self.job.state, self.job.progress, self.job.started) = (State::Queued, 0.0, None);
-        self.turn = self.turn.saturating_add(1);
-        self.split = false;
+        self.job.requeue();
+        self.requeues = self.requeues.saturating_add(1);
+        self.is_waiting = false;
     }
+}
+
+fn deadline(submission: &Submission) -> Option<SystemTime> {
+    submission.deadline.and_then(|limit| now().checked_add(limit))
 }

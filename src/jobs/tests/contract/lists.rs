@@ -2,16 +2,16 @@
 
 use verne_jobs::{Clients, Cursor, Filter, Job, Page, State};
 
-use crate::stage::job;
-use crate::stand::{Open, Stand, for_each_backend};
+use crate::fixture::{Fixture, Open, for_each_backend};
+use crate::scripted_work::job;
 
 for_each_backend!(
     pages_are_newest_first,
-    a_list_is_filtered,
-    a_list_is_bounded,
-    a_job_is_each_clients_who_asked,
-    a_part_is_nobodys_until_somebody_asks,
-    the_first_clients_stay,
+    lists_are_filtered_by_state_and_client,
+    a_page_has_a_greatest_length,
+    a_job_is_in_the_lists_of_all_clients_that_submitted_it,
+    a_subtask_has_no_clients_until_one_submits_it,
+    a_job_names_a_limited_number_of_clients,
 );
 
 fn names(jobs: &[Job]) -> Vec<String> {
@@ -20,21 +20,21 @@ fn names(jobs: &[Job]) -> Vec<String> {
         .collect()
 }
 
-async fn list(stand: &Stand, filter: Filter) -> Page {
-    stand.backend.list(filter).await.unwrap()
+async fn list(fixture: &Fixture, filter: Filter) -> Page {
+    fixture.backend.list(filter).await.unwrap()
 }
 
 async fn pages_are_newest_first(open: Open) {
-    let stand = open(10);
+    let fixture = open(10);
     for name in ["a", "b", "c", "d", "e"] {
-        stand.submit(job("ada", name, "pass")).await.finished().await;
+        fixture.submit(job("ada", name, "pass")).await.finished().await;
     }
-    // A fresh life is a new job in the list.
-    stand.submit(job("ada", "b", "pass")).await.finished().await;
+    // A new generation is a new job in the list.
+    fixture.submit(job("ada", "b", "pass")).await.finished().await;
     let mut after = None;
     let mut seen = Vec::new();
     loop {
-        let page = list(&stand, Filter { limit: 2, after, ..Filter::default() }).await;
+        let page = list(&fixture, Filter { limit: 2, after, ..Filter::default() }).await;
         seen.push(names(&page.jobs));
         let Some(next) = page.next else { break };
         after = Some(next.to_string().parse::<Cursor>().unwrap());
@@ -43,12 +43,12 @@ async fn pages_are_newest_first(open: Open) {
     assert!("a".parse::<Cursor>().is_err());
 }
 
-async fn a_list_is_filtered(open: Open) {
-    let stand = open(10);
-    stand.submit(job("ada", "done", "pass")).await.finished().await;
-    stand.leave(job("bob", "running", "hold")).await;
-    stand.stage.begun(2).await;
-    stand.leave(job("bob", "queued", "pass")).await;
+async fn lists_are_filtered_by_state_and_client(open: Open) {
+    let fixture = open(10);
+    fixture.submit(job("ada", "done", "pass")).await.finished().await;
+    fixture.submit_detached(job("bob", "running", "wait")).await;
+    fixture.work.started(2).await;
+    fixture.submit_detached(job("bob", "queued", "pass")).await;
     for (state, expected) in [
         (Some(State::Queued), vec!["queued"]),
         (Some(State::Running), vec!["running"]),
@@ -56,69 +56,69 @@ async fn a_list_is_filtered(open: Open) {
         (Some(State::Failed), vec![]),
         (None, vec!["queued", "running", "done"]),
     ] {
-        let page = list(&stand, Filter { state, limit: 9, ..Filter::default() }).await;
+        let page = list(&fixture, Filter { state, limit: 9, ..Filter::default() }).await;
         assert_eq!(names(&page.jobs), expected, "{state:?}");
         assert_eq!(page.next, None);
     }
-    let page = list(&stand, Filter { client: Some("bob".to_owned()), limit: 9, ..Filter::default() }).await;
+    let page = list(&fixture, Filter { client: Some("bob".to_owned()), limit: 9, ..Filter::default() }).await;
     assert_eq!(names(&page.jobs), ["queued", "running"]);
 }
 
-async fn a_list_is_bounded(open: Open) {
-    let stand = open(200);
-    stand.leave(job("ada", "running", "hold")).await;
+async fn a_page_has_a_greatest_length(open: Open) {
+    let fixture = open(200);
+    fixture.submit_detached(job("ada", "running", "wait")).await;
     for number in 0..Filter::MAX_LIMIT {
-        stand.leave(job("ada", &format!("{number}"), "pass")).await;
+        fixture.submit_detached(job("ada", &format!("{number}"), "pass")).await;
     }
-    let page = list(&stand, Filter { limit: usize::MAX, ..Filter::default() }).await;
+    let page = list(&fixture, Filter { limit: usize::MAX, ..Filter::default() }).await;
     assert_eq!(page.jobs.len(), Filter::MAX_LIMIT);
     assert!(page.next.is_some());
-    assert_eq!(list(&stand, Filter::default()).await.jobs.len(), 1);
+    assert_eq!(list(&fixture, Filter::default()).await.jobs.len(), 1);
 }
 
-async fn of(stand: &Stand, client: &str) -> Vec<String> {
+async fn listed_for(fixture: &Fixture, client: &str) -> Vec<String> {
     let filter = Filter { client: Some(client.to_owned()), limit: 9, ..Filter::default() };
-    names(&list(stand, filter).await.jobs)
+    names(&list(fixture, filter).await.jobs)
 }
 
-async fn a_job_is_each_clients_who_asked(open: Open) {
-    let stand = open(10);
-    stand.leave(job("ada", "running", "hold")).await;
-    stand.stage.begun(1).await;
-    stand.leave(job("ada", "queued", "pass")).await;
-    stand.leave(job("bob", "running", "hold")).await;
-    assert_eq!(of(&stand, "ada").await, ["queued", "running"]);
-    assert_eq!(of(&stand, "bob").await, ["running"]);
-    stand.stage.open("running");
-    let end = stand.end("running").await;
+async fn a_job_is_in_the_lists_of_all_clients_that_submitted_it(open: Open) {
+    let fixture = open(10);
+    fixture.submit_detached(job("ada", "running", "wait")).await;
+    fixture.work.started(1).await;
+    fixture.submit_detached(job("ada", "queued", "pass")).await;
+    fixture.submit_detached(job("bob", "running", "wait")).await;
+    assert_eq!(listed_for(&fixture, "ada").await, ["queued", "running"]);
+    assert_eq!(listed_for(&fixture, "bob").await, ["running"]);
+    fixture.work.release("running");
+    let end = fixture.wait_for_end("running").await;
     assert!(["ada", "bob"].iter().all(|client| end.clients.contains(client)) && !end.clients.contains("eve"));
-    stand.end("queued").await;
-    assert_eq!(of(&stand, "bob").await, ["running"], "also when it has ended");
-    // A fresh life is of those who ask for it.
-    stand.submit(job("eve", "running", "pass")).await.finished().await;
-    assert_eq!((of(&stand, "eve").await.len(), of(&stand, "bob").await.len()), (1, 0));
+    fixture.wait_for_end("queued").await;
+    assert_eq!(listed_for(&fixture, "bob").await, ["running"], "also when it has ended");
+    // A new generation belongs to the clients that submit it.
+    fixture.submit(job("eve", "running", "pass")).await.finished().await;
+    assert_eq!((listed_for(&fixture, "eve").await.len(), listed_for(&fixture, "bob").await.len()), (1, 0));
 }
 
-async fn a_part_is_nobodys_until_somebody_asks(open: Open) {
-    let stand = open(10);
-    stand.leave(job("ada", "whole", "split a=hold")).await;
-    stand.stage.begun(1).await;
-    assert_eq!(stand.get("a").await.clients, Clients::default());
-    let claim = stand.submit(job("bob", "a", "hold")).await;
-    assert_eq!(of(&stand, "ada").await, ["whole"]);
-    assert_eq!(of(&stand, "bob").await, ["a"]);
+async fn a_subtask_has_no_clients_until_one_submits_it(open: Open) {
+    let fixture = open(10);
+    fixture.submit_detached(job("ada", "parent", "split a=wait")).await;
+    fixture.work.started(1).await;
+    assert_eq!(fixture.get("a").await.clients, Clients::default());
+    let claim = fixture.submit(job("bob", "a", "wait")).await;
+    assert_eq!(listed_for(&fixture, "ada").await, ["parent"]);
+    assert_eq!(listed_for(&fixture, "bob").await, ["a"]);
     drop(claim);
-    stand.stage.open("a");
-    assert_eq!(stand.end("whole").await.state, State::Succeeded);
+    fixture.work.release("a");
+    assert_eq!(fixture.wait_for_end("parent").await.state, State::Succeeded);
 }
 
-async fn the_first_clients_stay(open: Open) {
-    let stand = open(10);
-    for number in 0..=Clients::MOST {
-        stand.leave(job(&format!("client {number}"), "a", "hold")).await;
+async fn a_job_names_a_limited_number_of_clients(open: Open) {
+    let fixture = open(10);
+    for number in 0..=Clients::MAX {
+        fixture.submit_detached(job(&format!("client {number}"), "a", "wait")).await;
     }
-    let clients = stand.get("a").await.clients;
-    for number in 0..=Clients::MOST {
-        assert_eq!(clients.contains(&format!("client {number}")), number < Clients::MOST, "{number}");
+    let clients = fixture.get("a").await.clients;
+    for number in 0..=Clients::MAX {
+        assert_eq!(clients.contains(&format!("client {number}")), number < Clients::MAX, "{number}");
     }
 }

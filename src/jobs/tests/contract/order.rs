@@ -1,144 +1,142 @@
-//! Which job is next. A job holds the only place of the main lane, and one of another client that of the guest lane,
-//! while the others are submitted.
+//! The order of jobs. While they are submitted, a job occupies the main slot and one of another client the guest slot.
 
 use verne_jobs::{State, Submission};
 
-use crate::stage::job;
-use crate::stand::{Open, Stand, for_each_backend, for_each_embedded};
+use crate::fixture::{Fixture, Open, for_each_backend, for_each_embedded};
+use crate::scripted_work::job;
 
-for_each_backend!(a_small_job_passes_a_long_one, a_large_job_does_not_take_the_express_lane);
+for_each_backend!(a_small_job_overtakes_a_large_one, a_large_job_does_not_use_the_express_slot);
 
-// Clients' shares.
-mod shares {
+mod fair_queueing {
     use super::*;
     for_each_embedded!(
-        many_jobs_of_one_do_not_starve_anothers_one,
+        a_client_with_one_job_is_served_before_one_with_many,
         clients_take_turns_by_cost,
-        small_jobs_go_before_large_ones,
-        a_joined_job_moves_up,
-        a_joined_job_does_not_move_back,
-        others_pass_between_parts,
-        a_job_of_parts_is_charged_once,
-        what_passes_by_the_express_lane_does_not_set_others_back,
+        jobs_of_lower_cost_run_first,
+        a_job_moves_up_when_a_better_placed_client_submits_it,
+        a_job_does_not_move_back_when_another_client_submits_it,
+        jobs_of_other_clients_run_between_subtasks,
+        a_parent_and_its_subtasks_have_one_share,
+        jobs_in_the_express_slot_do_not_set_other_clients_back,
     );
 }
 
-async fn held(open: Open) -> Stand {
-    let stand = open(1000);
-    stand.leave(job("the first", "first", "hold")).await;
-    stand.stage.begun(1).await;
-    stand.leave(job("the guest", "guest", "hold")).await;
-    stand.stage.begun(2).await;
-    stand
+async fn with_busy_slots(open: Open) -> Fixture {
+    let fixture = open(1000);
+    fixture.submit_detached(job("the first", "first", "wait")).await;
+    fixture.work.started(1).await;
+    fixture.submit_detached(job("the guest", "guest", "wait")).await;
+    fixture.work.started(2).await;
+    fixture
 }
 
-async fn order(stand: &Stand, count: usize) -> Vec<String> {
-    stand.stage.open("first");
-    stand.stage.begun(count + 2).await.split_off(2)
+async fn order(fixture: &Fixture, count: usize) -> Vec<String> {
+    fixture.work.release("first");
+    fixture.work.started(count + 2).await.split_off(2)
 }
 
 fn costing(cost: f64, job: Submission) -> Submission {
     Submission { cost, ..job }
 }
 
-async fn many_jobs_of_one_do_not_starve_anothers_one(open: Open) {
-    let stand = held(open).await;
+async fn a_client_with_one_job_is_served_before_one_with_many(open: Open) {
+    let fixture = with_busy_slots(open).await;
     for number in 0..100 {
-        stand.leave(job("ada", &format!("a{number}"), "pass")).await;
+        fixture.submit_detached(job("ada", &format!("a{number}"), "pass")).await;
     }
-    stand.leave(job("bob", "b", "pass")).await;
-    let order = order(&stand, 101).await;
+    fixture.submit_detached(job("bob", "b", "pass")).await;
+    let order = order(&fixture, 101).await;
     assert_eq!(order[..3], ["a0", "b", "a1"]);
     assert_eq!(order.last().unwrap(), "a99");
 }
 
 async fn clients_take_turns_by_cost(open: Open) {
-    let stand = held(open).await;
+    let fixture = with_busy_slots(open).await;
     for number in 1..=3 {
-        stand.leave(costing(30.0, job("ada", &format!("a{number}"), "pass"))).await;
+        fixture.submit_detached(costing(30.0, job("ada", &format!("a{number}"), "pass"))).await;
     }
     for number in 1..=6 {
-        stand.leave(costing(14.0, job("bob", &format!("b{number}"), "pass"))).await;
+        fixture.submit_detached(costing(14.0, job("bob", &format!("b{number}"), "pass"))).await;
     }
-    assert_eq!(order(&stand, 9).await, ["b1", "b2", "a1", "b3", "b4", "a2", "b5", "b6", "a3"]);
+    assert_eq!(order(&fixture, 9).await, ["b1", "b2", "a1", "b3", "b4", "a2", "b5", "b6", "a3"]);
 }
 
-async fn small_jobs_go_before_large_ones(open: Open) {
-    let stand = held(open).await;
-    stand.leave(costing(300.0, job("ada", "large", "pass"))).await;
-    stand.leave(costing(20.0, job("bob", "middling", "pass"))).await;
-    stand.leave(costing(10.0, job("eve", "little", "pass"))).await;
-    assert_eq!(order(&stand, 3).await, ["little", "middling", "large"]);
+async fn jobs_of_lower_cost_run_first(open: Open) {
+    let fixture = with_busy_slots(open).await;
+    fixture.submit_detached(costing(300.0, job("ada", "large", "pass"))).await;
+    fixture.submit_detached(costing(20.0, job("bob", "middling", "pass"))).await;
+    fixture.submit_detached(costing(10.0, job("eve", "little", "pass"))).await;
+    assert_eq!(order(&fixture, 3).await, ["little", "middling", "large"]);
 }
 
-async fn a_joined_job_moves_up(open: Open) {
-    let stand = held(open).await;
+async fn a_job_moves_up_when_a_better_placed_client_submits_it(open: Open) {
+    let fixture = with_busy_slots(open).await;
     for name in ["a1", "a2", "a3", "a4"] {
-        stand.leave(job("ada", name, "pass")).await;
+        fixture.submit_detached(job("ada", name, "pass")).await;
     }
-    stand.leave(job("bob", "b1", "pass")).await;
-    stand.leave(job("eve", "a4", "pass")).await;
-    assert_eq!(order(&stand, 5).await, ["a1", "a4", "b1", "a2", "a3"]);
+    fixture.submit_detached(job("bob", "b1", "pass")).await;
+    fixture.submit_detached(job("eve", "a4", "pass")).await;
+    assert_eq!(order(&fixture, 5).await, ["a1", "a4", "b1", "a2", "a3"]);
 }
 
-async fn a_joined_job_does_not_move_back(open: Open) {
-    let stand = held(open).await;
-    stand.leave(job("ada", "a", "pass")).await;
+async fn a_job_does_not_move_back_when_another_client_submits_it(open: Open) {
+    let fixture = with_busy_slots(open).await;
+    fixture.submit_detached(job("ada", "a", "pass")).await;
     for name in ["b1", "b2"] {
-        stand.leave(costing(12.0, job("bob", name, "pass"))).await;
+        fixture.submit_detached(costing(12.0, job("bob", name, "pass"))).await;
     }
-    stand.leave(job("bob", "a", "pass")).await;
-    assert_eq!(order(&stand, 3).await, ["a", "b1", "b2"]);
+    fixture.submit_detached(job("bob", "a", "pass")).await;
+    assert_eq!(order(&fixture, 3).await, ["a", "b1", "b2"]);
 }
 
-async fn a_small_job_passes_a_long_one(open: Open) {
-    let stand = held(open).await;
-    stand.leave(job("ada", "waits", "pass")).await;
-    let small = stand.submit(costing(1.0, job("bob", "small", "pass"))).await;
+async fn a_small_job_overtakes_a_large_one(open: Open) {
+    let fixture = with_busy_slots(open).await;
+    fixture.submit_detached(job("ada", "waits", "pass")).await;
+    let small = fixture.submit(costing(1.0, job("bob", "small", "pass"))).await;
     assert_eq!(small.finished().await.state, State::Succeeded);
-    assert_eq!(stand.get("first").await.state, State::Running);
-    assert_eq!(stand.get("waits").await.state, State::Queued);
+    assert_eq!(fixture.get("first").await.state, State::Running);
+    assert_eq!(fixture.get("waits").await.state, State::Queued);
 }
 
-async fn a_large_job_does_not_take_the_express_lane(open: Open) {
-    let stand = held(open).await;
-    stand.leave(costing(2.5, job("ada", "large", "pass"))).await;
-    stand.submit(costing(2.0, job("bob", "small", "pass"))).await.finished().await;
-    assert_eq!(stand.get("large").await.state, State::Queued);
+async fn a_large_job_does_not_use_the_express_slot(open: Open) {
+    let fixture = with_busy_slots(open).await;
+    fixture.submit_detached(costing(2.5, job("ada", "large", "pass"))).await;
+    fixture.submit(costing(2.0, job("bob", "small", "pass"))).await.finished().await;
+    assert_eq!(fixture.get("large").await.state, State::Queued);
 }
 
-async fn what_passes_by_the_express_lane_does_not_set_others_back(open: Open) {
-    let stand = held(open).await;
+async fn jobs_in_the_express_slot_do_not_set_other_clients_back(open: Open) {
+    let fixture = with_busy_slots(open).await;
     for number in 0..10 {
-        stand.leave(job("ada", &format!("a{number}"), "pass")).await;
+        fixture.submit_detached(job("ada", &format!("a{number}"), "pass")).await;
     }
     for number in 0..60 {
-        stand.submit(costing(2.0, job("eve", &format!("e{number}"), "pass"))).await.finished().await;
+        fixture.submit(costing(2.0, job("eve", &format!("e{number}"), "pass"))).await.finished().await;
     }
-    stand.leave(job("bob", "b", "pass")).await;
-    stand.stage.open("first");
-    let begun = stand.stage.begun(73).await;
-    assert_eq!(begun[62..65], ["a0", "a1", "b"]);
+    fixture.submit_detached(job("bob", "b", "pass")).await;
+    fixture.work.release("first");
+    let started = fixture.work.started(73).await;
+    assert_eq!(started[62..65], ["a0", "a1", "b"]);
 }
 
-async fn others_pass_between_parts(open: Open) {
-    let stand = open(1000);
-    stand.leave(job("the guest", "guest", "hold")).await;
-    stand.stage.begun(1).await;
-    stand.leave(costing(100.0, job("ada", "a", "split a1=hold a2=pass a3=pass a4=pass"))).await;
-    stand.stage.begun(2).await;
-    stand.leave(costing(15.0, job("bob", "b", "pass"))).await;
-    stand.stage.open("a1");
-    assert_eq!(stand.stage.begun(7).await, ["guest", "a1", "a2", "b", "a3", "a4", "a"]);
+async fn jobs_of_other_clients_run_between_subtasks(open: Open) {
+    let fixture = open(1000);
+    fixture.submit_detached(job("the guest", "guest", "wait")).await;
+    fixture.work.started(1).await;
+    fixture.submit_detached(costing(100.0, job("ada", "a", "split a1=wait a2=pass a3=pass a4=pass"))).await;
+    fixture.work.started(2).await;
+    fixture.submit_detached(costing(15.0, job("bob", "b", "pass"))).await;
+    fixture.work.release("a1");
+    assert_eq!(fixture.work.started(7).await, ["guest", "a1", "a2", "b", "a3", "a4", "a"]);
 }
 
-async fn a_job_of_parts_is_charged_once(open: Open) {
-    let stand = held(open).await;
-    stand.leave(costing(30.0, job("ada", "a", "split a1=pass=15 a2=pass=15"))).await;
-    stand.leave(costing(30.0, job("ada", "next", "pass"))).await;
+async fn a_parent_and_its_subtasks_have_one_share(open: Open) {
+    let fixture = with_busy_slots(open).await;
+    fixture.submit_detached(costing(30.0, job("ada", "a", "split a1=pass=15 a2=pass=15"))).await;
+    fixture.submit_detached(costing(30.0, job("ada", "next", "pass"))).await;
     for number in 1..=4 {
-        stand.leave(costing(14.0, job("bob", &format!("b{number}"), "pass"))).await;
+        fixture.submit_detached(costing(14.0, job("bob", &format!("b{number}"), "pass"))).await;
     }
-    // Its turn comes when it would have as one; what it asked for then is due.
-    assert_eq!(order(&stand, 8).await, ["b1", "b2", "a1", "a2", "a", "b3", "b4", "next"]);
+    // The parent leaves the queue when it would as one job; its subtasks are next then.
+    assert_eq!(order(&fixture, 8).await, ["b1", "b2", "a1", "a2", "a", "b3", "b4", "next"]);
 }

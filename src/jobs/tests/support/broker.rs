@@ -1,4 +1,4 @@
-//! A broker of one test's own.
+//! A broker for one test.
 
 use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Command, Stdio};
@@ -9,9 +9,9 @@ use tempfile::TempDir;
 use verne_jobs::JetStream;
 use verne_jobs::jetstream::{Config, Worker, WorkerConfig};
 
-use crate::stage::Stage;
+use crate::scripted_work::ScriptedWork;
 
-/// Killed, and forgotten, with this.
+/// Killed and deleted when this is dropped.
 pub(crate) struct Broker {
     directory: TempDir,
     port: u16,
@@ -19,12 +19,12 @@ pub(crate) struct Broker {
 }
 
 impl Broker {
-    /// Started, and there.
+    /// Starts a broker and waits until it accepts connections.
     pub(crate) fn start() -> Self {
         Self::with("")
     }
 
-    /// With more lines of configuration.
+    /// Starts a broker with more lines of configuration.
     pub(crate) fn with(more: &str) -> Self {
         let directory = TempDir::new().unwrap();
         let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
@@ -33,35 +33,35 @@ impl Broker {
         Self { directory, port, server }
     }
 
-    /// As `kill -9`.
+    /// Kills the broker as `kill -9` does.
     pub(crate) fn kill(&mut self) {
         self.server.kill().unwrap();
         self.server.wait().unwrap();
     }
 
-    /// As if its disk had been replaced.
+    /// Deletes the broker's data.
     pub(crate) fn forget(&self) {
         std::fs::remove_dir_all(self.directory.path().join("store")).unwrap();
     }
 
-    /// Other lines of configuration, from the next start on.
+    /// Changes the lines of configuration for the next start.
     pub(crate) fn configure(&self, more: &str) {
         configure(&self.directory, self.port, more);
     }
 
-    /// On the same port, with what it has stored.
+    /// Starts the broker again on the same port with its data.
     pub(crate) fn restart(&mut self) {
         self.server = serve(&self.directory, self.port);
     }
 
-    /// Short waits, so that what is given up is given up soon.
+    /// Settings with short time limits.
     pub(crate) fn config(&self) -> Config {
         Config {
             ack_wait: Duration::from_secs(2),
             lease: Duration::from_secs(2),
-            mend_after: Duration::from_secs(1),
+            requeue_after: Duration::from_secs(1),
             max_attempts: 3,
-            handing_on: Duration::from_millis(10),
+            return_delay: Duration::from_millis(10),
             ..Config::at(format!("nats://127.0.0.1:{}", self.port))
         }
     }
@@ -71,9 +71,9 @@ impl Broker {
     }
 }
 
-/// With one thread and one place beside the express lane.
-pub(crate) fn worker(backend: &JetStream, stage: &Arc<Stage>) -> Worker {
-    Worker::start(backend, WorkerConfig { threads: 1, slots: 1 }, stage.clone()).unwrap()
+/// A worker with one main slot of one thread.
+pub(crate) fn worker(backend: &JetStream, work: &Arc<ScriptedWork>) -> Worker {
+    Worker::start(backend, WorkerConfig { threads: 1, slots: 1 }, work.clone()).unwrap()
 }
 
 fn configure(directory: &TempDir, port: u16, more: &str) {

@@ -1,54 +1,54 @@
-//! The files of an open database: whether they are still the ones in the directory.
+//! Checks that the files of an open database are still in the directory.
 
 use std::fs::{self, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::Unavailable;
+use crate::error::UnavailableError;
 
-/// The database and its journal, as they were when it was opened.
-pub(super) struct Files(Vec<(PathBuf, Identity)>);
+/// The database and its journal, as they were when the database was opened.
+pub(super) struct Files(Vec<(PathBuf, FileIdentity)>);
 
-/// Tells a file from another that has its name later.
+/// Distinguishes a file from a later one with the same name.
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Identity {
+struct FileIdentity {
     #[cfg(unix)]
     device_and_inode: (u64, u64),
 }
 
 impl Files {
-    /// Of a database that has been written. Where the file system cannot have the journal of the mode WAL there is
-    /// none.
+    /// The files of a database that has been written. There is no journal if the file system does not support the mode
+    /// WAL.
     pub(super) fn of(database: &Path) -> io::Result<Self> {
-        let mut files = vec![(database.to_owned(), Identity::of(&fs::metadata(database)?))];
+        let mut files = vec![(database.to_owned(), FileIdentity::of(&fs::metadata(database)?))];
         let journal = journal(database);
         if let Ok(found) = fs::metadata(&journal) {
-            files.push((journal, Identity::of(&found)));
+            files.push((journal, FileIdentity::of(&found)));
         }
         Ok(Self(files))
     }
 
-    pub(super) fn check(&self) -> Result<(), Unavailable> {
+    pub(super) fn check(&self) -> Result<(), UnavailableError> {
         for (path, identity) in &self.0 {
-            let lost = match fs::metadata(path) {
-                Ok(found) if Identity::of(&found) == *identity => continue,
-                Ok(_) => "another file has taken its place".to_owned(),
-                Err(fault) => fault.to_string(),
+            let reason = match fs::metadata(path) {
+                Ok(found) if FileIdentity::of(&found) == *identity => continue,
+                Ok(_) => "another file has replaced it".to_owned(),
+                Err(error) => error.to_string(),
             };
-            return Err(Unavailable(format!("{}: {lost}; start the process again", path.display())));
+            return Err(UnavailableError(format!("{}: {reason}; start the process again", path.display())));
         }
         Ok(())
     }
 }
 
-impl Identity {
+impl FileIdentity {
     #[cfg(unix)]
     fn of(file: &Metadata) -> Self {
         use std::os::unix::fs::MetadataExt;
         Self { device_and_inode: (file.dev(), file.ino()) }
     }
 
-    /// An open file cannot be removed there.
+    /// Other systems do not remove a file that is open.
     #[cfg(not(unix))]
     fn of(_: &Metadata) -> Self {
         Self {}

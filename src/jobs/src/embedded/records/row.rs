@@ -1,65 +1,71 @@
-//! Jobs as rows.
+//! Reads and writes the rows of the table of jobs.
 
 use std::time::Duration;
 
 use bytes::Bytes;
 use rusqlite::types::{FromSqlError, Type};
-use rusqlite::{Connection, Row, named_params};
+use rusqlite::{Connection, Row, ToSql, named_params};
 
-use super::{Record, Write, schema};
-use crate::moment::{from_micros, to_micros};
-use crate::{Clients, Failure, Job, JobId, State};
+use super::record::{Record, Write};
+use super::schema;
+use crate::clients::Clients;
+use crate::job::{Failure, Job, State};
+use crate::job_id::JobId;
+use crate::timestamp::{from_micros, to_micros};
 
 pub(super) fn write(connection: &Connection, write: &Write) -> rusqlite::Result<()> {
+    let execute_for = |statement, generation: &u64| {
+        execute(connection, statement, named_params! { ":life": generation.cast_signed() })
+    };
     match write {
         Write::Submit(record) => submit(connection, record),
-        Write::Postpone { life, deadline } => {
-            let parameters =
-                named_params! { ":life": life.cast_signed(), ":deadline": deadline.map(to_millis) };
-            connection.prepare_cached(schema::POSTPONE)?.execute(parameters).map(drop)
+        Write::SetDeadline { generation, deadline } => {
+            let (life, deadline) = (generation.cast_signed(), deadline.map(to_millis));
+            execute(connection, schema::SET_DEADLINE, named_params! { ":life": life, ":deadline": deadline })
         }
-        Write::Show { life } => {
-            connection.prepare_cached(schema::SHOW)?.execute([life.cast_signed()]).map(drop)
+        Write::List { generation } => execute_for(schema::LIST_SUBTASK, generation),
+        Write::SetClients { generation, clients } => {
+            let (life, clients) = (generation.cast_signed(), to_json(clients)?);
+            execute(connection, schema::SET_CLIENTS, named_params! { ":life": life, ":clients": clients })
         }
-        Write::Clients { life, clients } => {
-            let parameters = named_params! { ":life": life.cast_signed(), ":clients": to_json(clients)? };
-            connection.prepare_cached(schema::CLIENTS)?.execute(parameters).map(drop)
+        Write::Wait { generation } => execute_for(schema::WAIT, generation),
+        Write::Start { generation, attempts, started } => {
+            let (life, started) = (generation.cast_signed(), to_micros(*started));
+            let parameters = named_params! { ":life": life, ":attempts": attempts, ":started": started };
+            execute(connection, schema::START, parameters)
         }
-        Write::Split { life } => {
-            connection.prepare_cached(schema::SPLIT)?.execute([life.cast_signed()]).map(drop)
-        }
-        Write::Start { life, attempts, started } => {
-            let parameters = named_params! {
-                ":life": life.cast_signed(), ":attempts": attempts, ":started": to_micros(*started),
-            };
-            connection.prepare_cached(schema::START)?.execute(parameters).map(drop)
-        }
-        Write::Finish { life, job } => finish(connection, *life, job),
-        Write::Requeue { life } => {
-            connection.prepare_cached(schema::REQUEUE)?.execute([life.cast_signed()]).map(drop)
-        }
+        Write::Finish { generation, job } => finish(connection, *generation, job),
+        Write::Requeue { generation } => execute_for(schema::REQUEUE, generation),
     }
 }
 
-fn submit(connection: &Connection, Record { life, job, deadline, hidden }: &Record) -> rusqlite::Result<()> {
+fn execute(
+    connection: &Connection,
+    statement: &str,
+    parameters: &[(&str, &dyn ToSql)],
+) -> rusqlite::Result<()> {
+    connection.prepare_cached(statement)?.execute(parameters).map(drop)
+}
+
+fn submit(connection: &Connection, record: &Record) -> rusqlite::Result<()> {
+    let Record { generation, job, deadline, is_only_subtask } = record;
     let parameters = named_params! {
-        ":life": life.cast_signed(), ":id": job.id.as_bytes(), ":client": job.client, ":cost": job.cost,
-        ":clients": to_json(&job.clients)?,
-        ":payload": job.payload.as_ref(), ":deadline": deadline.map(to_millis), ":created": to_micros(job.created),
-        ":hidden": hidden,
+        ":life": generation.cast_signed(), ":id": job.id.as_bytes(), ":client": job.client, ":cost": job.cost,
+        ":clients": to_json(&job.clients)?, ":payload": job.payload.as_ref(),
+        ":deadline": deadline.map(to_millis), ":created": to_micros(job.created), ":hidden": is_only_subtask,
     };
-    connection.prepare_cached(schema::SUBMIT)?.execute(parameters).map(drop)
+    execute(connection, schema::SUBMIT, parameters)
 }
 
 fn to_json(clients: &Clients) -> rusqlite::Result<String> {
-    serde_json::to_string(clients).map_err(|fault| rusqlite::Error::ToSqlConversionFailure(Box::new(fault)))
+    serde_json::to_string(clients).map_err(|error| rusqlite::Error::ToSqlConversionFailure(Box::new(error)))
 }
 
 fn to_millis(limit: Duration) -> i64 {
     i64::try_from(limit.as_millis()).unwrap_or(i64::MAX)
 }
 
-fn finish(connection: &Connection, life: u64, job: &Job) -> rusqlite::Result<()> {
+fn finish(connection: &Connection, generation: u64, job: &Job) -> rusqlite::Result<()> {
     let failure = job.failure.as_ref().map(failure_name);
     let detail = job.failure.as_ref().and_then(|failure| match failure {
         Failure::Work(reason) => Some(reason.as_ref()),
@@ -67,10 +73,10 @@ fn finish(connection: &Connection, life: u64, job: &Job) -> rusqlite::Result<()>
         Failure::DeadlinePassed | Failure::TooManyAttempts => None,
     });
     let parameters = named_params! {
-        ":life": life.cast_signed(), ":state": job.state.name(), ":progress": job.progress,
+        ":life": generation.cast_signed(), ":state": job.state.name(), ":progress": job.progress,
         ":finished": job.finished.map(to_micros), ":failure": failure, ":detail": detail,
     };
-    connection.prepare_cached(schema::FINISH)?.execute(parameters).map(drop)
+    execute(connection, schema::FINISH, parameters)
 }
 
 pub(super) fn failure_name(failure: &Failure) -> &'static str {
@@ -101,8 +107,12 @@ pub(super) fn read(row: &Row<'_>) -> rusqlite::Result<Record> {
         attempts: row.get("attempts")?,
         failure: failure(row)?,
     };
-    let deadline = deadline.map(|limit| Duration::from_millis(limit.max(0).cast_unsigned()));
-    Ok(Record { life: row.get::<_, i64>("life")?.cast_unsigned(), job, deadline, hidden: row.get("hidden")? })
+    Ok(Record {
+        generation: row.get::<_, i64>("life")?.cast_unsigned(),
+        job,
+        deadline: deadline.map(|limit| Duration::from_millis(limit.max(0).cast_unsigned())),
+        is_only_subtask: row.get("hidden")?,
+    })
 }
 
 fn failure(row: &Row<'_>) -> rusqlite::Result<Option<Failure>> {
@@ -119,7 +129,8 @@ fn failure(row: &Row<'_>) -> rusqlite::Result<Option<Failure>> {
     }
 }
 
+/// A column has a value that this program never writes.
 fn unknown(column: &str) -> rusqlite::Error {
-    let fault = FromSqlError::other(std::io::Error::other(format!("{column} is none that is written")));
-    rusqlite::Error::FromSqlConversionFailure(0, Type::Text, Box::new(fault))
+    let error = FromSqlError::other(std::io::Error::other(format!("unknown value of {column}")));
+    rusqlite::Error::FromSqlConversionFailure(0, Type::Text, Box::new(error))
 }

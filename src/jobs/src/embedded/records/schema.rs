@@ -1,6 +1,7 @@
-//! The database's statements.
+//! SQL statements of the database of jobs. The column `life` is a job's generation; `hidden` marks jobs that are only
+//! subtasks.
 
-/// `user_version` of a database that these statements fit.
+/// `user_version` of a database with this schema.
 pub(super) const VERSION: i64 = 2;
 
 pub(super) const CREATE: &str = "
@@ -28,11 +29,11 @@ CREATE INDEX finished ON jobs (finished) WHERE finished IS NOT NULL;
 CREATE INDEX live ON jobs (life) WHERE finished IS NULL;
 ";
 
-/// For [`PROBE`]: one row, whose bytes mean nothing.
+/// The table of [`PROBE`]: one row, whose bytes mean nothing.
 pub(super) const CREATE_PROBE: &str =
     "CREATE TABLE IF NOT EXISTS probe (row INTEGER PRIMARY KEY, bytes BLOB) STRICT";
 
-/// Written anew each time.
+/// Replaces the row.
 pub(super) const PROBE: &str = "INSERT OR REPLACE INTO probe VALUES (1, zeroblob(?1))";
 
 pub(super) const SUBMIT: &str = "
@@ -40,13 +41,13 @@ INSERT OR REPLACE INTO jobs (life, id, client, clients, cost, payload, deadline,
 VALUES (:life, :id, :client, :clients, :cost, :payload, :deadline, 'queued', 0.0, :created, 0,
     :hidden AND coalesce((SELECT hidden FROM jobs WHERE id = :id), 1))";
 
-pub(super) const SHOW: &str = "UPDATE jobs SET hidden = 0 WHERE life = ?1";
+pub(super) const LIST_SUBTASK: &str = "UPDATE jobs SET hidden = 0 WHERE life = :life";
 
-pub(super) const CLIENTS: &str = "UPDATE jobs SET clients = :clients WHERE life = :life";
+pub(super) const SET_CLIENTS: &str = "UPDATE jobs SET clients = :clients WHERE life = :life";
 
-pub(super) const SPLIT: &str = "UPDATE jobs SET split = 1 WHERE life = ?1";
+pub(super) const WAIT: &str = "UPDATE jobs SET split = 1 WHERE life = :life";
 
-pub(super) const POSTPONE: &str = "UPDATE jobs SET deadline = :deadline WHERE life = :life";
+pub(super) const SET_DEADLINE: &str = "UPDATE jobs SET deadline = :deadline WHERE life = :life";
 
 pub(super) const START: &str = "
 UPDATE jobs SET state = 'running', split = 0, attempts = :attempts, started = :started WHERE life = :life";
@@ -55,7 +56,7 @@ pub(super) const FINISH: &str = "
 UPDATE jobs SET state = :state, progress = :progress, finished = :finished, failure = :failure, detail = :detail
 WHERE life = :life";
 
-pub(super) const REQUEUE: &str = "UPDATE jobs SET state = 'queued' WHERE life = ?1 AND state = 'running'";
+pub(super) const REQUEUE: &str = "UPDATE jobs SET state = 'queued' WHERE life = :life AND state = 'running'";
 
 pub(super) const GET: &str = "SELECT * FROM jobs WHERE id = ?1";
 
@@ -65,11 +66,12 @@ WHERE life < :before AND NOT hidden AND (:state IS NULL OR state = :state)
     AND (:client IS NULL OR EXISTS (SELECT 1 FROM json_each(clients) WHERE value = :client))
 ORDER BY life DESC LIMIT :limit";
 
-pub(super) const LIVE: &str = "SELECT * FROM jobs WHERE finished IS NULL ORDER BY life";
+pub(super) const UNFINISHED: &str = "SELECT * FROM jobs WHERE finished IS NULL ORDER BY life";
 
-pub(super) const LAST_LIFE: &str = "SELECT coalesce(max(life), 0) FROM jobs";
+pub(super) const LAST_GENERATION: &str = "SELECT coalesce(max(life), 0) FROM jobs";
 
-/// What runs when the database is opened ran when a process died; what waited for its parts did not.
+/// A job that is running when the database is opened was running when the process died, unless it waited for its
+/// subtasks.
 pub(super) const COUNT_CRASHES: &str =
     "UPDATE jobs SET crashes = crashes + 1 - split, split = 0, state = 'queued' WHERE state = 'running'";
 

@@ -1,4 +1,4 @@
-//! A job that the broker has given to this worker.
+//! A message of a queue that the broker has delivered to this worker.
 
 use std::pin::pin;
 use std::time::Duration;
@@ -7,94 +7,93 @@ use async_nats::jetstream::{self, AckKind};
 use futures_util::StreamExt;
 use tokio::time::timeout;
 
-use crate::jetstream::bus::{Line, read_ticket, unavailable};
+use crate::error::UnavailableError;
 use crate::jetstream::client::Client;
+use crate::jetstream::nats::queue::Ticket;
+use crate::jetstream::queue_class::QueueClass;
 use crate::jetstream::record::Record;
-use crate::{JobId, Unavailable};
+use crate::job_id::JobId;
 
-/// An answer that is later than so does not come.
-const GONE: Duration = Duration::from_secs(1);
+/// Longest time to wait for an answer after the broker's own limit.
+const ANSWER_TIMEOUT: Duration = Duration::from_secs(1);
 
 pub(super) struct Delivery {
-    pub(super) id: JobId,
-    pub(super) life: u64,
-    pub(super) turn: u32,
+    pub(super) ticket: Ticket,
     message: jetstream::Message,
 }
 
-/// The next job of a line; `None`: none now, or for so long.
+/// Requests the next job of a queue. Waits at most for `wait`; without it, does not wait.
 pub(super) async fn next(
     client: &Client,
-    line: Line,
+    class: QueueClass,
     wait: Option<Duration>,
-) -> Result<Option<Delivery>, Unavailable> {
-    let consumer = client.bus.consumer(line).await?;
+) -> Result<Option<Delivery>, UnavailableError> {
+    let consumer = client.nats.consumer(class).await?;
     let batch = match wait {
-        Some(wait) => consumer.batch().max_messages(1).expires(wait).messages().await.map_err(unavailable)?,
-        None => consumer.fetch().max_messages(1).messages().await.map_err(unavailable)?,
+        Some(wait) => consumer.batch().max_messages(1).expires(wait).messages().await,
+        None => consumer.fetch().max_messages(1).messages().await,
     };
-    let mut batch = pin!(batch);
-    // The broker may have gone, and the question with it.
-    let Ok(Some(message)) = timeout(wait.unwrap_or_default() + GONE, batch.next()).await else {
+    let mut batch = pin!(batch.map_err(UnavailableError::new)?);
+    // The broker may be gone, and the request with it.
+    let Ok(Some(message)) = timeout(wait.unwrap_or_default() + ANSWER_TIMEOUT, batch.next()).await else {
         return Ok(None);
     };
-    let message = message.map_err(unavailable)?;
-    if let Some((id, life, turn)) = read_ticket(&message.subject, &message.payload) {
-        return Ok(Some(Delivery { id, life, turn, message }));
+    let message = message.map_err(UnavailableError::new)?;
+    if let Some(ticket) = Ticket::read(&message.subject, &message.payload) {
+        return Ok(Some(Delivery { ticket, message }));
     }
-    tracing::warn!(subject = %message.subject, "what is queued there is no job");
-    message.double_ack_with(AckKind::Term).await.map_err(unavailable)?;
+    tracing::warn!(subject = %message.subject, "a message in a queue is not a job; deleting it");
+    message.double_ack_with(AckKind::Term).await.map_err(UnavailableError::new)?;
     Ok(None)
 }
 
 impl Delivery {
-    /// Whether it is this turn's, and that is not over.
-    pub(super) fn is_for(&self, record: &Record) -> bool {
-        (record.life, record.turn) == (self.life, self.turn) && !record.job.state.is_final()
+    pub(super) fn id(&self) -> JobId {
+        self.ticket.key.id
     }
 
-    /// Whether the broker has given it to a worker before.
+    /// Whether the broker has delivered it to a worker before.
     pub(super) fn is_redelivered(&self) -> bool {
         self.message.info().is_ok_and(|info| info.delivered > 1)
     }
 
-    /// Whether its record must have been written since: what was read is not the last.
-    pub(super) fn is_ahead_of(&self, record: &Record) -> bool {
-        (record.life, record.turn) < (self.life, self.turn)
+    /// Whether the record is older than the message, so a later one must exist.
+    pub(super) fn is_newer_than(&self, record: &Record) -> bool {
+        (record.generation, record.requeues) < (self.ticket.key.generation, self.ticket.requeues)
     }
 
-    /// Puts a queued job at the end of its line; whether it is there.
-    pub(super) async fn put_behind(&self, client: &Client) -> bool {
-        let known = client.mirror.read(self.id).map(|(record, _)| record);
-        let Some(record) = known.filter(|record| self.is_for(record)) else {
+    /// Moves a queued job to the end of its queue. Returns whether it did.
+    pub(super) async fn move_back(&self, client: &Client) -> bool {
+        let known = client.replica.read(self.id()).map(|(record, _)| record);
+        let Some(record) = known.filter(|record| self.ticket.is_for(record)) else {
             return false;
         };
-        match client.bus.publish_again(&record).await {
+        match client.nats.publish_at_end(&record).await {
             Ok(()) => {
-                self.done().await;
+                self.acknowledge().await;
                 true
             }
-            Err(fault) => {
-                tracing::debug!(%fault, "a job stays where it is in its line");
+            Err(error) => {
+                tracing::debug!(%error, "a job is not moved to the end of its queue");
                 false
             }
         }
     }
 
-    /// The job is recorded as done, or as somebody else's; the broker forgets it. If that fails it comes again, and is found
-    /// to be done.
-    pub(super) async fn done(&self) {
-        if let Err(fault) = self.message.double_ack().await {
-            tracing::debug!(%fault, "a job is done and its message stays");
+    /// Deletes the message: the job has ended, or has another message. If that fails, the message comes again and has
+    /// no effect.
+    pub(super) async fn acknowledge(&self) {
+        if let Err(error) = self.message.double_ack().await {
+            tracing::debug!(%error, "the message of an ended job is not deleted");
         }
     }
 
-    /// Tells the broker that somebody is at it, for as long as this is polled.
-    pub(super) async fn in_hand(&self, ack_wait: Duration) {
+    /// Sends keep-alive messages to the broker while it is polled.
+    pub(super) async fn hold(&self, ack_wait: Duration) {
         loop {
             tokio::time::sleep(ack_wait / 3).await;
-            if let Err(fault) = self.message.ack_with(AckKind::Progress).await {
-                tracing::debug!(%fault, "the broker was not told that a job runs");
+            if let Err(error) = self.message.ack_with(AckKind::Progress).await {
+                tracing::debug!(%error, "the broker did not receive a keep-alive message");
             }
         }
     }
