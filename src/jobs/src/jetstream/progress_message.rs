@@ -1,21 +1,11 @@
-//! The message that a worker sends when a job progresses.
+//! The message that a worker sends when a job progresses. Its subject names the job.
 
-/// Progress of one generation of a job. The subject names the job.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ProgressMessage {
-    pub(super) generation: u64,
-    /// From 0 to 1.
-    pub(super) fraction: f64,
+/// Encodes the generation of a job and its progress, from 0 to 1.
+pub(super) fn encode(generation: u64, progress: f64) -> Vec<u8> {
+    [generation.to_be_bytes(), progress.to_be_bytes()].concat()
 }
 
-impl ProgressMessage {
-    pub(super) fn encode(self) -> Vec<u8> {
-        [self.generation.to_be_bytes(), self.fraction.to_be_bytes()].concat()
-    }
-
-    pub(super) fn decode(payload: &[u8]) -> Option<Self> {
-        let (generation, fraction) = payload.split_first_chunk::<8>()?;
-        let generation = u64::from_be_bytes(*generation);
-        Some(Self { generation, fraction: f64::from_be_bytes(*fraction.first_chunk()?) })
-    }
+pub(super) fn decode(payload: &[u8]) -> Option<(u64, f64)> {
+    let (generation, progress) = payload.split_first_chunk::<8>()?;
+    Some((u64::from_be_bytes(*generation), f64::from_be_bytes(*progress.first_chunk()?)))
 }

@@ -6,7 +6,6 @@ pub(super) mod job_index;
 use parking_lot::{Mutex, MutexGuard};
 use tokio::sync::{Notify, watch};
 
-use super::progress_message::ProgressMessage;
 use super::record::Record;
 use crate::job::Job;
 use crate::job_id::{JobId, JobKey};
@@ -37,11 +36,9 @@ impl Replica {
         }
     }
 
-    pub(super) fn set_progress(&self, id: JobId, progress: ProgressMessage) {
-        let index = self.lock();
-        let entry = index.entries.get(&id).filter(|entry| entry.record.generation == progress.generation);
-        if let Some(entry) = entry {
-            entry.job.set_progress(progress.fraction);
+    pub(super) fn set_progress(&self, key: JobKey, fraction: f64) {
+        if let Some(entry) = self.lock().entry(key) {
+            entry.job.set_progress(fraction);
         }
     }
 
@@ -67,9 +64,7 @@ impl Replica {
 
     /// Watches one generation of a job.
     pub(super) fn subscribe_to(&self, key: JobKey) -> Option<JobReceiver> {
-        let index = self.lock();
-        let entry = index.entries.get(&key.id).filter(|entry| entry.record.generation == key.generation);
-        entry.map(|entry| entry.job.subscribe())
+        self.lock().entry(key).map(|entry| entry.job.subscribe())
     }
 
     fn map<T>(&self, id: JobId, map: impl FnOnce(&Entry) -> T) -> Option<T> {

@@ -12,9 +12,9 @@ use tokio::time::timeout;
 
 use super::client::Client;
 use super::nats::records::job_of_key;
-use super::progress_message::ProgressMessage;
+use super::progress_message;
 use super::record::{LAYOUT, Record};
-use crate::job_id::JobId;
+use crate::job_id::{JobId, JobKey};
 
 /// Time after which a failed subscription is tried again.
 const RETRY: Duration = Duration::from_millis(500);
@@ -92,8 +92,10 @@ pub(super) async fn receive_progress(client: Arc<Client>) {
         if let Ok(mut messages) = client.nats.client.subscribe(format!("{prefix}*")).await {
             while let Some(message) = messages.next().await {
                 let id = message.subject.strip_prefix(&prefix).and_then(|id| id.parse::<JobId>().ok());
-                if let (Some(id), Some(progress)) = (id, ProgressMessage::decode(&message.payload)) {
-                    client.replica.set_progress(id, progress);
+                if let (Some(id), Some((generation, progress))) =
+                    (id, progress_message::decode(&message.payload))
+                {
+                    client.replica.set_progress(JobKey { id, generation }, progress);
                 }
             }
         }

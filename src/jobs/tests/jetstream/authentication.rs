@@ -97,34 +97,15 @@ async fn unusable_files_are_errors() {
 /// Makes `NAME.pem` and `NAME.key`, signed by `signer` or by itself.
 fn certify(directory: &Path, name: &str, signer: Option<&str>) {
     let file = |name: &str, kind: &str| directory.join(format!("{name}.{kind}")).display().to_string();
+    let [subject, key, certificate] = [format!("/CN={name}"), file(name, "key"), file(name, "pem")];
     let mut command = Command::new("openssl");
-    command.args([
-        "req",
-        "-x509",
-        "-newkey",
-        "ec",
-        "-pkeyopt",
-        "ec_paramgen_curve:prime256v1",
-        "-nodes",
-        "-days",
-        "1",
-    ]);
-    command.args([
-        "-subj",
-        &format!("/CN={name}"),
-        "-keyout",
-        &file(name, "key"),
-        "-out",
-        &file(name, "pem"),
-    ]);
+    command.args("req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 1".split(' '));
+    command.args(["-subj", &subject, "-keyout", &key, "-out", &certificate]);
     if let Some(signer) = signer {
         command.args(["-CA", &file(signer, "pem"), "-CAkey", &file(signer, "key")]);
-        command.args([
-            "-addext",
-            "subjectAltName=IP:127.0.0.1",
-            "-addext",
-            "basicConstraints=critical,CA:FALSE",
-        ]);
+        command.args(
+            "-addext subjectAltName=IP:127.0.0.1 -addext basicConstraints=critical,CA:FALSE".split(' '),
+        );
     }
     assert!(command.output().unwrap().status.success());
 }
@@ -136,9 +117,11 @@ async fn a_correct_client_certificate_is_accepted() {
     certify(directory, "broker", Some("ca"));
     certify(directory, "client", Some("ca"));
     let path = |name: &str| directory.join(name);
-    let [certificate, key, ca] = [path("broker.pem"), path("broker.key"), path("ca.pem")];
-    let tls =
-        format!("tls {{ cert_file: {certificate:?}, key_file: {key:?}, ca_file: {ca:?}, verify: true }}");
+    let ca = path("ca.pem");
+    let [certificate, key, authority] =
+        [path("broker.pem"), path("broker.key"), ca.clone()].map(|path| path.display().to_string());
+    let files = format!("cert_file: \"{certificate}\", key_file: \"{key}\", ca_file: \"{authority}\"");
+    let tls = format!("tls {{ {files}, verify: true }}");
     let broker = Broker::with(&tls);
     let known = Config { authorities: Some(ca), ..broker.config() };
     assert!(matches!(JetStream::connect(broker.config()).await.err(), Some(ConnectError::Broker(_))));

@@ -19,15 +19,15 @@ use crate::timestamp::{now, to_micros};
 
 const NAME: &str = "jobs.sqlite3";
 
-pub(in crate::embedded) struct Opened {
-    pub(in crate::embedded) records: Records,
+pub(crate) struct Opened {
+    pub(crate) records: Records,
     /// Jobs that have not ended, the oldest first.
-    pub(in crate::embedded) unfinished: Vec<Record>,
-    pub(in crate::embedded) last_generation: u64,
+    pub(crate) unfinished: Vec<Record>,
+    pub(crate) last_generation: u64,
     /// Jobs that have failed with too many attempts.
-    pub(in crate::embedded) given_up: HashSet<JobId>,
+    pub(crate) given_up: HashSet<JobId>,
     /// New path of a damaged database.
-    pub(in crate::embedded) damaged_database: Option<PathBuf>,
+    pub(crate) damaged_database: Option<PathBuf>,
 }
 
 /// A database cannot be used.
@@ -51,7 +51,7 @@ impl From<rusqlite::Error> for DatabaseError {
 }
 
 /// Opens the database of a directory, or one in memory.
-pub(in crate::embedded) fn open(
+pub(crate) fn open(
     directory: Option<&Path>,
     retention: Retention,
     max_attempts: u32,

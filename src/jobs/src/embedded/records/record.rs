@@ -8,23 +8,23 @@ use crate::job_id::JobKey;
 
 /// A job with the values that only the queue needs.
 #[derive(Clone, Debug)]
-pub(in crate::embedded) struct Record {
-    pub(in crate::embedded) generation: u64,
-    pub(in crate::embedded) job: Job,
-    pub(in crate::embedded) deadline: Option<Duration>,
+pub(crate) struct Record {
+    pub(crate) generation: u64,
+    pub(crate) job: Job,
+    pub(crate) deadline: Option<Duration>,
     /// No client has submitted the job.
-    pub(in crate::embedded) is_only_subtask: bool,
+    pub(crate) is_only_subtask: bool,
 }
 
 impl Record {
-    pub(in crate::embedded) fn key(&self) -> JobKey {
+    pub(crate) fn key(&self) -> JobKey {
         JobKey { id: self.job.id, generation: self.generation }
     }
 }
 
 /// A change of one record.
 #[derive(Debug)]
-pub(in crate::embedded) enum Write {
+pub(crate) enum Write {
     /// Replaces the record of an earlier generation.
     Submit(Record),
     SetDeadline {
@@ -60,7 +60,7 @@ pub(in crate::embedded) enum Write {
 
 impl Write {
     /// Length of the payload that it writes.
-    pub(in crate::embedded) fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         match self {
             Self::Submit(record) => record.job.payload.len(),
             _ => 0,

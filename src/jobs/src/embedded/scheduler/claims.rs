@@ -54,7 +54,7 @@ impl Scheduler {
     }
 
     /// Cancels a job and returns it; `None` if it is not in the table.
-    pub(in crate::embedded) fn cancel(self: &Arc<Self>, id: JobId) -> Option<Job> {
+    pub(crate) fn cancel(self: &Arc<Self>, id: JobId) -> Option<Job> {
         let mut table = self.table.lock();
         let entry = table.jobs.get_mut(&id)?;
         (entry.claims, entry.detached) = (0, false);
@@ -64,7 +64,7 @@ impl Scheduler {
     }
 
     /// Removes a client from a job and returns the job; `None` if it is not in the table.
-    pub(in crate::embedded) fn leave(self: &Arc<Self>, id: JobId, client: &str) -> Option<Job> {
+    pub(crate) fn leave(self: &Arc<Self>, id: JobId, client: &str) -> Option<Job> {
         let mut table = self.table.lock();
         let entry = table.jobs.get_mut(&id)?;
         let (key, sender) = (entry.key, entry.job.clone());

@@ -17,7 +17,7 @@ impl Scheduler {
     }
 
     /// Stops late jobs until the back end is closed. Needs a thread of its own.
-    pub(in crate::embedded) fn watch_deadlines(self: &Arc<Self>) {
+    pub(crate) fn watch_deadlines(self: &Arc<Self>) {
         let mut table = self.table.lock();
         while !table.closed {
             match table.deadlines.first().copied() {

@@ -86,7 +86,7 @@ impl Scheduler {
     }
 
     /// Returns when no job runs.
-    pub(in crate::embedded) async fn wait_until_idle(&self) {
+    pub(crate) async fn wait_until_idle(&self) {
         loop {
             let idle = self.idle.notified();
             if self.table.lock().running.is_empty() {
@@ -97,7 +97,7 @@ impl Scheduler {
     }
 
     /// Accepts and starts no more jobs, and tells the running ones to stop.
-    pub(in crate::embedded) fn close(&self) {
+    pub(crate) fn close(&self) {
         let mut table = self.table.lock();
         table.closed = true;
         self.deadlines.notify_one();
@@ -105,7 +105,7 @@ impl Scheduler {
     }
 
     /// Records the jobs whose runs have not stopped as queued.
-    pub(in crate::embedded) fn requeue_running(self: &Arc<Self>) {
+    pub(crate) fn requeue_running(self: &Arc<Self>) {
         let mut table = self.table.lock();
         for run in table.running.values().cloned().collect::<Vec<_>>() {
             self.conclude(&mut table, run.key, RunEnd::Drained);

@@ -20,7 +20,7 @@ use crate::job_watch::JobSender;
 
 impl Scheduler {
     /// Queues the jobs that an earlier process has left. They were accepted, so they are detached.
-    pub(in crate::embedded) fn resume(self: &Arc<Self>, records: Vec<Record>) {
+    pub(crate) fn resume(self: &Arc<Self>, records: Vec<Record>) {
         let mut table = self.table.lock();
         for record in records {
             let (_, recorded) = watch::channel(Some(Ok(())));
@@ -38,10 +38,7 @@ impl Scheduler {
     }
 
     /// Submits a job. The caller must not pass the claim on before the submission is durable.
-    pub(in crate::embedded) fn submit(
-        self: &Arc<Self>,
-        submission: Submission,
-    ) -> Result<(Claim, Recorded), SubmitError> {
+    pub(crate) fn submit(self: &Arc<Self>, submission: Submission) -> Result<(Claim, Recorded), SubmitError> {
         let mut table = self.table.lock();
         if table.closed {
             return Err(SubmitError::Draining);

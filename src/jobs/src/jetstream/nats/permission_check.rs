@@ -18,7 +18,7 @@ const INTERVAL: Duration = Duration::from_secs(10);
 
 impl Nats {
     /// Checks again and again: the broker's permissions may change while it runs.
-    pub(in crate::jetstream) async fn watch_permissions(&self) {
+    pub(crate) async fn watch_permissions(&self) {
         let mut tick = tokio::time::interval(INTERVAL);
         tick.set_missed_tick_behavior(MissedTickBehavior::Delay);
         loop {

@@ -16,14 +16,14 @@ use crate::job_id::JobKey;
 
 /// A message in a queue: which generation of a job it is for, and which of its times in the queue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::jetstream) struct Ticket {
-    pub(in crate::jetstream) key: JobKey,
-    pub(in crate::jetstream) requeues: u32,
+pub(crate) struct Ticket {
+    pub(crate) key: JobKey,
+    pub(crate) requeues: u32,
 }
 
 impl Ticket {
     /// The ticket of a message, if it is valid.
-    pub(in crate::jetstream) fn read(subject: &str, payload: &[u8]) -> Option<Self> {
+    pub(crate) fn read(subject: &str, payload: &[u8]) -> Option<Self> {
         let id = subject.rsplit('.').next()?.parse().ok()?;
         let (generation, requeues) = payload.split_first_chunk::<8>()?;
         let key = JobKey { id, generation: u64::from_be_bytes(*generation) };
@@ -35,14 +35,14 @@ impl Ticket {
     }
 
     /// Whether the record is for this ticket's time in the queue, and has not ended.
-    pub(in crate::jetstream) fn is_for(&self, record: &Record) -> bool {
+    pub(crate) fn is_for(&self, record: &Record) -> bool {
         self.key == record.key() && self.requeues == record.requeues && !record.job.state.is_final()
     }
 }
 
 impl Nats {
     /// The consumer of a queue.
-    pub(in crate::jetstream) async fn consumer(
+    pub(crate) async fn consumer(
         &self,
         class: QueueClass,
     ) -> Result<Consumer<pull::Config>, UnavailableError> {
@@ -50,9 +50,7 @@ impl Nats {
     }
 
     /// The consumer of the broker's notes on messages that it has delivered too often.
-    pub(in crate::jetstream) async fn dead_letters(
-        &self,
-    ) -> Result<Consumer<pull::Config>, UnavailableError> {
+    pub(crate) async fn dead_letters(&self) -> Result<Consumer<pull::Config>, UnavailableError> {
         let config = streams::dead_letters(&self.config);
         let stream = self.context.create_or_update_stream(config).await.map_err(UnavailableError::new)?;
         let stream = self.context.get_stream(stream.config.name).await.map_err(UnavailableError::new)?;
@@ -60,10 +58,7 @@ impl Nats {
     }
 
     /// Subject and payload of the message with this number; `None` if it is not in the queue any more.
-    pub(in crate::jetstream) async fn message(
-        &self,
-        sequence: u64,
-    ) -> Result<Option<(String, Bytes)>, UnavailableError> {
+    pub(crate) async fn message(&self, sequence: u64) -> Result<Option<(String, Bytes)>, UnavailableError> {
         match self.queue.get_raw_message(sequence).await {
             Ok(message) => Ok(Some((message.subject.to_string(), message.payload))),
             Err(error) if error.kind() == RawMessageErrorKind::NoMessageFound => Ok(None),
@@ -71,19 +66,19 @@ impl Nats {
         }
     }
 
-    pub(in crate::jetstream) async fn delete_message(&self, sequence: u64) -> Result<(), UnavailableError> {
+    pub(crate) async fn delete_message(&self, sequence: u64) -> Result<(), UnavailableError> {
         self.queue.delete_message(sequence).await.map(drop).map_err(UnavailableError::new)
     }
 
     /// Queues a recorded job. The broker drops a repetition, since the message has the same id.
-    pub(in crate::jetstream) async fn publish(&self, record: &Record) -> Result<(), UnavailableError> {
+    pub(crate) async fn publish(&self, record: &Record) -> Result<(), UnavailableError> {
         let Record { generation, requeues, job, .. } = record;
         self.publish_as(record, format!("{}.{generation}.{requeues}", job.id)).await
     }
 
     /// Queues a queued job at the end of its queue. The caller must remove the first message; until then the job has
     /// two.
-    pub(in crate::jetstream) async fn publish_at_end(&self, record: &Record) -> Result<(), UnavailableError> {
+    pub(crate) async fn publish_at_end(&self, record: &Record) -> Result<(), UnavailableError> {
         let Record { generation, requeues, job, .. } = record;
         let number: u64 = RandomState::new().build_hasher().finish();
         self.publish_as(record, format!("{}.{generation}.{requeues}.{number}", job.id)).await
@@ -99,7 +94,7 @@ impl Nats {
     }
 
     /// Whether a job's message is in its queue, delivered or not.
-    pub(in crate::jetstream) async fn is_published(&self, record: &Record) -> Result<bool, UnavailableError> {
+    pub(crate) async fn is_published(&self, record: &Record) -> Result<bool, UnavailableError> {
         match self.queue.get_last_raw_message_by_subject(&self.queue_subject(record)).await {
             Ok(message) => Ok(message.payload.as_ref() == Ticket::payload(record).as_slice()),
             Err(error) if error.kind() == LastRawMessageErrorKind::NoMessageFound => Ok(false),
@@ -113,6 +108,6 @@ impl Nats {
 }
 
 /// Whether a message in a queue has this layout.
-pub(in crate::jetstream) fn has_own_layout(subject: &str) -> bool {
+pub(crate) fn has_own_layout(subject: &str) -> bool {
     subject.rsplit('.').nth(2) == Some(LAYOUT)
 }

@@ -8,7 +8,7 @@ use crate::jetstream::record::{LAYOUT, Record};
 use crate::job_id::JobId;
 
 /// A record was not written.
-pub(in crate::jetstream) enum WriteError {
+pub(crate) enum WriteError {
     /// Another process has written it since it was read.
     Conflict,
     Unavailable(UnavailableError),
@@ -16,10 +16,7 @@ pub(in crate::jetstream) enum WriteError {
 
 impl Nats {
     /// Reads a record and its revision.
-    pub(in crate::jetstream) async fn read(
-        &self,
-        id: JobId,
-    ) -> Result<Option<(Record, u64)>, UnavailableError> {
+    pub(crate) async fn read(&self, id: JobId) -> Result<Option<(Record, u64)>, UnavailableError> {
         // Asks the leader. A direct read may be answered by a replica that lags behind.
         match self.records.stream.get_last_raw_message_by_subject(&self.subject(id)).await {
             Ok(message) => {
@@ -36,11 +33,7 @@ impl Nats {
     }
 
     /// Replaces the record with this revision, or writes a job's first record. Returns the new revision.
-    pub(in crate::jetstream) async fn write(
-        &self,
-        record: &Record,
-        revision: Option<u64>,
-    ) -> Result<u64, WriteError> {
+    pub(crate) async fn write(&self, record: &Record, revision: Option<u64>) -> Result<u64, WriteError> {
         let not_encoded = || WriteError::Unavailable(UnavailableError::new("a record cannot be encoded"));
         let value = record.encode().ok_or_else(not_encoded)?;
         let written =
@@ -52,7 +45,7 @@ impl Nats {
     }
 
     /// Deletes a job's record up to this revision.
-    pub(in crate::jetstream) async fn forget(&self, id: JobId, revision: u64) {
+    pub(crate) async fn forget(&self, id: JobId, revision: u64) {
         // If it fails, another process has deleted the record, or will.
         drop(self.records.stream.purge().filter(self.subject(id)).sequence(revision + 1).await);
     }
@@ -64,6 +57,6 @@ impl Nats {
 }
 
 /// The job of a key in the bucket, if the record has this layout.
-pub(in crate::jetstream) fn job_of_key(key: &str) -> Option<JobId> {
+pub(crate) fn job_of_key(key: &str) -> Option<JobId> {
     key.strip_prefix(LAYOUT)?.strip_prefix('.')?.parse().ok()
 }

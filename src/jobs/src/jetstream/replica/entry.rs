@@ -11,10 +11,10 @@ use crate::job_watch::JobSender;
 
 /// What a run must know of its job's record.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::jetstream) struct RunState {
-    pub(in crate::jetstream) generation: u64,
-    pub(in crate::jetstream) attempts: u32,
-    pub(in crate::jetstream) stop_signal: Option<StopSignal>,
+pub(crate) struct RunState {
+    pub(crate) generation: u64,
+    pub(crate) attempts: u32,
+    pub(crate) stop_signal: Option<StopSignal>,
 }
 
 impl RunState {
@@ -27,10 +27,10 @@ impl RunState {
 /// The time between two searches for a job's message doubles so often.
 const MAX_DOUBLINGS: u32 = 6;
 
-pub(in crate::jetstream) struct Entry {
-    pub(in crate::jetstream) revision: u64,
-    pub(in crate::jetstream) record: Record,
-    pub(in crate::jetstream) job: JobSender,
+pub(crate) struct Entry {
+    pub(crate) revision: u64,
+    pub(crate) record: Record,
+    pub(crate) job: JobSender,
     pub(super) run_state: watch::Sender<RunState>,
     /// When the record was last written, or its message last searched.
     seen: Instant,

@@ -17,7 +17,7 @@ const MAX_SEARCHES: usize = 64;
 
 /// Whether a generation of a job continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::jetstream) enum Liveness {
+pub(crate) enum Liveness {
     Active,
     Ended,
     /// The job does not exist, or its record has not arrived yet. The next record of a job replaces the one before at
@@ -35,15 +35,15 @@ struct ClientJobs {
 }
 
 #[derive(Default)]
-pub(in crate::jetstream) struct JobIndex {
-    pub(in crate::jetstream) entries: HashMap<JobId, Entry>,
+pub(crate) struct JobIndex {
+    pub(crate) entries: HashMap<JobId, Entry>,
     by_generation: BTreeSet<(u64, JobId)>,
     unfinished: BTreeSet<JobId>,
-    pub(in crate::jetstream) counts: Counts,
+    pub(crate) counts: Counts,
     /// Jobs that wait for their subtasks.
-    pub(in crate::jetstream) waiting: usize,
+    pub(crate) waiting: usize,
     /// Sum of the payloads of jobs that are queued or wait for subtasks.
-    pub(in crate::jetstream) bytes: usize,
+    pub(crate) bytes: usize,
     /// Sum of the costs of queued jobs, seconds of one core.
     cost: f64,
     /// Clients with queued or running jobs.
@@ -52,7 +52,7 @@ pub(in crate::jetstream) struct JobIndex {
     ended: [BTreeSet<(SystemTime, JobId)>; 2],
     pub(super) highest_revision: u64,
     /// All records that existed at the start have arrived. Later ones count.
-    pub(in crate::jetstream) is_caught_up: bool,
+    pub(crate) is_caught_up: bool,
 }
 
 impl JobIndex {
@@ -90,7 +90,7 @@ impl JobIndex {
         *self = Self { counts, is_caught_up: self.is_caught_up, ..Self::default() };
     }
 
-    pub(in crate::jetstream) fn remove(&mut self, id: JobId) {
+    pub(crate) fn remove(&mut self, id: JobId) {
         if let Some(entry) = self.entries.remove(&id) {
             self.sum_up(&entry.record, false);
             self.by_generation.remove(&(entry.record.generation, id));
@@ -148,7 +148,7 @@ impl JobIndex {
     }
 
     /// Whether another client has a job in a queue and fewer jobs running than the client of this job.
-    pub(in crate::jetstream) fn must_yield(&self, id: JobId, class: QueueClass) -> bool {
+    pub(crate) fn must_yield(&self, id: JobId, class: QueueClass) -> bool {
         let Some(client) = self.entries.get(&id).map(|entry| &entry.record.job.client) else {
             return false;
         };
@@ -157,7 +157,7 @@ impl JobIndex {
     }
 
     /// Whether another client than this one has a job in a queue.
-    pub(in crate::jetstream) fn has_other(&self, client: &str, class: QueueClass) -> bool {
+    pub(crate) fn has_other(&self, client: &str, class: QueueClass) -> bool {
         self.others(client, class).next().is_some()
     }
 
@@ -169,12 +169,12 @@ impl JobIndex {
 
     /// Mean cost of the queued jobs, seconds of one core.
     #[expect(clippy::cast_precision_loss, reason = "counts are small")]
-    pub(in crate::jetstream) fn mean_cost_queued(&self) -> f64 {
+    pub(crate) fn mean_cost_queued(&self) -> f64 {
         self.cost / self.counts.queued.max(1) as f64
     }
 
     /// Removes the ended jobs that exceed the retention. Returns them and their revisions.
-    pub(in crate::jetstream) fn forget(&mut self, retention: Retention) -> Vec<(JobId, u64)> {
+    pub(crate) fn forget(&mut self, retention: Retention) -> Vec<(JobId, u64)> {
         let oldest = SystemTime::now().checked_sub(retention.age);
         let mut old = Vec::new();
         for ended in &self.ended {
@@ -192,7 +192,7 @@ impl JobIndex {
         revisions
     }
 
-    pub(in crate::jetstream) fn page(&self, filter: &Filter) -> Page {
+    pub(crate) fn page(&self, filter: &Filter) -> Page {
         let before = (filter.after.map_or(u64::MAX, |cursor| cursor.0), JobId::from_bytes([0; 32]));
         let newest = self.by_generation.range(..before).rev().filter_map(|(_, id)| self.entries.get(id));
         let mut found =
@@ -203,19 +203,24 @@ impl JobIndex {
     }
 
     /// Active jobs for which the condition holds.
-    pub(in crate::jetstream) fn active(&self, condition: impl Fn(&Record) -> bool) -> Vec<Record> {
+    pub(crate) fn active(&self, condition: impl Fn(&Record) -> bool) -> Vec<Record> {
         let records = self.unfinished.iter().filter_map(|id| self.entries.get(id)).map(|entry| &entry.record);
         records.filter(|record| record.is_active() && condition(record)).cloned().collect()
     }
 
     /// Claimants of all jobs that have not ended.
-    pub(in crate::jetstream) fn claimants(&self) -> impl Iterator<Item = &Claimant> {
+    pub(crate) fn claimants(&self) -> impl Iterator<Item = &Claimant> {
         let unfinished = self.unfinished.iter().filter_map(|id| self.entries.get(id));
         unfinished.flat_map(|entry| &entry.record.claimants)
     }
 
+    /// The entry of a job, if this is its latest generation.
+    pub(super) fn entry(&self, key: JobKey) -> Option<&Entry> {
+        self.entries.get(&key.id).filter(|entry| entry.record.generation == key.generation)
+    }
+
     /// Whether a generation of a job continues.
-    pub(in crate::jetstream) fn liveness(&self, key: JobKey) -> Liveness {
+    pub(crate) fn liveness(&self, key: JobKey) -> Liveness {
         match self.entries.get(&key.id).map(|entry| &entry.record) {
             None => Liveness::Unknown,
             // A process that lags behind misses records in between: an end, but not a start.
@@ -226,7 +231,7 @@ impl JobIndex {
     }
 
     /// Some unfinished jobs whose messages are to be searched now, because their records are older than `age`.
-    pub(in crate::jetstream) fn take_unseen(&mut self, age: Duration) -> Vec<Record> {
+    pub(crate) fn take_unseen(&mut self, age: Duration) -> Vec<Record> {
         let mut unseen = Vec::new();
         for id in &self.unfinished {
             let Some(entry) = self.entries.get_mut(id) else { continue };

@@ -14,7 +14,7 @@ use super::shared::{ActiveJob, Shared, Stage};
 use crate::error::UnavailableError;
 use crate::execution::slot::Slot;
 use crate::execution::stop::{RunEnd, StopSignal};
-use crate::jetstream::progress_message::ProgressMessage;
+use crate::jetstream::progress_message;
 use crate::jetstream::record::Record;
 use crate::job_id::JobKey;
 use crate::job_watch::JobSender;
@@ -124,8 +124,8 @@ async fn send_progress(shared: &Shared, key: JobKey, job: &JobSender) {
         let fraction = job.job().progress;
         if fraction > last {
             last = fraction;
-            let message = ProgressMessage { generation: key.generation, fraction };
-            shared.client.nats.broadcast(&format!("progress.{}", key.id), message.encode()).await;
+            let message = progress_message::encode(key.generation, fraction);
+            shared.client.nats.broadcast(&format!("progress.{}", key.id), message).await;
         }
     }
 }
