@@ -1,7 +1,7 @@
 //! Why a request has no answer over HTTP. `http::problem` turns these errors into problem documents.
 
 use thiserror::Error;
-use verne_jobs::{SubmitError, Unavailable};
+use verne_jobs::{SubmitError, UnavailableError};
 
 use crate::limits::error::LimitError;
 use crate::wire::error::{FieldError, OperationError};
@@ -152,7 +152,7 @@ pub(crate) enum JobError {
     Stopping,
     /// The records of jobs cannot be read or written. The reason may name paths of this machine: only the log has it.
     #[error("The service cannot access its job records. Its log states the reason.")]
-    RecordsUnavailable(#[from] Unavailable),
+    RecordsUnavailable(#[from] UnavailableError),
     /// A client cancelled the job while this request waited for it.
     #[error("The job was cancelled during the wait. Repeat the request to restart it.")]
     Cancelled,
@@ -174,8 +174,8 @@ impl From<SubmitError> for JobError {
     }
 }
 
-impl From<Unavailable> for HttpError {
-    fn from(unavailable: Unavailable) -> Self {
+impl From<UnavailableError> for HttpError {
+    fn from(unavailable: UnavailableError) -> Self {
         JobError::from(unavailable).into()
     }
 }

@@ -58,7 +58,7 @@ mod tests {
     use serde_json::json;
     use tokio_util::sync::CancellationToken;
     use verne_jobs::{
-        Backend, Claim, Counts, Filter, Job, JobId, Page, Submission, SubmitError, Unavailable, Watcher,
+        Backend, Claim, Counts, Filter, Job, JobId, Page, Submission, SubmitError, UnavailableError, Watcher,
     };
     use verne_store::Store;
 
@@ -71,8 +71,8 @@ mod tests {
         shared: bool,
     }
 
-    fn refused<T>() -> Result<T, Unavailable> {
-        Err(Unavailable("the disk is full".to_owned()))
+    fn refused<T>() -> Result<T, UnavailableError> {
+        Err(UnavailableError("the disk is full".to_owned()))
     }
 
     #[async_trait]
@@ -80,22 +80,22 @@ mod tests {
         async fn submit(&self, _: Submission) -> Result<Claim, SubmitError> {
             Ok(refused()?)
         }
-        async fn get(&self, _: JobId) -> Result<Option<Job>, Unavailable> {
+        async fn get(&self, _: JobId) -> Result<Option<Job>, UnavailableError> {
             refused()
         }
-        async fn list(&self, _: Filter) -> Result<Page, Unavailable> {
+        async fn list(&self, _: Filter) -> Result<Page, UnavailableError> {
             refused()
         }
-        async fn watch(&self, _: JobId) -> Result<Option<Watcher>, Unavailable> {
+        async fn watch(&self, _: JobId) -> Result<Option<Watcher>, UnavailableError> {
             refused()
         }
-        async fn cancel(&self, _: JobId) -> Result<Option<Job>, Unavailable> {
+        async fn cancel(&self, _: JobId) -> Result<Option<Job>, UnavailableError> {
             refused()
         }
-        async fn leave(&self, _: JobId, _: &str) -> Result<Option<Job>, Unavailable> {
+        async fn leave(&self, _: JobId, _: &str) -> Result<Option<Job>, UnavailableError> {
             refused()
         }
-        async fn reachable(&self) -> Result<(), Unavailable> {
+        async fn reachable(&self) -> Result<(), UnavailableError> {
             refused()
         }
         fn is_shared(&self) -> bool {

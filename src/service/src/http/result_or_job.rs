@@ -69,7 +69,7 @@ impl State {
                 () = tokio::time::sleep(patience.wait) => Ok(None),
                 () = self.stopping.cancelled() => {
                     // The client is told that it goes on.
-                    claim.keep();
+                    claim.detach();
                     Err(JobError::Stopping)
                 }
             }
@@ -117,7 +117,7 @@ impl State {
 }
 
 fn kept(claim: &Claim) -> Box<Job> {
-    claim.keep();
+    claim.detach();
     Box::new(claim.job())
 }
 

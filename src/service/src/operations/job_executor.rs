@@ -5,7 +5,7 @@ use std::time::Instant;
 use axum::body::Bytes;
 use tokio::runtime::Handle;
 use tracing::info_span;
-use verne_jobs::{JobId, Stop, Submission, Watch, Work};
+use verne_jobs::{JobId, RunControl, Submission, Work, WorkError};
 use verne_solver::workspace::Observer;
 
 use crate::operations::dexterity::merge_dexterity;
@@ -195,7 +195,7 @@ impl Tasks {
 }
 
 impl Work for Tasks {
-    fn parts(&self, job: &JobId, payload: &[u8]) -> Result<Vec<Submission>, Stop> {
+    fn subtasks(&self, job: &JobId, payload: &[u8]) -> Result<Vec<Submission>, WorkError> {
         let question = Question::read(payload, ResultId::from(*job)).map_err(stop)?;
         let pieces = self.pieces(&question);
         let (whole, count) = (Terms::read(payload).map_err(stop)?, u32::try_from(pieces.len()));
@@ -211,31 +211,31 @@ impl Work for Tasks {
         Ok(pieces)
     }
 
-    fn run(&self, job: &JobId, payload: &[u8], watch: &dyn Watch) -> Result<(), Stop> {
+    fn run(&self, job: &JobId, payload: &[u8], control: &dyn RunControl) -> Result<(), WorkError> {
         let question = Question::read(payload, ResultId::from(*job)).map_err(stop)?;
         let _span = info_span!("job", %job, kind = question.kind()).entered();
         let began = Instant::now();
         let most = Terms::read(payload).map_err(stop)?.most();
-        let answered = self.answer(&question, most, &Watched(watch)).map_err(stop);
+        let answered = self.answer(&question, most, &Watched(control)).map_err(stop);
         let outcome = match &answered {
             Ok(()) => "succeeded",
-            Err(Stop::Cancelled) => "stopped",
-            Err(Stop::Failed(_)) => "failed",
-            Err(Stop::Elsewhere(_)) => "handed_on",
+            Err(WorkError::Cancelled) => "stopped",
+            Err(WorkError::Failed(_)) => "failed",
+            Err(WorkError::CannotRunHere(_)) => "handed_on",
         };
         self.computations.ran(question.kind(), outcome, began.elapsed());
         answered
     }
 }
 
-fn stop(error: OperationError) -> Stop {
+fn stop(error: OperationError) -> WorkError {
     match error {
-        OperationError::Cancelled => Stop::Cancelled,
+        OperationError::Cancelled => WorkError::Cancelled,
         // A worker of that version can, or one that reaches the store.
         error @ (OperationError::OtherVersion | OperationError::StoreUnavailable) => {
-            Stop::Elsewhere(written(error))
+            WorkError::CannotRunHere(written(error))
         }
-        error => Stop::Failed(written(error)),
+        error => WorkError::Failed(written(error)),
     }
 }
 
@@ -244,7 +244,7 @@ fn written(error: OperationError) -> Bytes {
 }
 
 /// The queue's view of a run as the solver's.
-struct Watched<'a>(&'a dyn Watch);
+struct Watched<'a>(&'a dyn RunControl);
 
 impl Observer for Watched<'_> {
     fn progress(&self, part: f64) {

@@ -95,7 +95,7 @@ impl Service {
         let mut metrics = Metrics::of(Arc::clone(&jobs), results.store(), &computations);
         metrics.tell_of_admission(Arc::clone(&admission));
         if let Some(runs) = runs {
-            metrics.tell_of_seats(move || runs.seats());
+            metrics.tell_of_seats(move || runs.slots());
         }
         let (requests, base) = (Arc::clone(&metrics.requests), &config.base_path);
         let limits = config.limits();

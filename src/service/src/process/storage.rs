@@ -130,7 +130,7 @@ impl Storage {
         let computations = Computations::default();
         let tasks = Tasks::new(results.clone(), computations.clone(), Handle::current());
         let jobs = open_jobs(config, below("jobs"), tasks).await?;
-        if let Some(damaged) = jobs.set_aside() {
+        if let Some(damaged) = jobs.damaged_database() {
             tracing::error!(
                 path = %damaged.display(),
                 "the job records were damaged: moved them aside and started new ones"

@@ -17,7 +17,7 @@ use prometheus_client::metrics::counter::ConstCounter;
 use prometheus_client::metrics::gauge::ConstGauge;
 use prometheus_client::registry::Registry;
 use verne_jobs::jetstream::Occupancy;
-use verne_jobs::{Backend, Seats};
+use verne_jobs::{Backend, Slots};
 use verne_store::Store;
 
 use crate::limits::admission::Admission;
@@ -60,7 +60,7 @@ impl Metrics {
     }
 
     /// And how busy are those who run jobs in this process.
-    pub(crate) fn tell_of_seats(&mut self, seats: impl Fn() -> Seats + Send + Sync + 'static) {
+    pub(crate) fn tell_of_seats(&mut self, seats: impl Fn() -> Slots + Send + Sync + 'static) {
         self.registry.register_collector(Box::new(Here(Box::new(seats))));
     }
 

@@ -2,7 +2,7 @@
 //! its list of codes are made from this table. A new error needs a row here.
 
 use axum::http::StatusCode;
-use verne_jobs::Unavailable;
+use verne_jobs::UnavailableError;
 
 use crate::http::error::HttpError::{self, Access, Job, Limit, Lookup, Operation, Request};
 use crate::http::error::{AccessError, JobError, LookupError, RequestError};
@@ -129,7 +129,7 @@ problems! {
         Job(JobError::Stopping) => JobError::Stopping;
     JobsUnavailable, "jobs_unavailable", SERVICE_UNAVAILABLE,
         "The service cannot read or write its job records.";
-        Job(JobError::RecordsUnavailable(_)) => JobError::RecordsUnavailable(Unavailable(String::new()));
+        Job(JobError::RecordsUnavailable(_)) => JobError::RecordsUnavailable(UnavailableError(String::new()));
     DiskFailing, "disk_failing", SERVICE_UNAVAILABLE, "The service cannot store results.";
         Operation(OperationError::StoreUnavailable) => OperationError::StoreUnavailable;
     JobTooLong, "job_too_long", SERVICE_UNAVAILABLE, "The job exceeded its time limit.";

@@ -4,13 +4,13 @@ use std::fmt;
 
 use prometheus_client::collector::Collector;
 use prometheus_client::encoding::DescriptorEncoder;
-use verne_jobs::Seats;
+use verne_jobs::Slots;
 use verne_jobs::jetstream::Occupancy;
 
 use crate::telemetry::metrics::{counter, gauge, number};
 
 /// The queue of one process.
-pub(crate) struct Here(pub Box<dyn Fn() -> Seats + Send + Sync>);
+pub(crate) struct Here(pub Box<dyn Fn() -> Slots + Send + Sync>);
 
 /// A worker at a broker.
 pub(crate) struct OfWorker(pub Box<dyn Fn() -> Occupancy + Send + Sync>);
@@ -36,7 +36,7 @@ impl fmt::Debug for OfWorker {
 impl Collector for OfWorker {
     fn encode(&self, mut encoder: DescriptorEncoder<'_>) -> fmt::Result {
         let now = (self.0)();
-        seats(&mut encoder, now.seats)?;
+        seats(&mut encoder, now.slots)?;
         let redelivered = "Jobs redelivered after the loss of a worker";
         counter(&mut encoder, "worker_redeliveries", redelivered, now.redelivered)?;
         let handed_back = "Jobs that this worker returned to the queue";
@@ -44,7 +44,7 @@ impl Collector for OfWorker {
     }
 }
 
-fn seats(encoder: &mut DescriptorEncoder<'_>, seats: Seats) -> fmt::Result {
-    gauge(encoder, "worker_seats", "Job slots of this process", number(seats.all))?;
+fn seats(encoder: &mut DescriptorEncoder<'_>, seats: Slots) -> fmt::Result {
+    gauge(encoder, "worker_seats", "Job slots of this process", number(seats.total))?;
     gauge(encoder, "worker_seats_busy", "Job slots in use", number(seats.busy))
 }
