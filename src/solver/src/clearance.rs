@@ -13,7 +13,7 @@
 //! centre. All these differences depend on phi1 alone: for a fixed orientation of the tool, the limit
 //! is one plane Z = const for the tool centre point.
 
-use crate::angle::sin_cos;
+use crate::fast_math::sin_cos;
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
 use crate::pose::{PlatformPose, TableAngles};
@@ -32,7 +32,7 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// Takes the least height `asked` by the caller, or else the machine's. The answer is `None` if neither is given:
+    /// Takes the least height `requested` by the caller, or else the machine's. The answer is `None` if neither is given:
     /// the table is then no limit.
     ///
     /// # Units
@@ -54,8 +54,8 @@ impl Clearance {
     /// let clearance = Clearance::of(&machine, Some(2.0), 150.0, 5.0);
     /// assert_eq!(clearance.map(|clearance| clearance.least), Some(2.0));
     /// ```
-    pub fn of(machine: &Machine, asked: Option<f64>, tool_length: f64, tool_radius: f64) -> Option<Self> {
-        let least = asked.or(machine.limits().table_clearance)?;
+    pub fn of(machine: &Machine, requested: Option<f64>, tool_length: f64, tool_radius: f64) -> Option<Self> {
+        let least = requested.or(machine.limits().table_clearance)?;
         Some(Self { least, tool_length, tool_radius })
     }
 

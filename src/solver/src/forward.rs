@@ -1,18 +1,17 @@
 //! Forward kinematics: from the sliders to the platform (section III.D).
 
 mod elimination;
-mod obstacle;
+mod infeasibility;
 
 use std::f64::consts::PI;
 
-use crate::closure::{Root, Roots, determinant, find_roots, from_level, wrapped};
-use crate::jacobian::at_home;
-use crate::limit::{Refusal, in_domain};
-use crate::machine::{Derived, Geometry, Machine};
-use crate::pose::PlatformPose;
-use crate::posture::{Mode, Posture, Postures, Side, gathered};
-use crate::residual::{Checked, RESIDUAL_TOLERANCE, checked, size};
-use elimination::Assembly;
+use crate::error::KinematicsError;
+use crate::loop_closure::{Root, Roots, determinant, find_roots, from_level_platform};
+use crate::machine::Machine;
+use crate::mechanism::Mechanism;
+use crate::posture::{Posture, Postures, postures_or_error};
+use crate::request_range::check_numbers;
+use elimination::AssemblyClosure;
 
 /// Finds all assembly modes (up to 8) for slider positions `rho`.
 ///
@@ -22,10 +21,9 @@ use elimination::Assembly;
 ///
 /// # Errors
 ///
-/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
-/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
-/// - [`Refusal::SelfMotion`]: the platform can move with all sliders locked.
-/// - [`Refusal::Blocked`]: no posture exists; the margin names the constraint that prevents it.
+/// - [`KinematicsError::OutOfDomain`], [`KinematicsError::OutOfProportion`]: a number is out of range.
+/// - [`KinematicsError::SelfMotion`]: the platform can move with all sliders locked.
+/// - [`KinematicsError::Unreachable`]: no posture exists; the margin names the constraint that prevents it.
 ///
 /// # References
 ///
@@ -35,21 +33,22 @@ use elimination::Assembly;
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{Machine, Refusal, forward};
+/// use verne_solver::{KinematicsError, Machine, forward};
 ///
 /// let modes = forward(&Machine::verne(), [674.0, 685.0, 250.0])?;
 /// assert_eq!(modes.len(), 4);
 /// assert_eq!(modes.iter().filter(|posture| posture.working).count(), 1);
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), KinematicsError>(())
 /// ```
-pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, Refusal> {
-    let assembly = question(machine, rho)?;
+pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, KinematicsError> {
+    let mechanism = &machine.mechanism;
+    let closure = closure(mechanism, rho)?;
     let mut roots = Roots::new();
     // The working mode's posture is the one that `forward_working` answers, to the last bit.
-    find_roots(&assembly, PI, from_level(&assembly), &mut roots);
-    gathered(
-        |found| found.extend(roots.iter().filter_map(|root| posture(machine, &assembly, rho, root))),
-        || obstacle::nearest(machine, &assembly),
+    find_roots(&closure, PI, from_level_platform(&closure), &mut roots);
+    postures_or_error(
+        |found| found.extend(roots.iter().filter_map(|root| closure.posture(mechanism, rho, root))),
+        || infeasibility::no_assembly(mechanism, &closure),
     )
 }
 
@@ -63,10 +62,10 @@ pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, Refusal> {
 ///
 /// # Errors
 ///
-/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
-/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
-/// - [`Refusal::SelfMotion`]: the platform can move with all sliders locked.
-/// - [`Refusal::Blocked`]: no assembly mode is in the working mode; the margin names the constraint that prevents it.
+/// - [`KinematicsError::OutOfDomain`], [`KinematicsError::OutOfProportion`]: a number is out of range.
+/// - [`KinematicsError::SelfMotion`]: the platform can move with all sliders locked.
+/// - [`KinematicsError::Unreachable`]: no assembly mode is in the working mode; the margin names the constraint that
+///   prevents it.
 ///
 /// # References
 ///
@@ -75,89 +74,92 @@ pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, Refusal> {
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{Machine, Refusal, forward_working};
+/// use verne_solver::{KinematicsError, Machine, forward_working};
 ///
 /// let posture = forward_working(&Machine::verne(), [674.0, 685.0, 250.0])?;
 /// assert!((posture.pose.z - 1316.470).abs() < 1e-3);
 /// assert!(posture.residual < 1e-9);
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), KinematicsError>(())
 /// ```
-pub fn forward_working(machine: &Machine, rho: [f64; 3]) -> Result<Posture, Refusal> {
-    let assembly = question(machine, rho)?;
-    // Newton's method on the sheet λ > 0 from the level platform finds the working mode in practice. Its result
+pub fn forward_working(machine: &Machine, rho: [f64; 3]) -> Result<Posture, KinematicsError> {
+    let mechanism = &machine.mechanism;
+    let closure = closure(mechanism, rho)?;
+    // Newton's method on the branch λ > 0 from the level platform finds the working mode in practice. Its result
     // counts only if it is in the working mode and on home's side of the singularity.
-    let level = from_level(&assembly);
+    let level = from_level_platform(&closure);
     if let Some(root) = level
-        && on_home_side(machine, &assembly, &root)
-        && let Some(posture) = posture(machine, &assembly, rho, &root)
+        && on_home_side(machine, &closure, &root)
+        && let Some(posture) = closure.posture(mechanism, rho, &root)
         && posture.working
     {
         return Ok(posture);
     }
-    among_all(machine, &assembly, rho, level)
+    working_among_all(machine, &closure, rho, level)
 }
 
-/// The working mode among all roots of the sheet, wherever they are.
+/// The posture in the working mode among all roots.
 #[cold]
-fn among_all(
+fn working_among_all(
     machine: &Machine,
-    assembly: &Assembly,
+    closure: &AssemblyClosure,
     rho: [f64; 3],
-    level: Option<Root>,
-) -> Result<Posture, Refusal> {
-    // The rods of leg I cross beyond this angle.
-    let uncrossed = machine.derived.uncrossed;
+    known: Option<Root>,
+) -> Result<Posture, KinematicsError> {
+    let mechanism = &machine.mechanism;
     let mut found: Option<Posture> = None;
     let mut roots = Roots::new();
-    find_roots(assembly, uncrossed, level, &mut roots);
+    // The rods of leg I cross beyond this angle.
+    find_roots(closure, mechanism.uncrossed, known, &mut roots);
     for root in roots {
-        let working = posture(machine, assembly, rho, &root).filter(|posture| posture.working);
+        let working = closure.posture(mechanism, rho, &root).filter(|posture| posture.working);
         if let Some(posture) = working
-            && (found.is_none() || on_home_side(machine, assembly, &root))
+            && (found.is_none() || on_home_side(machine, closure, &root))
         {
             found = Some(posture);
         }
     }
-    found.ok_or_else(|| Refusal::Blocked(obstacle::out_of_mode(machine, rho, assembly)))
+    found.ok_or_else(|| KinematicsError::Unreachable(infeasibility::out_of_mode(machine, rho, closure)))
 }
 
+/// Whether det_P has the sign of home. The closure's determinant is det_P times a factor that has the sign of e1 - e2.
 #[inline]
-fn on_home_side(machine: &Machine, assembly: &Assembly, root: &Root) -> bool {
-    determinant(assembly, root) * machine.derived.home_turn > 0.0
+fn on_home_side(machine: &Machine, closure: &AssemblyClosure, root: &Root) -> bool {
+    let factor = machine.mechanism.e1 - machine.mechanism.e2;
+    determinant(closure, root) * factor * machine.home.det > 0.0
 }
 
-/// The closure's determinant at home, all sliders above: its sign is the machine's.
-pub(crate) fn turn_at_home(g: &Geometry, derived: &Derived) -> f64 {
-    let [w1, w2, w3] = at_home(g).drops;
-    let assembly = Assembly::new(g, derived, [-w1, -w2, -w3]);
-    determinant(&assembly, &Root::at(0.0, [1.0, 0.0], w1 / (g.R1 - g.r1)))
+fn closure(mechanism: &Mechanism, rho: [f64; 3]) -> Result<AssemblyClosure, KinematicsError> {
+    check_numbers(mechanism, &rho, &[])?;
+    let closure = AssemblyClosure::new(mechanism, rho);
+    if closure.has_self_motion(mechanism.longest) { Err(KinematicsError::SelfMotion) } else { Ok(closure) }
 }
 
-fn question(machine: &Machine, rho: [f64; 3]) -> Result<Assembly, Refusal> {
-    in_domain(machine, &rho, &[])?;
-    let assembly = Assembly::new(machine.geometry(), &machine.derived, rho);
-    if assembly.is_free(machine.derived.scale) { Err(Refusal::SelfMotion) } else { Ok(assembly) }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parallel_matrix::{determinant as det_p, matrix};
+    use crate::rods::Rods;
 
-/// The posture of one root of the loop closure; `None` if it does not satisfy Eqs (3)-(6).
-#[inline]
-fn posture(machine: &Machine, assembly: &Assembly, rho: [f64; 3], root: &Root) -> Option<Posture> {
-    let g = machine.geometry();
-    let (u, v) = (g.R1 * root.c - g.r1, g.R1 * root.s);
-    let w1 = root.w * u;
-    let pose = PlatformPose {
-        x: assembly.x1(root.c, root.s, root.w) - machine.derived.e1,
-        y: -root.w * v,
-        z: rho[0] + w1,
-        alpha: wrapped(root.a),
-    };
-    let Checked { pose, residual } = checked(machine, pose, rho);
-    let q = g.R2 * root.s;
-    let drops = [w1, pose.z - q - rho[1], pose.z + q - rho[2]];
-    let legs = drops.map(Side::of);
-    let working = u > 0.0 && w1 > v.abs() && drops[1] > 0.0 && drops[2] > 0.0;
-    let mode = Mode { legs, crossed: u < 0.0 };
-    // A NaN is not a residual either.
-    let holds = residual <= RESIDUAL_TOLERANCE * size(machine, pose.z);
-    holds.then_some(Posture { pose, rho, mode, working, merged: root.merged, residual })
+    #[test]
+    fn the_closure_determinant_has_the_sign_of_det_p_times_the_offset() -> Result<(), KinematicsError> {
+        let mut data = Machine::verne().data().clone();
+        let g = &mut data.geometry;
+        (g.D1, g.d1, g.D2, g.d2) = (g.D2, g.d2, g.D1, g.d1);
+        let mirrored = Machine::new(data).map_err(|_| KinematicsError::SelfMotion)?;
+        for machine in [Machine::verne(), mirrored] {
+            let mechanism = &machine.mechanism;
+            let rho = [674.0, 685.0, 250.0];
+            let closure = closure(mechanism, rho)?;
+            let mut roots = Roots::new();
+            find_roots(&closure, PI, None, &mut roots);
+            assert_eq!(roots.len(), 4);
+            for root in roots {
+                let pose = closure.posture(mechanism, rho, &root).map(|posture| posture.pose);
+                let rods = Rods::of(mechanism, &pose.unwrap_or_default(), rho);
+                let det = det_p(&matrix(machine.geometry(), &rods));
+                assert!(determinant(&closure, &root) * (mechanism.e1 - mechanism.e2) * det > 0.0);
+            }
+        }
+        Ok(())
+    }
 }

@@ -76,18 +76,18 @@
 //! and also if S = 0 with L2 = L3, at every zero of D: for instance with the sliders at 500, 400, 600. Near such
 //! sliders the two roots of F are closer together than the precision of its coefficients.
 //!
-//! # Roots on the circle, and sheets
+//! # Roots on the circle, and branches
 //!
 //! Both directions thus lead to two equations in (a, w), one linear and one quadratic in w (w = w1 or λ), and to a
 //! trigonometric polynomial F(a). Up to a positive factor F is the product of the linear equation's values on the two
-//! *sheets* w₊(a) and w₋(a) of the quadratic one.
+//! *branches* w₊(a) and w₋(a) of the quadratic one.
 //!
 //! The roots of F are isolated with certificates on arcs of the circle. The Bernstein control points of a cubic
 //! Hermite interpolant, widened by the interpolation error that the Fourier coefficients bound, decide whether an arc
 //! has no root, has one root, or must be halved. Newton's method in (a, w) then refines a root. There the two roots
-//! of a double root of F lie on different sheets, and each is simple. If F touches zero on an arc more closely than
-//! its rounding, the sheets decide: there is a root on each, or two on one, or two that have merged. Merged roots are
-//! a parallel singularity, which [`Posture::merged`] reports. The sheets are followed to where they meet: where leg I
+//! of a double root of F lie on different branches, and each is simple. If F comes closer to zero on an arc than
+//! its rounding, the branches decide: there is a root on each, or two on one, or two that have merged. Merged roots are
+//! a parallel singularity, which [`Posture::merged`] reports. The branches are followed to where they meet: where leg I
 //! is nearly level, a small island on which they exist can lie entirely within the polynomial's rounding.
 //!
 //! The benches show why this method was chosen: a companion matrix takes about ten times as long and splits double
@@ -98,7 +98,7 @@
 //!
 //! The machine itself uses only one mode: on all six rods the slider end is above the platform end, and the rods of
 //! leg I do not cross (R1 cos a > r1). A platform position has at most one such posture. Newton's method finds it
-//! from the level platform on the sheet w > 0. If Newton's method does not converge, the search for all roots finds
+//! from the level platform on the branch w > 0. If Newton's method does not converge, the search for all roots finds
 //! it. That search reuses a posture that is already known, so a posture is the same to the last bit whichever
 //! function returns it.
 //!
@@ -114,34 +114,39 @@
 //! Each module's functions have examples. Three programs show more: `cargo run -p verne-solver --example forward`,
 //! `inverse` and `workspace`.
 
-mod angle;
 pub mod axis;
-mod circle;
 mod clearance;
-mod closure;
+mod error;
+mod fast_math;
 mod forward;
 mod inverse;
 pub mod jacobian;
 mod limit;
+mod loop_closure;
 pub mod machine;
 mod margins;
+mod mechanism;
+mod parallel_matrix;
 mod pose;
 mod posture;
+mod request_range;
 mod residual;
 mod rods;
 mod table;
+mod trig_polynomial;
 pub mod workspace;
 
 pub use clearance::Clearance;
+pub use error::KinematicsError;
 pub use forward::{forward, forward_working};
 pub use inverse::{
     part, part_every_working, part_working, platform, platform_working, tool, tool_every_working,
     tool_working,
 };
-pub use limit::{Constraint, DOMAIN, Element, MOST_RATIO, Margin, Refusal};
-pub use machine::{Machine, MachineData, MachineFault};
+pub use limit::{Constraint, Element, Margin};
+pub use machine::{Machine, MachineData, MachineError};
 pub use margins::Margins;
 pub use pose::{PartPose, PlatformPose, Point, TableAngles};
-pub use posture::{MOST, Mode, Posture, Postures, Side};
-pub use residual::RESIDUAL_TOLERANCE;
-pub use table::{Winding, Wound, part_pose, table_angles, table_windings, tool_point};
+pub use posture::{MAX_POSTURES, Mode, Posture, Postures, Side};
+pub use request_range::{MAX_INPUT, MAX_LENGTH_RATIO};
+pub use table::{SplitAngle, Winding, part_pose, table_angles, table_windings, tool_point};

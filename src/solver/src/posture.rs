@@ -2,7 +2,8 @@
 
 use arrayvec::ArrayVec;
 
-use crate::limit::{Margin, Refusal};
+use crate::error::KinematicsError;
+use crate::limit::Margin;
 use crate::pose::PlatformPose;
 
 /// The relative height of a leg's two ends.
@@ -15,25 +16,14 @@ pub enum Side {
 }
 
 impl Side {
-    /// The side of a slider whose platform end lies `drop` below it (z points down).
+    /// The side of a slider whose platform end lies `height` below it (z points down).
     #[inline]
-    pub(crate) fn of(drop: f64) -> Self {
-        if drop < 0.0 { Self::Below } else { Self::Above }
+    pub(crate) fn of(height: f64) -> Self {
+        if height < 0.0 { Self::Below } else { Self::Above }
     }
 
     /// +1 for above, -1 for below.
-    ///
-    /// # References
-    ///
-    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): the signs of the roots for
-    /// legs I, II and III in section III.C.
-    ///
-    /// # Examples
-    ///
-    /// ```
-    /// assert_eq!(verne_solver::Side::Below.sign(), -1.0);
-    /// ```
-    pub fn sign(self) -> f64 {
+    pub(crate) fn sign(self) -> f64 {
         match self {
             Self::Above => 1.0,
             Self::Below => -1.0,
@@ -69,23 +59,23 @@ pub struct Posture {
 }
 
 /// The greatest number of postures of one request (whole machine, inverse problem).
-pub const MOST: usize = 24;
+pub const MAX_POSTURES: usize = 24;
 
 /// All solutions of one request.
-pub type Postures = ArrayVec<Posture, MOST>;
+pub type Postures = ArrayVec<Posture, MAX_POSTURES>;
 
-/// The postures that `fill` finds, or the obstacle if it finds none. They are built in place, because moving them
-/// would cost as much as finding some of them.
+/// The postures that `fill` finds, or the margin that prevents them if it finds none. They are built in place, because
+/// moving them would cost as much as finding some of them.
 #[inline]
-pub(crate) fn gathered(
+pub(crate) fn postures_or_error(
     fill: impl FnOnce(&mut Postures),
-    obstacle: impl FnOnce() -> Margin,
-) -> Result<Postures, Refusal> {
+    preventing_margin: impl FnOnce() -> Margin,
+) -> Result<Postures, KinematicsError> {
     let mut answer = Ok(Postures::new());
     if let Ok(found) = &mut answer {
         fill(found);
         if found.is_empty() {
-            answer = Err(Refusal::Blocked(obstacle()));
+            answer = Err(KinematicsError::Unreachable(preventing_margin()));
         }
     }
     answer

@@ -2,27 +2,26 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use crate::angle::sin_cos;
-use crate::closure::wrapped;
-use crate::jacobian::matrix;
-use crate::machine::Machine;
+use crate::fast_math::{greater, sin_cos, wrapped};
+use crate::mechanism::Mechanism;
+use crate::parallel_matrix::matrix;
 use crate::pose::PlatformPose;
 use crate::rods::{Rods, vectors_of};
 
-/// Largest rod-length error of a solution, relative to the size of its numbers. The rounding of the equations is a
-/// few 1e-16 of that size. An error of some hundred times as much means that it is no solution.
-pub const RESIDUAL_TOLERANCE: f64 = 1e-13;
+/// Largest rod-length error of a solution, relative to the magnitude of its numbers. The rounding of the equations is a
+/// few 1e-16 of that magnitude. An error of some hundred times as much means that it is no solution.
+pub(crate) const RESIDUAL_TOLERANCE: f64 = 1e-13;
 /// Relative error above which the elimination has lost digits that the equations still have. The solution is then
 /// corrected by Eqs (3)-(6) themselves.
-pub(crate) const FINE: f64 = 1e-15;
+pub(crate) const CORRECTION_THRESHOLD: f64 = 1e-15;
 /// Relative error above which a solution is not corrected.
-const ROUGH: f64 = 1e-9;
+const MAX_CORRECTED: f64 = 1e-9;
 /// Newton steps of a correction.
 const STEPS: usize = 4;
 
 /// A pose and its error in Eqs (3)-(6).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Checked {
+pub(crate) struct CheckedPose {
     pub(crate) pose: PlatformPose,
     /// The largest error of a rod's length, (|B - A|² - L²) / 2L, mm.
     pub(crate) residual: f64,
@@ -31,31 +30,31 @@ pub(crate) struct Checked {
 /// Computes the error of a pose in Eqs (3)-(6) with the sliders at `rho`. If the elimination left an error, it
 /// corrects the pose.
 #[inline]
-pub(crate) fn checked(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
-    let residual = worst(&errors(machine, &pose, rho));
-    let size = size(machine, pose.z);
+pub(crate) fn checked(mechanism: &Mechanism, pose: PlatformPose, rho: [f64; 3]) -> CheckedPose {
+    let residual = largest(&errors(mechanism, &pose, rho));
+    let magnitude = magnitude(mechanism, pose.z);
     // A larger error is not rounding: a correction would find another solution.
-    let rounded = residual > FINE * size && residual < ROUGH * size;
-    if rounded { corrected(machine, pose, rho) } else { Checked { pose, residual } }
+    let rounded = residual > CORRECTION_THRESHOLD * magnitude && residual < MAX_CORRECTED * magnitude;
+    if rounded { corrected(mechanism, pose, rho) } else { CheckedPose { pose, residual } }
 }
 
 /// Newton's method on (3)-(6) in (x, y, z, a), as long as the error decreases.
 #[cold]
-fn corrected(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
-    let radius = machine.geometry().R1;
-    let mut errors_now = errors(machine, &pose, rho);
-    let mut best = Checked { pose, residual: worst(&errors_now) };
+fn corrected(mechanism: &Mechanism, pose: PlatformPose, rho: [f64; 3]) -> CheckedPose {
+    let radius = mechanism.geometry.R1;
+    let mut error = errors(mechanism, &pose, rho);
+    let mut best = CheckedPose { pose, residual: largest(&error) };
     for _ in 0..STEPS {
-        let rows = matrix(machine.geometry(), &Rods::of(machine, &best.pose, rho));
+        let rows = matrix(&mechanism.geometry, &Rods::of(mechanism, &best.pose, rho));
         let jacobian = Matrix4::from_fn(|row, column| rows[row][column]);
-        let Some(step) = jacobian.lu().solve(&Vector4::from(errors_now)) else { break };
+        let Some(step) = jacobian.lu().solve(&Vector4::from(error)) else { break };
         let p = best.pose;
         let alpha = wrapped(p.alpha - step[3] / radius);
         let pose = PlatformPose { x: p.x - step[0], y: p.y - step[1], z: p.z - step[2], alpha };
-        errors_now = errors(machine, &pose, rho);
-        let residual = worst(&errors_now);
+        error = errors(mechanism, &pose, rho);
+        let residual = largest(&error);
         if residual < best.residual {
-            best = Checked { pose, residual };
+            best = CheckedPose { pose, residual };
         } else {
             break;
         }
@@ -65,37 +64,25 @@ fn corrected(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
 
 /// The rods' length errors in Eqs (3)-(6), mm.
 #[inline]
-fn errors(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> [f64; 4] {
-    let g = machine.geometry();
+fn errors(mechanism: &Mechanism, pose: &PlatformPose, rho: [f64; 3]) -> [f64; 4] {
+    let g = &mechanism.geometry;
     let (s, c) = sin_cos(pose.alpha);
-    let vectors = vectors_of(machine, pose, rho, [c, s]);
+    let vectors = vectors_of(mechanism, pose, rho, [c, s]);
     let error = |i: usize, length: f64| {
         let [x, y, z] = vectors[i];
-        (x * x + y * y + (z - length) * (z + length)) * (0.5 * machine.derived.inverse_lengths[i])
+        (x * x + y * y + (z - length) * (z + length)) * (0.5 * mechanism.inverse_lengths[i])
     };
     [error(0, g.L1), error(1, g.L1), error(2, g.L2), error(3, g.L3)]
 }
 
 #[inline]
-fn worst(errors: &[f64; 4]) -> f64 {
+fn largest(errors: &[f64; 4]) -> f64 {
     let [a, b, c, d] = errors.map(f64::abs);
     greater(greater(a, b), greater(c, d))
 }
 
-/// The greater of two numbers: a single instruction, unlike `f64::max`, which looks for NaNs.
+/// The magnitude of a pose's numbers, which scales all rounding. A pose far along z is rounded with its z.
 #[inline]
-pub(crate) fn greater(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// The lesser of two numbers.
-#[inline]
-pub(crate) fn lesser(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-/// The size of a pose's numbers, which scales all rounding. A pose far along z is rounded with its z.
-#[inline]
-pub(crate) fn size(machine: &Machine, z: f64) -> f64 {
-    machine.derived.scale + z.abs()
+pub(crate) fn magnitude(mechanism: &Mechanism, z: f64) -> f64 {
+    mechanism.longest + z.abs()
 }

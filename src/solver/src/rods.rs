@@ -1,7 +1,7 @@
 //! The six rods of a posture in space.
 
-use crate::angle::sin_cos;
-use crate::machine::{Geometry, Machine};
+use crate::fast_math::sin_cos;
+use crate::mechanism::{Geometry, Mechanism};
 use crate::pose::PlatformPose;
 
 /// Number of each rod: leg, then rod of the leg.
@@ -22,15 +22,20 @@ pub(crate) struct Rods {
 
 impl Rods {
     #[inline]
-    pub(crate) fn of(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> Self {
-        Self::towards(machine, pose, rho, sin_cos(pose.alpha))
+    pub(crate) fn of(mechanism: &Mechanism, pose: &PlatformPose, rho: [f64; 3]) -> Self {
+        Self::with_angle(mechanism, pose, rho, sin_cos(pose.alpha))
     }
 
     /// The same from the sine and cosine of alpha.
     #[inline]
-    pub(crate) fn towards(machine: &Machine, pose: &PlatformPose, rho: [f64; 3], (s, c): (f64, f64)) -> Self {
-        let vectors = vectors_of(machine, pose, rho, [c, s]);
-        Self::along(vectors, &machine.derived.inverse_lengths, [c, s])
+    pub(crate) fn with_angle(
+        mechanism: &Mechanism,
+        pose: &PlatformPose,
+        rho: [f64; 3],
+        (s, c): (f64, f64),
+    ) -> Self {
+        let vectors = vectors_of(mechanism, pose, rho, [c, s]);
+        Self::from_vectors(vectors, &mechanism.inverse_lengths, [c, s])
     }
 
     #[inline]
@@ -42,11 +47,11 @@ impl Rods {
         w: [f64; 3],
         [c, s]: [f64; 2],
     ) -> Self {
-        Self::along(vectors(g, x, y, w, [c, s]), inverse, [c, s])
+        Self::from_vectors(vectors(g, x, y, w, [c, s]), inverse, [c, s])
     }
 
     #[inline]
-    fn along(vectors: [[f64; 3]; 4], inverse: &[f64; 4], [c, s]: [f64; 2]) -> Self {
+    fn from_vectors(vectors: [[f64; 3]; 4], inverse: &[f64; 4], [c, s]: [f64; 2]) -> Self {
         let scaled = |i: usize| vectors[i].map(|component| component * inverse[i]);
         let directions = [scaled(0), scaled(1), scaled(2), scaled(3)];
         Self { vectors, directions, c, s }
@@ -71,14 +76,14 @@ impl Rods {
 /// B - A by family, from the platform's direction (c, s).
 #[inline]
 pub(crate) fn vectors_of(
-    machine: &Machine,
+    mechanism: &Mechanism,
     pose: &PlatformPose,
     rho: [f64; 3],
     direction: [f64; 2],
 ) -> [[f64; 3]; 4] {
-    let (e1, e2) = (machine.derived.e1, machine.derived.e2);
+    let (e1, e2) = (mechanism.e1, mechanism.e2);
     let w = rho.map(|rho| pose.z - rho);
-    vectors(machine.geometry(), [pose.x + e1, pose.x + e2], pose.y, w, direction)
+    vectors(&mechanism.geometry, [pose.x + e1, pose.x + e2], pose.y, w, direction)
 }
 
 #[inline]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::angle::sin_cos;
+use crate::fast_math::sin_cos;
 use crate::machine::Machine;
 use crate::pose::{PartPose, PlatformPose, Point, TableAngles};
 
@@ -88,24 +88,24 @@ pub fn part_pose(machine: &Machine, pose: &PlatformPose, table: TableAngles, too
 /// assert_eq!((table.theta1, table.theta2), (-0.5, -0.1));
 /// ```
 pub fn table_angles(machine: &Machine, alpha: f64, phi1: f64, phi2: f64) -> TableAngles {
-    let asked = [alpha - phi1, -phi2].map(|angle| Winding { angle, turns: 0.0 });
-    let [theta1, theta2] = table_windings(machine, asked, [None; 2]).map(|winding| winding.value);
+    let given = [alpha - phi1, -phi2].map(|angle| SplitAngle { remainder: angle, turns: 0.0 });
+    let [theta1, theta2] = table_windings(machine, given, [None; 2]).map(|winding| winding.value);
     TableAngles { theta1, theta2 }
 }
 
 /// An angle as whole turns and a remainder. Both keep their digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Winding {
+pub struct SplitAngle {
     /// The remainder, rad.
-    pub angle: f64,
+    pub remainder: f64,
     /// Whole turns.
     pub turns: f64,
 }
 
-/// A table angle moved by whole turns.
+/// A value of a table angle: the given angle moved by whole turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wound {
-    /// Whole turns in addition to the given angle.
+pub struct Winding {
+    /// Whole turns in addition to the remainder.
     pub turns: f64,
     /// The angle including its turns, rad. It is clamped to the range if rounding alone puts it outside.
     pub value: f64,
@@ -129,23 +129,27 @@ pub struct Wound {
 ///
 /// ```
 /// use std::f64::consts::TAU;
-/// use verne_solver::{Machine, Winding, table_windings};
+/// use verne_solver::{Machine, SplitAngle, table_windings};
 ///
-/// let asked = [0.5, 1.0].map(|angle| Winding { angle, turns: 0.0 });
-/// let [_, theta2] = table_windings(&Machine::verne(), asked, [None, Some(-5.0)]);
+/// let given = [0.5, 1.0].map(|angle| SplitAngle { remainder: angle, turns: 0.0 });
+/// let [_, theta2] = table_windings(&Machine::verne(), given, [None, Some(-5.0)]);
 /// assert_eq!(theta2.turns, -1.0, "1 - 2π is nearer to -5 and within ±2π");
 /// assert_eq!(theta2.value, 1.0 - TAU);
 /// ```
-pub fn table_windings(machine: &Machine, asked: [Winding; 2], near: [Option<f64>; 2]) -> [Wound; 2] {
+pub fn table_windings(machine: &Machine, given: [SplitAngle; 2], near: [Option<f64>; 2]) -> [Winding; 2] {
     let limits = machine.limits();
-    [wound(limits.tilt, asked[0], near[0]), wound(limits.rotary, asked[1], near[1])]
+    [winding(limits.tilt, given[0], near[0]), winding(limits.rotary, given[1], near[1])]
 }
 
 /// Rounding of an angle of some turns, rad.
 const ROUNDING: f64 = 1e-13;
 
-fn wound([low, high]: [f64; 2], Winding { angle, turns }: Winding, near: Option<f64>) -> Wound {
-    let nearest = |place: f64| ((place - angle) / TAU).round();
+fn winding(
+    [low, high]: [f64; 2],
+    SplitAngle { remainder: angle, turns }: SplitAngle,
+    near: Option<f64>,
+) -> Winding {
+    let nearest = |target: f64| ((target - angle) / TAU).round();
     let (first, last) = (((low - ROUNDING - angle) / TAU).ceil(), ((high + ROUNDING - angle) / TAU).floor());
     let admissible = first <= last;
     let turns = match near {
@@ -156,5 +160,5 @@ fn wound([low, high]: [f64; 2], Winding { angle, turns }: Winding, near: Option<
     };
     let value = angle + TAU * turns;
     let within = if admissible && turns != 0.0 { value.clamp(low, high) } else { value };
-    Wound { turns, value: within }
+    Winding { turns, value: within }
 }

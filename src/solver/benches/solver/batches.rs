@@ -4,12 +4,12 @@ use std::time::Instant;
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
-use verne_solver::{Machine, PartPose, Posture, Refusal, part_working};
+use verne_solver::{KinematicsError, Machine, PartPose, Posture, part_working};
 
 use crate::harness::median;
 use crate::inputs::{Inputs, TOOL};
 use crate::newton;
-use crate::table::missed;
+use crate::report::missed;
 
 const ROWS: usize = 100_000;
 /// Factor by which two threads should be faster.
@@ -21,7 +21,7 @@ const TWICE: f64 = 1.8;
 pub(crate) fn print(machine: &Machine, inputs: &Inputs, rounds: usize) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("two threads");
     let rows: Vec<PartPose> = inputs.parts.iter().cycle().take(ROWS).copied().collect();
-    let mut answers: Vec<Result<Posture, Refusal>> = Vec::with_capacity(ROWS);
+    let mut answers: Vec<Result<Posture, KinematicsError>> = Vec::with_capacity(ROWS);
     let mut times: [Vec<f64>; 4] = Default::default();
     for _ in 0..=rounds {
         times[0].push(timed(|| {

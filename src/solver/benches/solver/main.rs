@@ -1,25 +1,25 @@
 //! The solver's speed, as ratios to a Newton-Raphson forward kinematics in the same run.
 //!
 //! `cargo bench -p verne-solver --bench solver` prints the table as Markdown. Arguments after `--` are parts of the
-//! names of the wanted rows, and `rounds=N`. Run as a test (`cargo test --benches`) it checks the yardsticks and
+//! names of the wanted rows, and `rounds=N`. Run as a test (`cargo test --benches`) it checks the baselines and
 //! times one round.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::panic,
-    reason = "a bench that cannot be prepared has to stop"
+    reason = "a bench that cannot be prepared must stop"
 )]
 #![allow(clippy::cast_precision_loss, reason = "counts of calls and rows are far below 2^53")]
 
 mod batches;
-mod eliminated;
-mod finders;
+mod candidates;
+mod eliminated_newton;
 mod harness;
 mod inputs;
 mod newton;
 mod polynomial;
-mod questions;
-mod table;
+mod report;
+mod root_finders;
 
 use std::hint::black_box;
 
@@ -42,17 +42,17 @@ fn main() {
     let machine = black_box(Machine::verne());
     let inputs = inputs::Inputs::random(&machine);
     inputs.check(|rho, start| newton::forward(&machine, rho, start));
-    inputs.check(|rho, start| eliminated::forward(&machine, rho, start));
-    let found = finders::check(&machine, &inputs);
+    inputs.check(|rho, start| eliminated_newton::forward(&machine, rho, start));
+    let found = root_finders::check(&machine, &inputs);
 
-    let mut candidates = questions::candidates(&machine, &inputs);
+    let mut candidates = candidates::all(&machine, &inputs);
     candidates.retain(|candidate| candidate.name == newton::NAME || chosen(candidate.name));
     harness::measure(&mut candidates, rounds);
     println!(
         "Medians of {rounds} interleaved rounds over {} random reachable poses, one thread.\n",
         inputs.len()
     );
-    table::print(&candidates, &found);
+    report::print(&candidates, &found);
     if chosen("batch") {
         batches::print(&machine, &inputs, rounds.div_ceil(8));
     }

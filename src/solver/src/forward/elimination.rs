@@ -1,9 +1,12 @@
-//! The loop closure of the forward problem in (a, λ), and its polynomial of degree four.
+//! The loop closure of the forward problem in (a, λ), its polynomial of degree four, and the postures of its roots.
 
-use crate::circle::{TrigPolynomial, linear};
-use crate::closure::{Closure, Equations, LAST_STEP, Root};
-use crate::machine::{Derived, Geometry};
-use crate::residual::RESIDUAL_TOLERANCE;
+use crate::fast_math::wrapped;
+use crate::loop_closure::{CONVERGED_STEP, Equations, LoopClosure, Root};
+use crate::mechanism::Mechanism;
+use crate::pose::PlatformPose;
+use crate::posture::{Mode, Posture, Side};
+use crate::residual::{CheckedPose, RESIDUAL_TOLERANCE, checked, magnitude};
+use crate::trig_polynomial::{TrigPolynomial, linear};
 
 /// With (y, w1) = λ (-v, u), which satisfies the difference of Eqs (3) and (4), and x from their
 /// mean with Eqs (5) and (6), two equations remain:
@@ -15,7 +18,7 @@ use crate::residual::RESIDUAL_TOLERANCE;
 /// with S = 2 rho1 - rho2 - rho3, d = 2 (e1 - e2) and, of the first degree in cos a and sin a, D = 4 sin a (R2 r1 -
 /// R1 r4) + 2 (rho3 - rho2) u, N = K - m S with m = rho3 - rho2 - 2 q, and T as in the crate's documentation.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Assembly {
+pub(super) struct AssemblyClosure {
     r1_platform: f64,
     r1_slider: f64,
     c: f64,
@@ -30,21 +33,22 @@ pub(super) struct Assembly {
     t: [f64; 3],
 }
 
-impl Assembly {
-    pub(super) fn new(g: &Geometry, derived: &Derived, rho: [f64; 3]) -> Self {
+impl AssemblyClosure {
+    pub(super) fn new(mechanism: &Mechanism, rho: [f64; 3]) -> Self {
+        let g = &mechanism.geometry;
         let [a, b] = [rho[0] - rho[1], rho[0] - rho[2]];
         let gap = rho[2] - rho[1];
         let s = a + b;
-        let offset = derived.e1 - derived.e2;
-        let t0 = g.R2 * g.R2 + g.r4 * g.r4 - 0.5 * (g.L2 * g.L2 + g.L3 * g.L3) - derived.c
+        let offset = mechanism.e1 - mechanism.e2;
+        let t0 = g.R2 * g.R2 + g.r4 * g.r4 - 0.5 * (g.L2 * g.L2 + g.L3 * g.L3) - mechanism.c
             + g.L1 * g.L1
             + 0.5 * (a * a + b * b)
             + offset * offset;
         Self {
             r1_platform: g.R1,
             r1_slider: g.r1,
-            c: derived.c,
-            k: derived.k,
+            c: mechanism.c,
+            k: mechanism.k,
             l1_square: g.L1 * g.L1,
             s,
             inverse_d: 0.5 / offset,
@@ -52,7 +56,7 @@ impl Assembly {
             d_gap: 2.0 * gap,
             n0: (g.L2 - g.L3) * (g.L2 + g.L3) - gap * s,
             n_sin: 2.0 * g.R2 * s,
-            t: [t0, derived.k - 2.0 * g.R2 * g.r4, -g.R2 * gap],
+            t: [t0, mechanism.k - 2.0 * g.R2 * g.r4, -g.R2 * gap],
         }
     }
 
@@ -64,12 +68,12 @@ impl Assembly {
         linear(self.n0, 0.0, self.n_sin)
     }
 
-    /// Whether D and N vanish at every angle. Then λ is free, and the platform can move.
-    pub(super) fn is_free(&self, scale: f64) -> bool {
+    /// Whether D and N vanish at every angle. Then λ is undetermined, and the platform can move.
+    pub(super) fn has_self_motion(&self, scale: f64) -> bool {
         self.d().bound(0) + self.n().bound(0) <= 1e-13 * scale * scale
     }
 
-    /// The λ that comes nearest to satisfying the quadratic equation at an angle without sheets.
+    /// The λ that comes nearest to satisfying the quadratic equation at an angle without branches.
     pub(super) fn vertex(&self, c: f64, s: f64) -> f64 {
         let per_w = (self.r1_platform * c - self.r1_slider) * self.s * self.inverse_d;
         let x0 = (self.t[0] + self.t[1] * c + self.t[2] * s) * self.inverse_d;
@@ -92,9 +96,31 @@ impl Assembly {
         let u = self.r1_platform * c - self.r1_slider;
         (lambda * u * self.s + self.t[0] + self.t[1] * c + self.t[2] * s) * self.inverse_d
     }
+
+    /// The posture of a root; `None` if it does not satisfy Eqs (3)-(6).
+    #[inline]
+    pub(super) fn posture(&self, mechanism: &Mechanism, rho: [f64; 3], root: &Root) -> Option<Posture> {
+        let g = &mechanism.geometry;
+        let (u, v) = (g.R1 * root.c - g.r1, g.R1 * root.s);
+        let w1 = root.w * u;
+        let pose = PlatformPose {
+            x: self.x1(root.c, root.s, root.w) - mechanism.e1,
+            y: -root.w * v,
+            z: rho[0] + w1,
+            alpha: wrapped(root.a),
+        };
+        let CheckedPose { pose, residual } = checked(mechanism, pose, rho);
+        let q = g.R2 * root.s;
+        let heights = [w1, pose.z - q - rho[1], pose.z + q - rho[2]];
+        let working = u > 0.0 && w1 > v.abs() && heights[1] > 0.0 && heights[2] > 0.0;
+        let mode = Mode { legs: heights.map(Side::of), crossed: u < 0.0 };
+        // A NaN satisfies no equation.
+        let holds = residual <= RESIDUAL_TOLERANCE * magnitude(mechanism, pose.z);
+        holds.then_some(Posture { pose, rho, mode, working, merged: root.merged, residual })
+    }
 }
 
-impl Closure<5> for Assembly {
+impl LoopClosure<5> for AssemblyClosure {
     #[inline]
     fn polynomial(&self) -> (TrigPolynomial<5>, f64) {
         let (d, n) = (self.d(), self.n());
@@ -130,7 +156,7 @@ impl Closure<5> for Assembly {
         }
     }
 
-    fn sheets(&self, c: f64, s: f64) -> Option<[f64; 2]> {
+    fn branches(&self, c: f64, s: f64) -> Option<[f64; 2]> {
         let [a2, a1, a0] = self.quadratic(c, s);
         let disc = a1 * a1 - a2 * a0;
         (disc >= 0.0).then(|| {
@@ -149,7 +175,7 @@ impl Closure<5> for Assembly {
         (self.n0 + self.n_sin * s) / d
     }
 
-    fn unit(&self) -> f64 {
+    fn w_scale(&self) -> f64 {
         1.0
     }
 
@@ -158,12 +184,12 @@ impl Closure<5> for Assembly {
         a1 * a1 - a2 * a0
     }
 
-    fn noise(&self, _: f64, _: f64, _: f64) -> f64 {
+    fn rounding(&self, _: f64, _: f64, _: f64) -> f64 {
         // Both equations are squares of lengths: their sizes are alike.
         2.0 * RESIDUAL_TOLERANCE * self.l1_square
     }
 
-    fn last_step(&self, _: &Root) -> f64 {
-        LAST_STEP
+    fn converged_step(&self, _: &Root) -> f64 {
+        CONVERGED_STEP
     }
 }

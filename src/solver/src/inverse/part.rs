@@ -1,11 +1,13 @@
 //! The whole machine: the tool's pose is given in the part frame.
 
-use super::track::Track;
-use crate::angle::sin_cos;
-use crate::limit::{Refusal, in_domain, in_proportion};
+use super::locus_solver::{every, every_working, working};
+use super::platform_locus::PlatformLocus;
+use crate::error::KinematicsError;
+use crate::fast_math::sin_cos;
 use crate::machine::Machine;
 use crate::pose::PartPose;
 use crate::posture::{Posture, Postures};
+use crate::request_range::{check_numbers, check_proportion};
 
 /// Finds all postures (up to 24) with the tool at `target` in the part frame.
 ///
@@ -19,9 +21,8 @@ use crate::posture::{Posture, Postures};
 ///
 /// # Errors
 ///
-/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
-/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
-/// - [`Refusal::Blocked`]: no posture exists; the margin names the constraint that prevents it.
+/// - [`KinematicsError::OutOfDomain`], [`KinematicsError::OutOfProportion`]: a number is out of range.
+/// - [`KinematicsError::Unreachable`]: no posture exists; the margin names the constraint that prevents it.
 ///
 /// # References
 ///
@@ -32,15 +33,15 @@ use crate::posture::{Posture, Postures};
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{Machine, PartPose, Refusal, part};
+/// use verne_solver::{KinematicsError, Machine, PartPose, part};
 ///
 /// let target = PartPose { x: 100.0, y: 50.0, z: 300.0, phi1: 0.35, phi2: 0.5 };
 /// let all = part(&Machine::verne(), &target, 150.0)?;
 /// assert_eq!(all.len(), 16);
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), KinematicsError>(())
 /// ```
-pub fn part(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Postures, Refusal> {
-    track(machine, target, tool_length)?.postures(machine)
+pub fn part(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Postures, KinematicsError> {
+    every(machine, &locus(machine, target, tool_length)?)
 }
 
 /// Finds a posture in the working mode with the tool at `target` in the part frame.
@@ -54,9 +55,9 @@ pub fn part(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Po
 ///
 /// # Errors
 ///
-/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
-/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
-/// - [`Refusal::Blocked`]: the working mode does not reach `target`; the margin names the constraint that prevents it.
+/// - [`KinematicsError::OutOfDomain`], [`KinematicsError::OutOfProportion`]: a number is out of range.
+/// - [`KinematicsError::Unreachable`]: the working mode does not reach `target`; the margin names the constraint that
+///   prevents it.
 ///
 /// # References
 ///
@@ -66,7 +67,7 @@ pub fn part(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Po
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{Machine, PartPose, Refusal, part_pose, part_working, table_angles};
+/// use verne_solver::{KinematicsError, Machine, PartPose, part_pose, part_working, table_angles};
 ///
 /// let machine = Machine::verne();
 /// let target = PartPose { x: 100.0, y: 50.0, z: 300.0, phi1: 0.35, phi2: 0.5 };
@@ -74,10 +75,14 @@ pub fn part(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Po
 /// let table = table_angles(&machine, posture.pose.alpha, target.phi1, target.phi2);
 /// let back = part_pose(&machine, &posture.pose, table, 150.0);
 /// assert!((back.x - target.x).hypot(back.y - target.y).hypot(back.z - target.z) < 1e-9);
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), KinematicsError>(())
 /// ```
-pub fn part_working(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Posture, Refusal> {
-    track(machine, target, tool_length)?.working(machine)
+pub fn part_working(
+    machine: &Machine,
+    target: &PartPose,
+    tool_length: f64,
+) -> Result<Posture, KinematicsError> {
+    working(machine, &locus(machine, target, tool_length)?)
 }
 
 /// Finds all postures in the working mode with the tool at `target` in the part frame. The posture of [`part_working`]
@@ -92,9 +97,9 @@ pub fn part_working(machine: &Machine, target: &PartPose, tool_length: f64) -> R
 ///
 /// # Errors
 ///
-/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
-/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
-/// - [`Refusal::Blocked`]: the working mode does not reach `target`; the margin names the constraint that prevents it.
+/// - [`KinematicsError::OutOfDomain`], [`KinematicsError::OutOfProportion`]: a number is out of range.
+/// - [`KinematicsError::Unreachable`]: the working mode does not reach `target`; the margin names the constraint that
+///   prevents it.
 ///
 /// # References
 ///
@@ -104,25 +109,25 @@ pub fn part_working(machine: &Machine, target: &PartPose, tool_length: f64) -> R
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{Machine, PartPose, Refusal, part_every_working};
+/// use verne_solver::{KinematicsError, Machine, PartPose, part_every_working};
 ///
 /// let target = PartPose { x: 100.0, y: 50.0, z: 300.0, phi1: 0.35, phi2: 0.5 };
 /// let all = part_every_working(&Machine::verne(), &target, 150.0)?;
 /// assert!(all.iter().all(|posture| posture.working));
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), KinematicsError>(())
 /// ```
 pub fn part_every_working(
     machine: &Machine,
     target: &PartPose,
     tool_length: f64,
-) -> Result<Postures, Refusal> {
-    track(machine, target, tool_length)?.every_working(machine)
+) -> Result<Postures, KinematicsError> {
+    every_working(machine, &locus(machine, target, tool_length)?)
 }
 
 /// Eq (26) solved for P with theta2 = -phi2 (9) and theta1 = a - phi1 (14).
-fn track(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Track, Refusal> {
+fn locus(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<PlatformLocus, KinematicsError> {
     let PartPose { x, y, z, phi1, phi2 } = *target;
-    in_domain(machine, &[x, y, z, tool_length], &[phi1, phi2])?;
+    check_numbers(&machine.mechanism, &[x, y, z, tool_length], &[phi1, phi2])?;
     let table = machine.table();
     let ((s1, c1), (s2, c2)) = (sin_cos(phi1), sin_cos(phi2));
     // theta2 = -phi2.
@@ -131,6 +136,6 @@ fn track(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Track
     let b = table.dt - z - tool_length * c1;
     let (along, across) = (a * c1 + b * s1, a * s1 - b * c1);
     // P moves on a circle about the tilting axis, with the radius of (along, across).
-    in_proportion(machine, &[along, across])?;
-    Ok(Track { x: x * c2 + y * s2, y: [0.0, along, across], z: [table.da, -across, along] })
+    check_proportion(&machine.mechanism, &[along, across])?;
+    Ok(PlatformLocus { x: x * c2 + y * s2, y: [0.0, along, across], z: [table.da, -across, along] })
 }

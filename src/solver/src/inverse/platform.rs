@@ -1,19 +1,23 @@
 //! The parallel module: P given in the base frame.
 
-use super::first_leg::{FirstLeg, LegAngle};
-use super::legs::{self, Closed};
-use super::obstacle;
-use super::track::{LegOne, Track};
-use crate::angle::angle_of;
-use crate::closure::{Root, polish};
-use crate::limit::{Refusal, in_domain};
+use super::infeasibility;
+use super::leg_one_closure::LegOneClosure;
+use super::leg_one_cubic::{LegOneAngle, LegOneCubic};
+use super::leg_one_pose::LegOnePose;
+use super::platform_locus::PlatformLocus;
+use super::solutions::{add_mirrored_postures, working_posture};
+use crate::error::KinematicsError;
+use crate::fast_math::angle_of;
+use crate::loop_closure::{Root, polish};
 use crate::machine::Machine;
+use crate::mechanism::Mechanism;
 use crate::pose::Point;
-use crate::posture::{Posture, Postures, gathered};
-use crate::residual::size;
+use crate::posture::{Posture, Postures, postures_or_error};
+use crate::request_range::check_numbers;
+use crate::residual::magnitude;
 
 /// Polishing moves an angle by less than this.
-const NEAR: f64 = 1e-4;
+const LARGEST_CORRECTION: f64 = 1e-4;
 
 /// Finds all postures (up to 16) with the platform's reference point P at `p` in the base frame.
 ///
@@ -23,9 +27,8 @@ const NEAR: f64 = 1e-4;
 ///
 /// # Errors
 ///
-/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
-/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
-/// - [`Refusal::Blocked`]: no posture exists; the margin names the constraint that prevents it.
+/// - [`KinematicsError::OutOfDomain`], [`KinematicsError::OutOfProportion`]: a number is out of range.
+/// - [`KinematicsError::Unreachable`]: no posture exists; the margin names the constraint that prevents it.
 ///
 /// # References
 ///
@@ -35,23 +38,24 @@ const NEAR: f64 = 1e-4;
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{Machine, Refusal, platform};
+/// use verne_solver::{KinematicsError, Machine, platform};
 ///
 /// let all = platform(&Machine::verne(), [-240.0, -86.0, 1000.0])?;
 /// assert_eq!(all.len(), 16);
 /// assert_eq!(all.iter().filter(|posture| posture.working).count(), 1);
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), KinematicsError>(())
 /// ```
-pub fn platform(machine: &Machine, p: Point) -> Result<Postures, Refusal> {
-    in_domain(machine, &p, &[])?;
-    let angles = FirstLeg::new(machine, p[0], p[1]).both();
-    gathered(
+pub fn platform(machine: &Machine, p: Point) -> Result<Postures, KinematicsError> {
+    let mechanism = &machine.mechanism;
+    check_numbers(mechanism, &p, &[])?;
+    let angles = LegOneCubic::new(mechanism, p[0], p[1]).both();
+    postures_or_error(
         |found| {
             for angle in &angles {
-                legs::mirrored_postures(machine, &closed(machine, p, angle), found);
+                add_mirrored_postures(mechanism, &pose(mechanism, p, angle), found);
             }
         },
-        || obstacle::of_all(machine, &Track::still(p)),
+        || infeasibility::of_every_mode(machine, &PlatformLocus::fixed(p)),
     )
 }
 
@@ -65,9 +69,9 @@ pub fn platform(machine: &Machine, p: Point) -> Result<Postures, Refusal> {
 ///
 /// # Errors
 ///
-/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
-/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
-/// - [`Refusal::Blocked`]: the working mode does not reach `p`; the margin names the constraint that prevents it.
+/// - [`KinematicsError::OutOfDomain`], [`KinematicsError::OutOfProportion`]: a number is out of range.
+/// - [`KinematicsError::Unreachable`]: the working mode does not reach `p`; the margin names the constraint that
+///   prevents it.
 ///
 /// # References
 ///
@@ -76,55 +80,61 @@ pub fn platform(machine: &Machine, p: Point) -> Result<Postures, Refusal> {
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{Machine, Refusal, forward_working, platform_working};
+/// use verne_solver::{KinematicsError, Machine, forward_working, platform_working};
 ///
 /// let machine = Machine::verne();
 /// let posture = platform_working(&machine, [-240.0, -86.0, 1000.0])?;
 /// let back = forward_working(&machine, posture.rho)?;
 /// assert!((back.pose.y - -86.0).abs() < 1e-9);
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), KinematicsError>(())
 /// ```
 #[inline]
-pub fn platform_working(machine: &Machine, p: Point) -> Result<Posture, Refusal> {
-    in_domain(machine, &p, &[])?;
-    let leg = FirstLeg::new(machine, p[0], p[1]);
-    if let Some(angle) = leg.nearest() {
-        let answer = legs::working(machine, &closed(machine, p, &angle));
+pub fn platform_working(machine: &Machine, p: Point) -> Result<Posture, KinematicsError> {
+    let mechanism = &machine.mechanism;
+    check_numbers(mechanism, &p, &[])?;
+    let cubic = LegOneCubic::new(mechanism, p[0], p[1]);
+    if let Some(angle) = cubic.nearest() {
+        let answer = working_posture(machine, &pose(mechanism, p, &angle));
         if answer.is_ok() {
             return answer;
         }
     }
-    second_choice(machine, p, &leg)
+    working_at_either_root(machine, p, &cubic)
 }
 
 /// The posture in the working mode at either root of the cubic. Both roots can have uncrossed rods; at most one is in
 /// the working mode.
 #[cold]
-fn second_choice(machine: &Machine, p: Point, leg: &FirstLeg<'_>) -> Result<Posture, Refusal> {
-    let mut refused = None;
-    for angle in leg.both() {
-        match legs::working(machine, &closed(machine, p, &angle)) {
+fn working_at_either_root(
+    machine: &Machine,
+    p: Point,
+    cubic: &LegOneCubic<'_>,
+) -> Result<Posture, KinematicsError> {
+    let mut first_error = None;
+    for angle in cubic.both() {
+        match working_posture(machine, &pose(&machine.mechanism, p, &angle)) {
             Ok(posture) => return Ok(posture),
-            Err(refusal) => refused = refused.or(Some(refusal)),
+            Err(error) => first_error = first_error.or(Some(error)),
         }
     }
-    Err(refused.unwrap_or_else(|| Refusal::Blocked(obstacle::of_leg_one(machine, &Track::still(p)))))
+    let margin = || infeasibility::of_leg_one(machine, &PlatformLocus::fixed(p));
+    Err(first_error.unwrap_or_else(|| KinematicsError::Unreachable(margin())))
 }
 
 #[inline]
-fn closed(machine: &Machine, p: Point, angle: &LegAngle) -> Closed {
-    let LegAngle { c, s, w1, merged } = *angle;
+fn pose(mechanism: &Mechanism, p: Point, angle: &LegOneAngle) -> LegOnePose {
+    let LegOneAngle { c, s, w1, merged } = *angle;
     let root = Root { a: angle_of(c, s), c, s, w: w1, merged };
-    let closed = Closed::new(machine, p, &root, size(machine, p[2]));
-    if merged || closed.is_fine() { closed } else { polished(machine, p, &root).unwrap_or(closed) }
+    let pose = LegOnePose::new(mechanism, p, &root, magnitude(mechanism, p[2]));
+    if merged || pose.is_precise() { pose } else { polished(mechanism, p, &root).unwrap_or(pose) }
 }
 
 /// Newton's method on (A) itself, if the cubic has lost digits because w1 and y are both near zero.
 #[cold]
-fn polished(machine: &Machine, p: Point, start: &Root) -> Option<Closed> {
-    let track = Track::still(p);
-    let root = polish(&LegOne::new(machine, &track), *start)?;
+fn polished(mechanism: &Mechanism, p: Point, start: &Root) -> Option<LegOnePose> {
+    let locus = PlatformLocus::fixed(p);
+    let root = polish(&LegOneClosure::new(mechanism, &locus), *start)?;
     // The slider above stays above; its mirror image is the other one.
     let above = Root { w: root.w.max(0.0), ..root };
-    ((root.a - start.a).abs() < NEAR).then(|| track.closed(machine, &above))
+    ((root.a - start.a).abs() < LARGEST_CORRECTION).then(|| locus.pose(mechanism, &above))
 }

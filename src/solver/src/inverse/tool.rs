@@ -1,10 +1,12 @@
 //! The tool centre point given in the base frame; alpha follows.
 
-use super::track::Track;
-use crate::limit::{Refusal, in_domain};
+use super::locus_solver::{every, every_working, working};
+use super::platform_locus::PlatformLocus;
+use crate::error::KinematicsError;
 use crate::machine::Machine;
 use crate::pose::Point;
 use crate::posture::{Posture, Postures};
+use crate::request_range::check_numbers;
 
 /// Finds all postures (up to 24) with the tool centre point at `u` in the base frame.
 ///
@@ -16,9 +18,8 @@ use crate::posture::{Posture, Postures};
 ///
 /// # Errors
 ///
-/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
-/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
-/// - [`Refusal::Blocked`]: no posture exists; the margin names the constraint that prevents it.
+/// - [`KinematicsError::OutOfDomain`], [`KinematicsError::OutOfProportion`]: a number is out of range.
+/// - [`KinematicsError::Unreachable`]: no posture exists; the margin names the constraint that prevents it.
 ///
 /// # References
 ///
@@ -28,17 +29,17 @@ use crate::posture::{Posture, Postures};
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{Machine, Refusal, tool, tool_point};
+/// use verne_solver::{KinematicsError, Machine, tool, tool_point};
 ///
 /// let machine = Machine::verne();
 /// for posture in tool(&machine, [50.0, 120.0, 1300.0], 150.0)? {
 ///     let [_, y, _] = tool_point(&posture.pose, 150.0);
 ///     assert!((y - 120.0).abs() < 1e-9);
 /// }
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), KinematicsError>(())
 /// ```
-pub fn tool(machine: &Machine, u: Point, tool_length: f64) -> Result<Postures, Refusal> {
-    track(machine, u, tool_length)?.postures(machine)
+pub fn tool(machine: &Machine, u: Point, tool_length: f64) -> Result<Postures, KinematicsError> {
+    every(machine, &locus(machine, u, tool_length)?)
 }
 
 /// Finds a posture in the working mode with the tool centre point at `u` in the base frame.
@@ -51,9 +52,9 @@ pub fn tool(machine: &Machine, u: Point, tool_length: f64) -> Result<Postures, R
 ///
 /// # Errors
 ///
-/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
-/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
-/// - [`Refusal::Blocked`]: the working mode does not reach `u`; the margin names the constraint that prevents it.
+/// - [`KinematicsError::OutOfDomain`], [`KinematicsError::OutOfProportion`]: a number is out of range.
+/// - [`KinematicsError::Unreachable`]: the working mode does not reach `u`; the margin names the constraint that
+///   prevents it.
 ///
 /// # References
 ///
@@ -63,14 +64,14 @@ pub fn tool(machine: &Machine, u: Point, tool_length: f64) -> Result<Postures, R
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{Machine, Refusal, tool_working};
+/// use verne_solver::{KinematicsError, Machine, tool_working};
 ///
 /// let posture = tool_working(&Machine::verne(), [50.0, 120.0, 1300.0], 150.0)?;
 /// assert!(posture.working);
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), KinematicsError>(())
 /// ```
-pub fn tool_working(machine: &Machine, u: Point, tool_length: f64) -> Result<Posture, Refusal> {
-    track(machine, u, tool_length)?.working(machine)
+pub fn tool_working(machine: &Machine, u: Point, tool_length: f64) -> Result<Posture, KinematicsError> {
+    working(machine, &locus(machine, u, tool_length)?)
 }
 
 /// Finds all postures in the working mode with the tool centre point at `u` in the base frame. The posture of
@@ -84,9 +85,9 @@ pub fn tool_working(machine: &Machine, u: Point, tool_length: f64) -> Result<Pos
 ///
 /// # Errors
 ///
-/// - [`Refusal::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN).
-/// - [`Refusal::TooFar`]: a length is more than [`MOST_RATIO`](crate::MOST_RATIO) times [`Machine::longest`].
-/// - [`Refusal::Blocked`]: the working mode does not reach `u`; the margin names the constraint that prevents it.
+/// - [`KinematicsError::OutOfDomain`], [`KinematicsError::OutOfProportion`]: a number is out of range.
+/// - [`KinematicsError::Unreachable`]: the working mode does not reach `u`; the margin names the constraint that
+///   prevents it.
 ///
 /// # References
 ///
@@ -96,18 +97,22 @@ pub fn tool_working(machine: &Machine, u: Point, tool_length: f64) -> Result<Pos
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{Machine, Refusal, tool_every_working};
+/// use verne_solver::{KinematicsError, Machine, tool_every_working};
 ///
 /// let all = tool_every_working(&Machine::verne(), [50.0, 120.0, 1300.0], 150.0)?;
 /// assert_eq!(all.len(), 1);
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), KinematicsError>(())
 /// ```
-pub fn tool_every_working(machine: &Machine, u: Point, tool_length: f64) -> Result<Postures, Refusal> {
-    track(machine, u, tool_length)?.every_working(machine)
+pub fn tool_every_working(
+    machine: &Machine,
+    u: Point,
+    tool_length: f64,
+) -> Result<Postures, KinematicsError> {
+    every_working(machine, &locus(machine, u, tool_length)?)
 }
 
 /// Eq (27) solved for P.
-fn track(machine: &Machine, [x, y, z]: Point, tool_length: f64) -> Result<Track, Refusal> {
-    in_domain(machine, &[x, y, z, tool_length], &[])?;
-    Ok(Track { x, y: [y, 0.0, tool_length], z: [z, -tool_length, 0.0] })
+fn locus(machine: &Machine, [x, y, z]: Point, tool_length: f64) -> Result<PlatformLocus, KinematicsError> {
+    check_numbers(&machine.mechanism, &[x, y, z, tool_length], &[])?;
+    Ok(PlatformLocus { x, y: [y, 0.0, tool_length], z: [z, -tool_length, 0.0] })
 }

@@ -1,6 +1,8 @@
 //! The built-in reference machine.
 
-use super::{Geometry, Limits, Machine, MachineData, Table};
+use super::Machine;
+use super::data::{Limits, MachineData, Table};
+use crate::mechanism::Geometry;
 
 impl Machine {
     /// The reference machine, `verne`. Its dimensions are round numbers chosen so that every solution count printed in
@@ -18,15 +20,15 @@ impl Machine {
     /// # Examples
     ///
     /// ```
-    /// use verne_solver::{Machine, Refusal, forward, platform};
+    /// use verne_solver::{KinematicsError, Machine, forward, platform};
     ///
     /// let machine = Machine::verne();
     /// assert_eq!(platform(&machine, [-240.0, -86.0, 1000.0])?.len(), 16);
     /// assert_eq!(forward(&machine, [674.0, 685.0, 250.0])?.len(), 4);
-    /// # Ok::<(), Refusal>(())
+    /// # Ok::<(), KinematicsError>(())
     /// ```
     pub fn verne() -> Self {
-        let data = MachineData {
+        Self::from_valid(MachineData {
             name: "verne".into(),
             description: "Reference machine: round dimensions that reproduce the solution counts printed in \
                           arXiv:0707.3507. Not Fatronik's dimensions, which the paper does not give."
@@ -59,8 +61,6 @@ impl Machine {
                 slider_axes: None,
                 platform_axes: None,
             },
-        };
-        let derived = super::Derived::new(&data);
-        Self { data, derived }
+        })
     }
 }

@@ -2,68 +2,64 @@
 
 use std::f64::consts::PI;
 
-use super::{Geometry, Limits, MachineData, MachineFault};
+use super::data::{Limits, MachineData};
+use super::error::MachineError;
 use crate::axis::direction;
-use crate::limit::MOST_RATIO;
+use crate::mechanism::{Geometry, Mechanism};
+use crate::request_range::MAX_LENGTH_RATIO;
 
 /// Largest length accepted in a machine, mm.
 const LARGEST: f64 = 1e6;
 /// Least length that is accepted where a length must be positive, mm.
 const SMALLEST: f64 = 1e-3;
 /// How much longer than needed a leg must be at home, relative to what is needed.
-const LONGER: f64 = 1e-6;
+const RELATIVE_LENGTH_RESERVE: f64 = 1e-6;
 /// Least R1/r1 - 1, and least |e1 - e2| relative to the longest leg, at which the forward problem keeps its
 /// solutions. With R1 = r1 the double root a = 0 of its polynomial represents a whole branch. With e1 = e2 two
 /// mirror-image solutions share each root. Near these machines the solutions of the polynomial are too close together
 /// for double precision.
-const DISTINCT: f64 = 1e-3;
+const LEAST_DIFFERENCE: f64 = 1e-3;
 /// Least |`det_P`| at home.
 pub(super) const LEAST_HOME_DET: f64 = 1e-9;
 
-/// Finds all faults of the data. It examines the home posture only if the numbers themselves are valid.
-pub(super) fn faults(data: &MachineData) -> Vec<MachineFault> {
-    let mut faults = Faults(Vec::new());
-    faults.check(!data.name.is_empty() && data.name.len() <= 64, "name", "must have 1 to 64 characters");
-    geometry(&data.geometry, &mut faults);
+/// Finds all invalid fields. It examines the home posture only if the numbers themselves are valid.
+pub(super) fn errors(data: &MachineData) -> Vec<MachineError> {
+    let mut checker = Checker(Vec::new());
+    checker.check(!data.name.is_empty() && data.name.len() <= 64, "name", "must have 1 to 64 characters");
+    geometry(&data.geometry, &mut checker);
     for (field, value) in [("table/da", data.table.da), ("table/dt", data.table.dt)] {
-        faults.number(field, value);
+        checker.number(field, value);
     }
-    limits(&data.limits, &mut faults);
-    if faults.0.is_empty() {
-        proportions(data, &mut faults);
-        elimination(&data.geometry, &mut faults);
-        home(&data.geometry, &mut faults);
+    limits(&data.limits, &mut checker);
+    if checker.0.is_empty() {
+        proportions(data, &mut checker);
+        elimination(&data.geometry, &mut checker);
+        home(&data.geometry, &mut checker);
     }
-    faults.0
-}
-
-/// The longest dimension that occurs in the equations.
-pub(super) fn longest(g: &Geometry) -> f64 {
-    let (e1, e2) = (g.D1 - g.d1, g.D2 - g.d2);
-    [g.L1, g.L2, g.L3, g.R1, g.r1, g.R2, g.r4, e1.abs(), e2.abs()].into_iter().fold(0.0, f64::max)
+    checker.0
 }
 
 /// The table's offsets. They rotate with the platform, like lengths in requests.
-fn proportions(data: &MachineData, faults: &mut Faults) {
-    let most = MOST_RATIO * longest(&data.geometry);
+fn proportions(data: &MachineData, checker: &mut Checker) {
+    let most = MAX_LENGTH_RATIO * Mechanism::new(data.geometry).longest;
     for (field, value) in [("table/da", data.table.da), ("table/dt", data.table.dt)] {
-        faults.check(
+        checker.check(
             value.abs() <= most,
             field,
             &format!(
-                "must be within ±{most} mm: {MOST_RATIO:e} times the longest dimension of legs and platform. \
+                "must be within ±{most} mm: {MAX_LENGTH_RATIO:e} times the longest dimension of legs and platform. \
                  Beyond that double precision loses solutions"
             ),
         );
     }
 }
 
-struct Faults(Vec<MachineFault>);
+struct Checker(Vec<MachineError>);
 
-impl Faults {
+impl Checker {
     fn check(&mut self, holds: bool, field: &str, detail: &str) {
         if !holds {
-            self.0.push(MachineFault::new(field, detail));
+            self.0.push(MachineError::new(field, detail));
         }
     }
 
@@ -89,9 +85,9 @@ impl Faults {
     }
 }
 
-fn geometry(g: &Geometry, faults: &mut Faults) {
+fn geometry(g: &Geometry, checker: &mut Checker) {
     for (field, value) in [("D1", g.D1), ("d1", g.d1), ("D2", g.D2), ("d2", g.d2)] {
-        faults.number(&format!("geometry/{field}"), value);
+        checker.number(&format!("geometry/{field}"), value);
     }
     let lengths = [
         ("R1", g.R1),
@@ -104,33 +100,37 @@ fn geometry(g: &Geometry, faults: &mut Faults) {
         ("parallelogram_half_width", g.parallelogram_half_width),
     ];
     for (field, value) in lengths {
-        faults.length(&format!("geometry/{field}"), value);
+        checker.length(&format!("geometry/{field}"), value);
     }
     let radius = (0.0..=LARGEST).contains(&g.rod_radius);
-    faults.check(radius, "geometry/rod_radius", "must be a length between 0 and 1e6 mm");
+    checker.check(radius, "geometry/rod_radius", "must be a length between 0 and 1e6 mm");
 }
 
-fn limits(l: &Limits, faults: &mut Faults) {
+fn limits(l: &Limits, checker: &mut Checker) {
     for (i, &stroke) in l.stroke.iter().enumerate() {
-        faults.range(&format!("limits/stroke/{i}"), stroke, LARGEST, "mm");
+        checker.range(&format!("limits/stroke/{i}"), stroke, LARGEST, "mm");
     }
     for (field, cone) in [("slider_cone", l.slider_cone), ("platform_cone", l.platform_cone)] {
         let holds = cone > 0.0 && cone <= PI;
-        faults.check(holds, &format!("limits/{field}"), "must be a half-angle above 0 and up to 180 degrees");
+        checker.check(
+            holds,
+            &format!("limits/{field}"),
+            "must be a half-angle above 0 and up to 180 degrees",
+        );
     }
     for (field, margin) in [("serial_margin", l.serial_margin), ("parallel_margin", l.parallel_margin)] {
         let holds = (0.0..1.0).contains(&margin);
-        faults.check(holds, &format!("limits/{field}"), "must be at least 0 and below 1");
+        checker.check(holds, &format!("limits/{field}"), "must be at least 0 and below 1");
     }
     for (field, range) in [("tilt", l.tilt), ("rotary", l.rotary)] {
         let degrees = range.map(f64::to_degrees);
-        faults.range(&format!("limits/{field}"), degrees, 36_000.0, "degrees");
+        checker.range(&format!("limits/{field}"), degrees, 36_000.0, "degrees");
     }
     let clearance = l.table_clearance.is_none_or(|least| (0.0..=LARGEST).contains(&least));
-    faults.check(clearance, "limits/table_clearance", "must be a length between 0 and 1e6 mm");
+    checker.check(clearance, "limits/table_clearance", "must be a length between 0 and 1e6 mm");
     for (field, axes) in [("slider_axes", l.slider_axes), ("platform_axes", l.platform_axes)] {
         for (i, axis) in axes.iter().flatten().enumerate() {
-            faults.check(
+            checker.check(
                 direction(*axis).is_some(),
                 &format!("limits/{field}/{i}"),
                 "must be a direction: three finite numbers, not all zero",
@@ -139,39 +139,39 @@ fn limits(l: &Limits, faults: &mut Faults) {
     }
 }
 
-/// The forward problem must keep all of its solutions: see [`DISTINCT`].
-fn elimination(g: &Geometry, faults: &mut Faults) {
+/// The forward problem must keep all of its solutions: see [`LEAST_DIFFERENCE`].
+fn elimination(g: &Geometry, checker: &mut Checker) {
     let offset = ((g.D1 - g.d1) - (g.D2 - g.d2)).abs();
-    let needed = DISTINCT * g.L1.max(g.L2).max(g.L3);
-    faults.check(
+    let needed = LEAST_DIFFERENCE * g.L1.max(g.L2).max(g.L3);
+    checker.check(
         offset >= needed,
         "geometry/D1",
         &format!(
-            "D1 - d1 and D2 - d2 must differ by at least {DISTINCT:e} of the longest leg, here {needed:.6} mm; they \
-             differ by {offset:.6} mm. With equal offsets the sliders determine x up to its mirror image about \
+            "D1 - d1 and D2 - d2 must differ by at least {LEAST_DIFFERENCE:e} of the longest leg, here {needed:.6} mm; \
+             they differ by {offset:.6} mm. With equal offsets the sliders determine x up to its mirror image about \
              x = d1 - D1 only. This version does not solve that case, and it loses forward solutions close to it"
         ),
     );
     if g.R1 <= g.r1 {
         let detail = "must be greater than r1: otherwise the rods of leg I are parallel or crossed at home";
-        faults.check(false, "geometry/R1", detail);
+        checker.check(false, "geometry/R1", detail);
         return;
     }
-    let needed = DISTINCT * g.r1;
-    faults.check(
+    let needed = LEAST_DIFFERENCE * g.r1;
+    checker.check(
         g.R1 - g.r1 >= needed,
         "geometry/R1",
         &format!(
-            "must exceed r1 by at least {DISTINCT:e} of r1, here {needed:.6} mm; it exceeds r1 by {:.6} mm. With R1 = r1 \
-             the rods of leg I stay parallel and the platform does not turn (a linear delta). This version does not \
-             solve that case, and it loses forward solutions close to it",
+            "must exceed r1 by at least {LEAST_DIFFERENCE:e} of r1, here {needed:.6} mm; it exceeds r1 by \
+             {:.6} mm. With R1 = r1 the rods of leg I stay parallel and the platform does not turn (a linear \
+             delta). This version does not solve that case, and it loses forward solutions close to it",
             g.R1 - g.r1
         ),
     );
 }
 
 /// At x = y = alpha = 0 every leg must reach the platform from above.
-fn home(g: &Geometry, faults: &mut Faults) {
+fn home(g: &Geometry, checker: &mut Checker) {
     let legs = [
         ("geometry/L1", g.L1, g.D1 - g.d1, g.R1 - g.r1),
         ("geometry/L2", g.L2, g.D2 - g.d2, g.R2 - g.r4),
@@ -179,8 +179,8 @@ fn home(g: &Geometry, faults: &mut Faults) {
     ];
     for (field, length, x, y) in legs {
         let needed = x.hypot(y);
-        faults.check(
-            length > needed * (1.0 + LONGER),
+        checker.check(
+            length > needed * (1.0 + RELATIVE_LENGTH_RESERVE),
             field,
             &format!("must be longer than {needed:.6} mm, or there is no home pose at x = y = alpha = 0"),
         );

@@ -2,16 +2,15 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::angle::asin;
-use crate::residual::lesser;
+use crate::fast_math::{asin, lesser};
 use crate::rods::Rods;
 
 /// (angle² / chord² - 1 - chord² / 12) / chord⁴ at a right angle, rounded up.
-const REST: f64 = 0.016_759;
+const REMAINDER: f64 = 0.016_759;
 /// Upper bound of the rounding error of a squared chord that is computed from a cosine.
 const ROUNDING: f64 = 1e-12;
 
-/// Four unit vectors by coordinate. So four angles are computed at once.
+/// Four unit vectors by coordinate, so that the processor computes four angles at once.
 pub(crate) type Columns = [[f64; 4]; 3];
 
 /// Vectors by coordinate.
@@ -52,34 +51,29 @@ pub(super) fn margins(half_angle: f64, a: &Columns, b: &Columns) -> [f64; 4] {
     margins
 }
 
-/// A number that is positive only if the angles of all four rods from their axes at the sliders are clearly below an
-/// angle.
+/// A rod's direction in the platform frame.
 #[inline]
-pub(super) fn room(axes: &Columns, rods: &Rods, angle: f64) -> f64 {
-    let dot = |i: usize| {
-        let [x, y, z] = rods.directions[i];
-        axes[0][i] * x + axes[1][i] * y + axes[2][i] * z
-    };
-    below(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
+pub(super) fn direction_in_platform(rods: &Rods, rod: usize) -> [f64; 3] {
+    let ([x, y, z], c, s) = (rods.directions[rod], rods.c, rods.s);
+    [x, c * y + s * z, c * z - s * y]
 }
 
-/// The same at the platform. The axes rotate with it.
+/// A number that is positive only if the angles of all four rods from their axes are clearly below an angle.
 #[inline]
-pub(super) fn room_on_platform(axes: &Columns, rods: &Rods, angle: f64) -> f64 {
-    let (c, s) = (rods.c, rods.s);
-    let dot = |i: usize| {
-        let [x, y, z] = rods.directions[i];
-        axes[0][i] * x + axes[1][i] * (c * y + s * z) + axes[2][i] * (c * z - s * y)
+pub(super) fn bound(axes: &Columns, direction: impl Fn(usize) -> [f64; 3], angle: f64) -> f64 {
+    let dot = |rod: usize| {
+        let [x, y, z] = direction(rod);
+        axes[0][rod] * x + axes[1][rod] * y + axes[2][rod] * z
     };
-    below(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
+    angle_bound(lesser(lesser(dot(0), dot(1)), lesser(dot(2), dot(3))), angle)
 }
 
 /// A number that is positive only if an angle, given by its cosine, is clearly below another. For an acute angle it
 /// uses an upper bound of its square: the beginning of the power series in the square of the chord, whose terms are
 /// all positive, with the remainder that it has at a right angle.
 #[inline]
-fn below(cosine: f64, angle: f64) -> f64 {
+fn angle_bound(cosine: f64, angle: f64) -> f64 {
     let square = 2.0 - 2.0 * cosine + ROUNDING;
-    let most = square * (1.0 + square * (1.0 / 12.0 + REST * square));
+    let most = square * (1.0 + square * (1.0 / 12.0 + REMAINDER * square));
     lesser(lesser(cosine, angle), angle * angle - most)
 }

@@ -1,54 +1,69 @@
 //! Least distance between the axes of two rods.
 
-use crate::machine::Geometry;
+use crate::fast_math::{greater, lesser};
+use crate::mechanism::Geometry;
 use crate::pose::PlatformPose;
-use crate::residual::{greater, lesser};
 use crate::rods::{FAMILY, RODS, Rods};
 
 /// Square of the difference of two rods' directions below which they count as parallel. Any point of the one then
 /// serves as the start: the distance does not depend on it.
 const PARALLEL: f64 = 1e-14;
 /// Allowance for rounding in the square of a distance, as a factor.
-const WITHIN: f64 = 1.0 + 1e-12;
+const ROUNDING: f64 = 1.0 + 1e-12;
+
 /// The nearest pair so far: square of the distance, and the rods as indices of the six.
-type Nearest = (f64, usize, usize);
+struct NearestPair {
+    square: f64,
+    rods: [usize; 2],
+}
+
+impl NearestPair {
+    /// Replaces the pair by a nearer one.
+    #[inline]
+    fn compare(&mut self, square: f64, rods: [usize; 2]) {
+        if square < self.square {
+            *self = Self { square, rods };
+        }
+    }
+}
 
 /// The least distance between two rods' axes as segments, mm, and the two rods' numbers.
 #[inline]
-pub(crate) fn nearest(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
+pub(crate) fn least_distance(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     let ends = rods.platform_ends(g);
     // Leg I's own rods come first: they are usually the nearest, and the other pairs are then quickly seen to be
     // further apart.
     let gap = difference(ends[0], ends[1]);
-    let mut nearest = (square_distance(&gap, &rods.vectors[0], &rods.vectors[1]), 0, 1);
-    meet_others(&mut nearest, g, &ends, rods);
-    let (square, i, j) = nearest;
-    (square.sqrt(), [RODS[i], RODS[j]])
+    let square = square_distance(&gap, &rods.vectors[0], &rods.vectors[1]);
+    let mut nearest = NearestPair { square, rods: [0, 1] };
+    compare_parallelograms(&mut nearest, g, rods);
+    compare_between_legs(&mut nearest, g, &ends, rods);
+    (nearest.square.sqrt(), nearest.rods.map(|rod| RODS[rod]))
 }
 
 /// The least distances between two rods' axes, mm: of leg I's, of a parallelogram's, and of rods of
-/// different legs. Their minimum is [`nearest`]'s; it has a kink where another of them becomes the
+/// different legs. Their minimum is [`least_distance`]'s; it has a kink where another of them becomes the
 /// least, and each of them has none there.
 #[inline]
-pub(crate) fn nearest_by_legs(g: &Geometry, rods: &Rods) -> [f64; 3] {
+pub(crate) fn least_distances_by_legs(g: &Geometry, rods: &Rods) -> [f64; 3] {
     let ends = rods.platform_ends(g);
     let first = square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1]);
-    let (mut parallel, mut between) = ((f64::INFINITY, 0, 1), (f64::INFINITY, 0, 1));
-    meet_parallelograms(&mut parallel, g, rods);
-    meet_between_legs(&mut between, g, &ends, rods);
-    [first, parallel.0, between.0].map(f64::sqrt)
+    let [mut parallel, mut between] = [(); 2].map(|()| NearestPair { square: f64::INFINITY, rods: [0, 1] });
+    compare_parallelograms(&mut parallel, g, rods);
+    compare_between_legs(&mut between, g, &ends, rods);
+    [first, parallel.square, between.square].map(f64::sqrt)
 }
 
 /// Positive only if all rods are clearly further apart than a distance, which is not negative: leg
 /// I's across the platform, leg I from the others along x, legs II and III from each other along
 /// y, a parallelogram's two as the lines that they lie on.
 #[inline]
-pub(super) fn room(g: &Geometry, pose: &PlatformPose, rods: &Rods, distance: f64) -> f64 {
-    let least = WITHIN * distance * distance;
+pub(super) fn separation_bound(g: &Geometry, pose: &PlatformPose, rods: &Rods, distance: f64) -> f64 {
+    let least = ROUNDING * distance * distance;
     let half = g.parallelogram_half_width;
-    let along_x = apart([pose.x + g.D1, g.d1], [pose.x + g.D2, g.d2]) - half;
+    let along_x = interval_distance([pose.x + g.D1, g.d1], [pose.x + g.D2, g.d2]) - half;
     let sides = g.R2 * rods.c;
-    let along_y = apart([pose.y - sides, -g.r4], [pose.y + sides, g.r4]);
+    let along_y = interval_distance([pose.y - sides, -g.r4], [pose.y + sides, g.r4]);
     let clear = lesser(along_x, along_y);
     let [.., [second, ..], [third, ..]] = rods.directions;
     let parallel = 4.0 * half * half * (1.0 - greater(second * second, third * third));
@@ -61,42 +76,35 @@ pub(super) fn room(g: &Geometry, pose: &PlatformPose, rods: &Rods, distance: f64
 
 /// Distance between two intervals, each by its ends in any order; not positive if they meet.
 #[inline]
-fn apart([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
+fn interval_distance([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
     greater(lesser(a, b) - greater(c, d), lesser(c, d) - greater(a, b))
 }
 
-/// All pairs except leg I's. Rods 22 and 32 are at the same distance as 21 and 31.
+/// The two rods of each parallelogram.
 #[inline]
-fn meet_others(nearest: &mut Nearest, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
-    meet_parallelograms(nearest, g, rods);
-    meet_between_legs(nearest, g, ends, rods);
-}
-
-#[inline]
-fn meet_parallelograms(nearest: &mut Nearest, g: &Geometry, rods: &Rods) {
+fn compare_parallelograms(nearest: &mut NearestPair, g: &Geometry, rods: &Rods) {
     let half = g.parallelogram_half_width;
     for (leg, length, first) in [(2, g.L2, 2), (3, g.L3, 4)] {
         let square = square_parallel(2.0 * half, length, &rods.directions[leg]);
-        if square < nearest.0 {
-            *nearest = (square, first, first + 1);
-        }
+        nearest.compare(square, [first, first + 1]);
     }
 }
 
+/// The pairs of rods of different legs. Rods 22 and 32 are at the same distance as 21 and 31.
 #[inline]
-fn meet_between_legs(nearest: &mut Nearest, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
+fn compare_between_legs(nearest: &mut NearestPair, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
     let half = g.parallelogram_half_width;
     for i in [0, 1] {
         for j in [2, 4] {
-            if !far(nearest, &to_middle(ends, i, j, half), rods, [i, j], half) {
-                meet(nearest, ends, rods, [i, j]);
-                meet(nearest, ends, rods, [i, j + 1]);
+            if !is_farther(nearest, &to_middle(ends, i, j, half), rods, [i, j], half) {
+                compare_pair(nearest, ends, rods, [i, j]);
+                compare_pair(nearest, ends, rods, [i, j + 1]);
             }
         }
     }
-    if !far(nearest, &difference(ends[2], ends[4]), rods, [2, 4], 2.0 * half) {
+    if !is_farther(nearest, &difference(ends[2], ends[4]), rods, [2, 4], 2.0 * half) {
         for pair in [[2, 4], [2, 5], [3, 4]] {
-            meet(nearest, ends, rods, pair);
+            compare_pair(nearest, ends, rods, pair);
         }
     }
 }
@@ -105,23 +113,21 @@ fn meet_between_legs(nearest: &mut Nearest, g: &Geometry, ends: &[[f64; 3]; 6], 
 /// them is shifted along x by up to `shift` either way: the segments' projections on the gap's direction are at least
 /// so far apart, times |gap|.
 #[inline]
-fn far(nearest: &Nearest, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
+fn is_farther(nearest: &NearestPair, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
     let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
     let square_gap = dot(gap, gap);
     let apart = square_gap - dot(a, gap).max(0.0) + dot(b, gap).min(0.0) - shift * gap[0].abs();
-    apart > 0.0 && apart * apart >= nearest.0 * square_gap
+    apart > 0.0 && apart * apart >= nearest.square * square_gap
 }
 
 #[inline]
-fn meet(nearest: &mut Nearest, ends: &[[f64; 3]; 6], rods: &Rods, [i, j]: [usize; 2]) {
+fn compare_pair(nearest: &mut NearestPair, ends: &[[f64; 3]; 6], rods: &Rods, [i, j]: [usize; 2]) {
     let gap = difference(ends[i], ends[j]);
-    if far(nearest, &gap, rods, [i, j], 0.0) {
+    if is_farther(nearest, &gap, rods, [i, j], 0.0) {
         return;
     }
     let square = square_distance(&gap, &rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
-    if square < nearest.0 {
-        *nearest = (square, i, j);
-    }
+    nearest.compare(square, [i, j]);
 }
 
 /// Squared distance of a parallelogram's two rods, `width` apart along x: a foot of the

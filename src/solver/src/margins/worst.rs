@@ -1,17 +1,17 @@
 //! The worst of all margins. Each margin is divided by its constraint's own range.
 
-use super::{Margins, between};
+use super::posture_margins::{Margins, range_margins};
+use crate::fast_math::lesser;
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
 use crate::pose::TableAngles;
-use crate::residual::lesser;
 
-/// The rod that stands for each family.
-pub(super) const ROD: [Element; 4] = [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
+/// The rod that represents each family.
+const FAMILY_ROD: [Element; 4] = [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
 
 /// The least number and its index.
 #[inline]
-pub(super) fn least(margins: &[f64]) -> (usize, f64) {
+fn least(margins: &[f64]) -> (usize, f64) {
     let mut found = (0, f64::INFINITY);
     for (i, &margin) in margins.iter().enumerate() {
         if margin < found.1 {
@@ -22,12 +22,12 @@ pub(super) fn least(margins: &[f64]) -> (usize, f64) {
 }
 
 /// The worst margin so far, and its fraction of its constraint's range.
-pub(super) struct Worst {
+pub(super) struct WorstMargin {
     pub(super) margin: Margin,
-    part: f64,
+    fraction: f64,
 }
 
-impl Worst {
+impl WorstMargin {
     /// The worst of crossed rods, strokes and the table's ranges.
     #[inline]
     pub(super) fn of_strokes(
@@ -37,34 +37,35 @@ impl Worst {
         table: Option<TableAngles>,
     ) -> Self {
         let limits = machine.limits();
-        let mut worst = Self::new(rod_crossing, machine.derived.weights.rod_crossing);
-        worst.meet_strokes(machine, &[0, 1, 2].map(|i| between(limits.stroke[i], rho[i])));
+        let mut worst = Self::new(rod_crossing, machine.normalization.rod_crossing);
+        worst.compare_strokes(machine, &[0, 1, 2].map(|i| range_margins(limits.stroke[i], rho[i])));
         if let Some(TableAngles { theta1, theta2 }) = table {
-            let (tilt, rotary) = (between(limits.tilt, theta1), between(limits.rotary, theta2));
-            worst.meet_table(machine, Some(tilt), Some(rotary));
+            let (tilt, rotary) = (range_margins(limits.tilt, theta1), range_margins(limits.rotary, theta2));
+            worst.compare_table(machine, Some(tilt), Some(rotary));
         }
         worst
     }
 
     /// The worst of all margins except that of the table's plane.
     pub(super) fn of(machine: &Machine, margins: &Margins) -> Self {
-        let weights = &machine.derived.weights;
-        let mut worst = Self::new(margins.rod_crossing, weights.rod_crossing);
-        worst.meet_strokes(machine, &margins.stroke);
-        worst.meet_legs(machine, &margins.leg_length);
+        let factors = &machine.normalization;
+        let mut worst = Self::new(margins.rod_crossing, factors.rod_crossing);
+        worst.compare_strokes(machine, &margins.stroke);
+        worst.compare_legs(machine, &margins.leg_length);
         let families = [
-            (Constraint::SerialSingularity, &margins.serial_singularity, weights.serial_singularity),
-            (Constraint::SliderJoint, &margins.slider_joint, weights.slider_joint),
-            (Constraint::PlatformJoint, &margins.platform_joint, weights.platform_joint),
+            (Constraint::SerialSingularity, &margins.serial_singularity, factors.serial_singularity),
+            (Constraint::SliderJoint, &margins.slider_joint, factors.slider_joint),
+            (Constraint::PlatformJoint, &margins.platform_joint, factors.platform_joint),
         ];
-        for (constraint, margins, weight) in families {
-            worst.meet_rods(constraint, least(margins), weight);
+        for (constraint, margins, factor) in families {
+            let (family, value) = least(margins);
+            worst.compare(constraint, FAMILY_ROD[family], value, factor);
         }
         let (det, gap) = (margins.parallel_singularity, margins.rod_interference);
-        worst.meet(Constraint::ParallelSingularity, Element::Platform, det, weights.parallel_singularity);
+        worst.compare(Constraint::ParallelSingularity, Element::Platform, det, factors.parallel_singularity);
         let [a, b] = margins.nearest_rods;
-        worst.meet(Constraint::RodInterference, Element::Rods(a, b), gap, weights.rod_interference);
-        worst.meet_table(machine, margins.tilt, margins.rotary);
+        worst.compare(Constraint::RodInterference, Element::Rods(a, b), gap, factors.rod_interference);
+        worst.compare_table(machine, margins.tilt, margins.rotary);
         worst
     }
 
@@ -72,62 +73,57 @@ impl Worst {
     #[inline]
     pub(super) fn with_clearance(mut self, machine: &Machine, clearance: Option<Margin>) -> Self {
         if let Some(Margin { constraint, element, value }) = clearance {
-            self.meet(constraint, element, value, machine.derived.weights.table_clearance);
+            self.compare(constraint, element, value, machine.normalization.table_clearance);
         }
         self
     }
 
     /// Starts with the margin of crossed rods.
     #[inline]
-    fn new(rod_crossing: f64, weight: f64) -> Self {
+    fn new(rod_crossing: f64, factor: f64) -> Self {
         let (constraint, element) = (Constraint::RodCrossing, Element::Leg(1));
         let margin = Margin { constraint, element, value: rod_crossing };
-        Self { margin, part: rod_crossing * weight }
+        Self { margin, fraction: rod_crossing * factor }
     }
 
     #[inline]
-    fn meet(&mut self, constraint: Constraint, element: Element, value: f64, weight: f64) {
-        let part = value * weight;
-        if part < self.part {
-            *self = Self { margin: Margin { constraint, element, value }, part };
+    fn compare(&mut self, constraint: Constraint, element: Element, value: f64, factor: f64) {
+        let fraction = value * factor;
+        if fraction < self.fraction {
+            *self = Self { margin: Margin { constraint, element, value }, fraction };
         }
     }
 
     /// Compares without branches, because their outcomes are unpredictable.
     #[inline]
-    fn meet_strokes(&mut self, machine: &Machine, stroke: &[[f64; 2]; 3]) {
-        let weights = &machine.derived.weights.stroke;
+    fn compare_strokes(&mut self, machine: &Machine, stroke: &[[f64; 2]; 3]) {
+        let factors = &machine.normalization.stroke;
         let values = stroke.map(|[low, high]| lesser(low, high));
-        let parts: [f64; 3] = std::array::from_fn(|i| values[i] * weights[i]);
-        let (first, least) = (usize::from(parts[1] < parts[0]), lesser(parts[0], parts[1]));
-        let i = if parts[2] < least { 2 } else { first };
-        if parts[i] < self.part {
+        let fractions: [f64; 3] = std::array::from_fn(|i| values[i] * factors[i]);
+        let (first, least) = (usize::from(fractions[1] < fractions[0]), lesser(fractions[0], fractions[1]));
+        let i = if fractions[2] < least { 2 } else { first };
+        if fractions[i] < self.fraction {
             let (slider, high) = ([1, 2, 3][i], stroke[i][1] < stroke[i][0]);
             let (constraint, element) = (Constraint::Stroke, Element::Stroke { slider, high });
-            *self = Self { margin: Margin { constraint, element, value: values[i] }, part: parts[i] };
+            *self = Self { margin: Margin { constraint, element, value: values[i] }, fraction: fractions[i] };
         }
     }
 
     #[inline]
-    fn meet_legs(&mut self, machine: &Machine, leg_length: &[f64; 3]) {
-        for (i, (value, weight)) in (1..).zip(leg_length.iter().zip(machine.derived.weights.leg_length)) {
-            self.meet(Constraint::LegLength, Element::Leg(i), *value, weight);
+    fn compare_legs(&mut self, machine: &Machine, leg_length: &[f64; 3]) {
+        for (i, (value, factor)) in (1..).zip(leg_length.iter().zip(machine.normalization.leg_length)) {
+            self.compare(Constraint::LegLength, Element::Leg(i), *value, factor);
         }
     }
 
     #[inline]
-    fn meet_rods(&mut self, constraint: Constraint, (i, value): (usize, f64), weight: f64) {
-        self.meet(constraint, ROD[i], value, weight);
-    }
-
-    #[inline]
-    fn meet_table(&mut self, machine: &Machine, tilt: Option<[f64; 2]>, rotary: Option<[f64; 2]>) {
-        let weights = &machine.derived.weights;
-        let ranges = [(Constraint::Tilt, tilt, weights.tilt), (Constraint::Rotary, rotary, weights.rotary)];
-        for (constraint, ends, weight) in ranges {
+    fn compare_table(&mut self, machine: &Machine, tilt: Option<[f64; 2]>, rotary: Option<[f64; 2]>) {
+        let factors = &machine.normalization;
+        let ranges = [(Constraint::Tilt, tilt, factors.tilt), (Constraint::Rotary, rotary, factors.rotary)];
+        for (constraint, ends, factor) in ranges {
             if let Some(ends) = ends {
                 let (end, value) = least(&ends);
-                self.meet(constraint, Element::Range { high: end == 1 }, value, weight);
+                self.compare(constraint, Element::Range { high: end == 1 }, value, factor);
             }
         }
     }
@@ -149,22 +145,33 @@ impl Margins {
     /// # Examples
     ///
     /// ```
-    /// use verne_solver::{Constraint, Machine, Margins, Refusal, platform_working};
+    /// use verne_solver::{Constraint, KinematicsError, Machine, Margins, platform_working};
     ///
     /// let machine = Machine::verne();
     /// let posture = platform_working(&machine, [0.0, 0.0, 600.0])?;
     /// let worst = Margins::of(&machine, &posture, None).worst(&machine);
     /// assert_eq!(worst.constraint, Constraint::Stroke);
     /// assert!(worst.value < 0.0);
-    /// # Ok::<(), Refusal>(())
+    /// # Ok::<(), KinematicsError>(())
     /// ```
     pub fn worst(&self, machine: &Machine) -> Margin {
-        self.weighed(machine).0
+        self.worst_with_fraction(machine).0
     }
 
     /// [`Self::worst`] and its fraction of its constraint's range, by which solutions compare.
-    pub(crate) fn weighed(&self, machine: &Machine) -> (Margin, f64) {
-        let worst = Worst::of(machine, self).with_clearance(machine, self.table_clearance);
-        (worst.margin, worst.part)
+    pub(crate) fn worst_with_fraction(&self, machine: &Machine) -> (Margin, f64) {
+        let worst = WorstMargin::of(machine, self).with_clearance(machine, self.table_clearance);
+        (worst.margin, worst.fraction)
+    }
+
+    /// The margin of the constraint that keeps a posture out of the working mode: crossed rods, or the slider end
+    /// that lies lowest relative to its platform end.
+    pub(crate) fn out_of_mode(&self) -> Margin {
+        if self.rod_crossing <= 0.0 {
+            let (constraint, element) = (Constraint::RodCrossing, Element::Leg(1));
+            return Margin { constraint, element, value: self.rod_crossing };
+        }
+        let (i, value) = least(&self.serial_singularity);
+        Margin { constraint: Constraint::SerialSingularity, element: FAMILY_ROD[i], value }
     }
 }

@@ -5,11 +5,12 @@ use rayon::prelude::*;
 use super::observer::{Observer, Pace, go_on};
 use super::request::{Kind, Request, WorkspaceError};
 use crate::clearance::Clearance;
+use crate::error::KinematicsError;
 use crate::inverse::{part_every_working, part_working, platform_working, tool_every_working, tool_working};
-use crate::limit::{Margin, Refusal};
+use crate::limit::Margin;
 use crate::machine::Machine;
 use crate::margins::Margins;
-use crate::margins::together::{TOGETHER, Together};
+use crate::margins::margin_batch::{BATCH_SIZE, MarginBatch};
 use crate::pose::{PartPose, Point};
 use crate::posture::{Posture, Postures};
 use crate::table::table_angles;
@@ -39,8 +40,8 @@ pub struct Membership {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
-///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`MAX_INPUT`](crate::MAX_INPUT) or,
+///   for the tolerance, below 0.001 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 ///
 /// # References
@@ -82,8 +83,8 @@ pub fn contains(
     points.par_chunks(BATCH).zip(members.par_chunks_mut(BATCH)).try_for_each(|(points, members)| {
         go_on(observer)?;
         // All solutions first, then all margins: the processor overlaps similar short computations.
-        let mut solved = Together::new();
-        for (points, places) in points.chunks(TOGETHER).zip(members.chunks_mut(TOGETHER)) {
+        let mut solved = MarginBatch::new();
+        for (points, places) in points.chunks(BATCH_SIZE).zip(members.chunks_mut(BATCH_SIZE)) {
             solved.clear();
             for (i, (&point, place)) in points.iter().zip(&mut *places).enumerate() {
                 match solution(machine, request, point) {
@@ -111,7 +112,7 @@ pub fn contains(
 
 /// The posture in the working mode at a point in the frame of the request's kind.
 #[inline]
-fn solution(machine: &Machine, request: &Request, point: Point) -> Result<Posture, Refusal> {
+fn solution(machine: &Machine, request: &Request, point: Point) -> Result<Posture, KinematicsError> {
     let Request { tool_length, phi1, phi2, .. } = *request;
     match request.kind {
         Kind::Platform => platform_working(machine, point),
@@ -136,7 +137,9 @@ fn others(
     if found.len() < 2 {
         return;
     }
-    let weighed = found.iter().map(|posture| margins(machine, request, clearance, posture).weighed(machine));
+    let weighed = found
+        .iter()
+        .map(|posture| margins(machine, request, clearance, posture).worst_with_fraction(machine));
     if let Some((margin, _)) = weighed.max_by(|(_, a), (_, b)| a.total_cmp(b)) {
         *place = Membership { inside: margin.value >= 0.0, margin: Some(margin) };
     }
@@ -164,7 +167,7 @@ pub(super) fn margins(
     Margins::above_table(machine, posture, table, clearance)
 }
 
-fn refused(refusal: &Refusal) -> Membership {
-    let margin = if let Refusal::Blocked(margin) = refusal { Some(*margin) } else { None };
+fn refused(refusal: &KinematicsError) -> Membership {
+    let margin = if let KinematicsError::Unreachable(margin) = refusal { Some(*margin) } else { None };
     Membership { inside: false, margin }
 }

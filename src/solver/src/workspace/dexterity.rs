@@ -28,8 +28,8 @@ pub use volumes::volumes;
 
 use super::observer::Observer;
 use super::request::WorkspaceError;
-use crate::limit::DOMAIN;
 use crate::machine::Machine;
+use crate::request_range::MAX_INPUT;
 
 /// The request of a dexterity map: tool, range of inclinations, and grid. Lengths are millimetres, angles radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,8 +73,8 @@ pub struct Dexterity {
 /// Computes the intervals of phi1 at the nodes of a grid over all reachable points, and two regions: what some phi1 of
 /// the range reaches, and what every phi1 of the range reaches.
 ///
-/// It is [`grid`](Grid::new), [`slab()`] for all of the grid's layers, [`volumes()`] and [`merge()`]. The answer does not
-/// depend on how the grid is cut into slabs, nor on the number of threads.
+/// It is [`grid`](Grid::new), [`slab()`] for all of the grid's layers, [`volumes()`] and [`merge()`]. The answer does
+/// not depend on how the grid is cut into slabs, nor on the number of threads.
 ///
 /// # Units
 ///
@@ -82,8 +82,8 @@ pub struct Dexterity {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`], the range of phi1 is not ordered or
-///   longer than a revolution, or the cell is below 0.1 mm.
+/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`MAX_INPUT`], the range of phi1 is not ordered
+///   or longer than a revolution, or the cell is below 0.1 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 /// - [`WorkspaceError::TooManyNodes`]: the grid would have more nodes than [`MOST_NODES`].
 /// - [`WorkspaceError::TooFine`]: there are more intervals than 32 bits can number.
@@ -149,12 +149,12 @@ impl DexterityRequest {
         let [from, to] = self.phi1;
         let turn = (0.0..=std::f64::consts::TAU).contains(&(to - from));
         let checks = [
-            ("tool_length", self.tool_length.abs() <= DOMAIN),
-            ("table_clearance", self.table_clearance.is_none_or(|least| least.abs() <= DOMAIN)),
-            ("tool_radius", self.tool_radius.abs() <= DOMAIN),
-            ("phi2", self.phi2.abs() <= DOMAIN),
-            ("phi1", from.abs() <= DOMAIN && to.abs() <= DOMAIN && turn),
-            ("cell", (FINEST_CELL..=DOMAIN).contains(&self.cell)),
+            ("tool_length", self.tool_length.abs() <= MAX_INPUT),
+            ("table_clearance", self.table_clearance.is_none_or(|least| least.abs() <= MAX_INPUT)),
+            ("tool_radius", self.tool_radius.abs() <= MAX_INPUT),
+            ("phi2", self.phi2.abs() <= MAX_INPUT),
+            ("phi1", from.abs() <= MAX_INPUT && to.abs() <= MAX_INPUT && turn),
+            ("cell", (FINEST_CELL..=MAX_INPUT).contains(&self.cell)),
         ];
         match checks.into_iter().find(|(_, holds)| !holds) {
             Some((field, _)) => Err(WorkspaceError::OutOfDomain { field }),

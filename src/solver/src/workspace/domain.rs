@@ -7,12 +7,12 @@ use std::f64::consts::{PI, TAU};
 use super::column::Column;
 use super::image::Image;
 use super::request::{Kind, Request};
-use crate::inverse::first_leg::FirstLeg;
-use crate::jacobian::{determinant, matrix};
+use crate::inverse::leg_one_cubic::LegOneCubic;
 use crate::limit::{Constraint, Element};
 use crate::machine::Machine;
 use crate::margins::cone::Columns;
 use crate::margins::interference;
+use crate::parallel_matrix::{determinant, matrix};
 use crate::rods::Rods;
 use crate::table::table_angles;
 use floor::Floor;
@@ -96,7 +96,7 @@ impl<'a> Domain<'a> {
             if (INTERFERENCE..STROKES).contains(&limit) { 0.0 } else { self.with_rods(limit, column, &rods) }
         });
         let g = self.machine.geometry();
-        let distances = interference::nearest_by_legs(g, &rods);
+        let distances = interference::least_distances_by_legs(g, &rods);
         values[INTERFERENCE..STROKES].copy_from_slice(&distances.map(|d| d - 2.0 * g.rod_radius));
         values
     }
@@ -108,29 +108,30 @@ impl<'a> Domain<'a> {
 
     #[inline]
     pub(super) fn rods(&self, column: &Column) -> Rods {
-        let d = &self.machine.derived;
+        let d = &self.machine.mechanism;
         let x = [column.x + d.e1, column.x + d.e2];
         Rods::new(self.machine.geometry(), &d.inverse_lengths, x, column.y, column.f, [column.c, column.s])
     }
 
     #[inline]
     pub(super) fn with_rods(&self, limit: usize, column: &Column, rods: &Rods) -> f64 {
-        let (g, d, limits) = (self.machine.geometry(), &self.machine.derived, self.machine.limits());
+        let (g, home, limits) = (self.machine.geometry(), &self.machine.home, self.machine.limits());
         match limit {
-            0 => FirstLeg::new(self.machine, column.x, column.y).slack(),
+            0 => LegOneCubic::new(&self.machine.mechanism, column.x, column.y).closing_margin(),
             1 => g.R1 * column.c - g.r1,
             2 | 3 => rods.vectors[limit - 2][2] - limits.serial_margin * g.L1,
             4 => column.square[1] - (limits.serial_margin * g.L2).powi(2),
             5 => column.square[2] - (limits.serial_margin * g.L3).powi(2),
-            6 => determinant(&matrix(g, rods)) * d.home_det.signum() - limits.parallel_margin,
-            7..=10 => self.chords[0] - chord(axis(&d.slider_axes, limit - 7), rods.directions[limit - 7]),
+            6 => determinant(&matrix(g, rods)) * home.det.signum() - limits.parallel_margin,
+            7..=10 => self.chords[0] - chord(axis(&home.slider_axes, limit - 7), rods.directions[limit - 7]),
             11..=14 => {
                 let [x, y, z] = rods.directions[limit - 11];
                 let (c, s) = (rods.c, rods.s);
-                self.chords[1] - chord(axis(&d.platform_axes, limit - 11), [x, c * y + s * z, c * z - s * y])
+                self.chords[1]
+                    - chord(axis(&home.platform_axes, limit - 11), [x, c * y + s * z, c * z - s * y])
             }
             INTERFERENCE..STROKES => {
-                interference::nearest_by_legs(g, rods)[limit - INTERFERENCE] - 2.0 * g.rod_radius
+                interference::least_distances_by_legs(g, rods)[limit - INTERFERENCE] - 2.0 * g.rod_radius
             }
             STROKES..TILT => self.stroke(limit - STROKES, column),
             TILT..TABLE => self.tilt(limit - TILT, column),
@@ -210,7 +211,7 @@ impl<'a> Domain<'a> {
         if found.constraint != Constraint::RodInterference {
             return found;
         }
-        let (_, [a, b]) = interference::nearest(self.machine.geometry(), &self.rods(&self.column(at)));
+        let (_, [a, b]) = interference::least_distance(self.machine.geometry(), &self.rods(&self.column(at)));
         Binding { element: Element::Rods(a, b), ..found }
     }
 
@@ -254,7 +255,7 @@ impl<'a> Domain<'a> {
 
     /// A rectangle, `[least, greatest]`, that contains the domain: no leg reaches beyond it.
     pub(super) fn rectangle(&self) -> [[f64; 2]; 2] {
-        let (g, d) = (self.machine.geometry(), &self.machine.derived);
+        let (g, d) = (self.machine.geometry(), &self.machine.mechanism);
         let second = g.L2.min(g.L3);
         let least = (-d.e1 - g.L1).max(-d.e2 - second);
         let greatest = (g.L1 - d.e1).min(second - d.e2);

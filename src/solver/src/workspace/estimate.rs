@@ -32,8 +32,8 @@ const COARSE: f64 = 0.02;
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
-///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`MAX_INPUT`](crate::MAX_INPUT) or,
+///   for the tolerance, below 0.001 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 ///
 /// # Examples

@@ -97,7 +97,7 @@ fn feasible_place(domain: &Domain<'_>, [low, high]: [[f64; 2]; 2], number: u32) 
 /// Classifies the solutions at a point of the workspace other than the known one.
 fn others(machine: &Machine, request: &Request, known: Point, point: Point) -> Others {
     let clearance = request.clearance(machine);
-    let same = SAME * machine.derived.scale;
+    let same = SAME * machine.mechanism.longest;
     let found = every_working(machine, request, point);
     let others = found.iter().filter(|posture| {
         let pose = &posture.pose;

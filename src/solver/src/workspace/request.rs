@@ -3,8 +3,8 @@
 use std::fmt;
 
 use crate::clearance::Clearance;
-use crate::limit::DOMAIN;
 use crate::machine::Machine;
+use crate::request_range::MAX_INPUT;
 
 /// The reference point and the frame of a workspace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,7 +45,7 @@ pub(super) const FINEST: f64 = 1e-3;
 /// The reason why a workspace was not computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WorkspaceError {
-    /// A number is not finite, is beyond [`DOMAIN`] or, if it is the tolerance, is below 0.001 mm.
+    /// A number is not finite, is beyond [`MAX_INPUT`] or, if it is the tolerance, is below 0.001 mm.
     OutOfDomain {
         /// The request's field.
         field: &'static str,
@@ -102,11 +102,11 @@ impl Request {
             ("tool_radius", self.tool_radius),
         ];
         for (field, number) in numbers {
-            if number.is_nan() || number.abs() > DOMAIN {
+            if number.is_nan() || number.abs() > MAX_INPUT {
                 return Err(WorkspaceError::OutOfDomain { field });
             }
         }
-        if (FINEST..=DOMAIN).contains(&self.tolerance) {
+        if (FINEST..=MAX_INPUT).contains(&self.tolerance) {
             Ok(())
         } else {
             Err(WorkspaceError::OutOfDomain { field: "tolerance" })

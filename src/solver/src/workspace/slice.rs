@@ -8,8 +8,8 @@ use super::domain::Domain;
 use super::observer::{Observer, go_on};
 use super::plane::{ATTEMPTS, Plane};
 use super::request::{Request, WorkspaceError};
-use crate::limit::DOMAIN;
 use crate::machine::Machine;
+use crate::request_range::MAX_INPUT;
 
 pub use contour::Contour;
 
@@ -43,8 +43,8 @@ pub struct Slice {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: `height` or a number of the request is not finite, beyond [`DOMAIN`] or, for the
-///   tolerance, below 0.001 mm.
+/// - [`WorkspaceError::OutOfDomain`]: `height` or a number of the request is not finite, beyond [`MAX_INPUT`] or, for
+///   the tolerance, below 0.001 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 /// - [`WorkspaceError::TooFine`]: the cut has more vertices than 32 bits can number.
 /// - [`WorkspaceError::Open`]: the outlines could not be closed on any of three lattices.
@@ -82,7 +82,7 @@ pub fn slice(
     observer: &dyn Observer,
 ) -> Result<Slice, WorkspaceError> {
     request.check()?;
-    if height.is_nan() || height.abs() > DOMAIN {
+    if height.is_nan() || height.abs() > MAX_INPUT {
         return Err(WorkspaceError::OutOfDomain { field: "height" });
     }
     go_on(observer)?;

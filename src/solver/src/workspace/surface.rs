@@ -46,8 +46,8 @@ pub struct Surface {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
-///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`MAX_INPUT`](crate::MAX_INPUT) or,
+///   for the tolerance, below 0.001 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 /// - [`WorkspaceError::TooFine`]: the surface has more vertices than 32 bits can number.
 /// - [`WorkspaceError::Open`]: the surface could not be closed on any of three lattices.
@@ -94,8 +94,8 @@ pub fn surface(
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`DOMAIN`](crate::DOMAIN) or, for
-///   the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`MAX_INPUT`](crate::MAX_INPUT) or,
+///   for the tolerance, below 0.001 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 /// - [`WorkspaceError::TooFine`]: the surface has more vertices than 32 bits can number.
 /// - [`WorkspaceError::Open`]: the surface could not be closed on any of three lattices.

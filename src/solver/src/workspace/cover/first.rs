@@ -12,7 +12,7 @@
 
 use super::super::domain::Domain;
 use super::interval::Interval;
-use crate::inverse::first_leg::FirstLeg;
+use crate::inverse::leg_one_cubic::LegOneCubic;
 
 /// Least drop of a rod that counts as more than zero, over its length. The part of the domain that this neglects is
 /// narrower than the rounding error of a position.
@@ -33,14 +33,14 @@ pub(super) struct First {
 impl First {
     /// The ranges over a box; `None` if leg I is nowhere in the working mode there.
     pub(super) fn over(domain: &Domain<'_>, [low, high]: [[f64; 2]; 2]) -> Option<Self> {
-        let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
+        let (g, d) = (domain.machine.geometry(), &domain.machine.mechanism);
         let margin = domain.machine.limits().serial_margin * g.L1;
         let x = Interval::new(low[0] + d.e1, high[0] + d.e1);
         let y = Interval::new(low[1], high[1]);
         let nearest = |i: Interval| i.low.max(-i.high).max(0.0);
-        let leg = |x: f64, y: f64| FirstLeg::new(domain.machine, x - d.e1, y).nearest();
+        let leg = |x: f64, y: f64| LegOneCubic::new(&domain.machine.mechanism, x - d.e1, y).nearest();
         let room = |w: f64, s: f64| w - g.R1 * s - margin;
-        let slack = 1e-11 * d.scale;
+        let slack = 1e-11 * d.longest;
         let near = leg(nearest(x), nearest(y))?;
         let near_s = near.s.abs();
         if g.R1 * near.c - g.r1 < -slack || room(near.w1, near_s) < -slack {
@@ -67,7 +67,7 @@ impl First {
 
     /// d(alpha)/dx and d(alpha)/dy, given sin alpha and X1.
     pub(super) fn angle_rates(&self, domain: &Domain<'_>, s: Interval, x: Interval) -> [Interval; 2] {
-        let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
+        let (g, d) = (domain.machine.geometry(), &domain.machine.mechanism);
         let w = self.w;
         let u = self.c.times(g.R1).plus(-g.r1).clamp(0.0, f64::INFINITY);
         let v = s.times(g.R1);

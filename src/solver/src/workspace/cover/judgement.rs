@@ -66,7 +66,7 @@ pub(super) fn judged(domain: &Domain<'_>, place: Rectangle, pending: u32) -> Jud
 
 /// The size of a limit's values.
 fn unit(domain: &Domain<'_>, limit: usize) -> f64 {
-    let scale = domain.machine.derived.scale;
+    let scale = domain.machine.mechanism.longest;
     match limit {
         4 | 5 => scale * scale,
         INTERFERENCE..TILT | TABLE => scale,
@@ -87,7 +87,7 @@ pub(super) fn all_limits(domain: &Domain<'_>) -> u32 {
 /// The part of the legs' reach in which a parallelogram's rods keep their distance. That distance depends on x alone
 /// and falls with |x + e2|.
 pub(super) fn parallelograms_apart(domain: &Domain<'_>) -> Option<Rectangle> {
-    let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
+    let (g, d) = (domain.machine.geometry(), &domain.machine.mechanism);
     let (width, least) = (2.0 * g.parallelogram_half_width, 2.0 * g.rod_radius);
     if width < least {
         return None;

@@ -11,6 +11,7 @@ use super::super::image::Image;
 use super::first::{FLAT, First};
 use super::interval::{Interval, Jet};
 use super::separation::separation;
+use crate::parallel_matrix::determinant;
 use crate::rods::Rods;
 
 /// First of the limits of rods other than leg I's two.
@@ -44,7 +45,7 @@ pub(super) struct Ranges<'a> {
 impl<'a> Ranges<'a> {
     /// The ranges over a box; `None` if leg I is nowhere in the working mode there.
     pub(super) fn over(domain: &'a Domain<'a>, [low, high]: [[f64; 2]; 2]) -> Option<Self> {
-        let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
+        let (g, d) = (domain.machine.geometry(), &domain.machine.mechanism);
         let first = First::over(domain, [low, high])?;
         let side = if low[1] >= 0.0 { 1.0 } else { -1.0 };
         let signed = |size: Interval| size.times(-side);
@@ -154,8 +155,8 @@ impl<'a> Ranges<'a> {
 
     /// The squared chord of the half-angle less that of a rod's angle from its axis.
     fn cone(&self, rod: usize, platform: bool) -> Jet {
-        let d = &self.domain.machine.derived;
-        let axes = if platform { &d.platform_axes } else { &d.slider_axes };
+        let (d, home) = (&self.domain.machine.mechanism, &self.domain.machine.home);
+        let axes = if platform { &home.platform_axes } else { &home.slider_axes };
         let [ax, ay, az] = [axes[0][rod], axes[1][rod], axes[2][rod]];
         let [x, y, z] = self.vectors[rod];
         let along = if platform {
@@ -169,21 +170,16 @@ impl<'a> Ranges<'a> {
     }
 
     fn determinant(&self) -> Jet {
-        let (g, d) = (self.domain.machine.geometry(), &self.domain.machine.derived);
+        let (g, d) = (self.domain.machine.geometry(), &self.domain.machine.mechanism);
         let ratio = g.R2 / g.R1;
         let arms = [1.0, -1.0, -ratio, ratio];
         let m = [0, 1, 2, 3].map(|i| {
             let [x, y, z] = self.vectors[i].map(|part| part.times(d.inverse_lengths[i]));
             [x, y, z, (self.c * z - self.s * y).times(arms[i])]
         });
-        let upper = |i: usize, j: usize| m[0][i] * m[1][j] - m[0][j] * m[1][i];
-        let lower = |i: usize, j: usize| m[2][i] * m[3][j] - m[2][j] * m[3][i];
-        let det = upper(0, 1) * lower(2, 3) - upper(0, 2) * lower(1, 3)
-            + upper(0, 3) * lower(1, 2)
-            + upper(1, 2) * lower(0, 3)
-            - upper(1, 3) * lower(0, 2)
-            + upper(2, 3) * lower(0, 1);
-        det.times(d.home_det.signum()).plus(-self.domain.machine.limits().parallel_margin)
+        determinant(&m)
+            .times(self.domain.machine.home.det.signum())
+            .plus(-self.domain.machine.limits().parallel_margin)
     }
 
     /// z - rho of each slider.

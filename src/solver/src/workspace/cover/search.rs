@@ -85,7 +85,7 @@ impl Search<'_> {
     }
 
     fn is_due(&self, task: &Task, reach: f64) -> bool {
-        let least = SMALLEST * self.domain.machine.derived.scale;
+        let least = SMALLEST * self.domain.machine.mechanism.longest;
         task.size > least
             && match self.purpose {
                 Purpose::Lines => task.event,

@@ -6,8 +6,8 @@
 
 use super::interval::{Interval, Jet};
 use super::ranges::Ranges;
-use crate::machine::Geometry;
 use crate::margins::interference::square_distance;
+use crate::mechanism::Geometry;
 use crate::rods::FAMILY;
 
 /// Pairs of rods of different legs, as indices of the six. Rods 22 and 32 are at the same distance as 21 and 31.
@@ -102,7 +102,7 @@ fn gap(g: &Geometry, ranges: &Ranges<'_>, pair: [usize; 2]) -> Vector {
 /// The difference of two rods' vectors, which is small where they are nearly parallel. It does not contain the
 /// platform's x and y.
 fn difference(ranges: &Ranges<'_>, pair: [usize; 2]) -> Vector {
-    let (g, d) = (ranges.domain.machine.geometry(), &ranges.domain.machine.derived);
+    let (g, d) = (ranges.domain.machine.geometry(), &ranges.domain.machine.mechanism);
     // The vectors' x - x of the platform, and y less that of the platform as a cos alpha + b.
     let parts = pair.map(|rod| match FAMILY[rod] {
         0 => [d.e1, g.R1, -g.r1],

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use super::super::domain::{Binding, stroke_binding};
 use super::super::path::{Limits, intervals};
 use super::section::{ALPHA, Piece, Setting};
-use crate::angle::sin_cos;
+use crate::fast_math::sin_cos;
 
 /// Least number of samples along a circle.
 const LOOKS: f64 = 24.0;

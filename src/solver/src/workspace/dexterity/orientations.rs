@@ -5,9 +5,10 @@ use super::super::request::WorkspaceError;
 use super::DexterityRequest;
 use super::arc::{Arc, arcs, turns};
 use super::section::{Piece, Setting};
-use crate::limit::{Constraint, DOMAIN, Element};
+use crate::limit::{Constraint, Element};
 use crate::machine::Machine;
 use crate::pose::Point;
+use crate::request_range::MAX_INPUT;
 
 /// Intervals that are less than this apart are one, rad.
 const APART: f64 = 1e-9;
@@ -35,8 +36,8 @@ pub struct Interval {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number or `point` is not finite or beyond [`DOMAIN`], the range of phi1 is not
-///   ordered or longer than a revolution, or the cell is below 0.1 mm.
+/// - [`WorkspaceError::OutOfDomain`]: a number or `point` is not finite or beyond [`MAX_INPUT`], the range of phi1 is
+///   not ordered or longer than a revolution, or the cell is below 0.1 mm.
 ///
 /// # References
 ///
@@ -71,7 +72,7 @@ pub fn orientations(
     request: &DexterityRequest,
 ) -> Result<Vec<Interval>, WorkspaceError> {
     request.check()?;
-    if !point.iter().all(|coordinate| coordinate.abs() <= DOMAIN) {
+    if !point.iter().all(|coordinate| coordinate.abs() <= MAX_INPUT) {
         return Err(WorkspaceError::OutOfDomain { field: "point" });
     }
     let setting = Setting::new(machine, request);

@@ -152,7 +152,7 @@ impl<'a> Setting<'a> {
             let precise = |[a, middle, b]: [&Look; 3]| {
                 let part = a.part(b, middle.eta);
                 let off = |n: usize| (a.cubic(b, part, n) - middle.values[n]).abs();
-                let turned = off(3) * self.machine.derived.scale;
+                let turned = off(3) * self.machine.mechanism.longest;
                 off(0).max(off(1)).max(off(2)).max(turned) <= PRECISE
             };
             let enough = all.windows(3).step_by(2).all(|three| precise([&three[0], &three[1], &three[2]]));

@@ -52,8 +52,8 @@ pub(super) struct Row {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`DOMAIN`](crate::DOMAIN), the range of phi1 is
-///   not ordered or longer than a revolution, or the cell is below 0.1 mm.
+/// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`MAX_INPUT`](crate::MAX_INPUT), the range of
+///   phi1 is not ordered or longer than a revolution, or the cell is below 0.1 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 ///
 /// # References

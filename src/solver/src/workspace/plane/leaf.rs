@@ -258,7 +258,7 @@ impl<'a> Leaf<'a> {
         let mut site = Site::new(self.domain, drawn(part));
         // A crease of the common sheet ends where two limits of the strokes meet.
         for value in &mut site.values[CREASES..] {
-            if value.abs() <= SAME * self.domain.machine.derived.scale {
+            if value.abs() <= SAME * self.domain.machine.mechanism.longest {
                 *value = 0.0;
             }
         }

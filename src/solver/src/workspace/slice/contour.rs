@@ -29,7 +29,7 @@ pub struct Contour {
 /// Eliminating w1 from (A): X1² + y² (1 + u²/v²) = L1² - C + k cos a, an ellipse in (X1, y); the
 /// working mode is on the half where y and sin a have different signs.
 pub(super) fn at(domain: &Domain<'_>, alpha: f64, tolerance: f64) -> Vec<Contour> {
-    let (g, d) = (domain.machine.geometry(), &domain.machine.derived);
+    let (g, d) = (domain.machine.geometry(), &domain.machine.mechanism);
     let (s, c) = alpha.sin_cos();
     let (u, v) = (g.R1 * c - g.r1, g.R1 * s);
     let square = g.L1 * g.L1 - d.c + d.k * c;

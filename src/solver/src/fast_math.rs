@@ -1,11 +1,11 @@
-//! Circular functions for the inner loops, without calls and almost without branches, so that a processor works on
-//! several at once. The standard library's functions take two to three times as long because they round the last half
-//! unit correctly. No length here needs that.
+//! Elementary functions for the inner loops, without calls and almost without branches, so that a processor computes
+//! several at once. The standard library's circular functions take two to three times as long because they round the
+//! last half unit correctly. No length here needs that.
 
-use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, PI, TAU};
 
 /// Angle up to which its quarter turns are split off exactly.
-const MOST: f64 = 1e5;
+const MAX_ANGLE: f64 = 1e5;
 /// A quarter of a turn: its first 33 bits, and the rest.
 const QUARTER: [f64; 2] = [1.570_796_326_734_125_6, 6.077_100_506_506_192e-11];
 /// A constant that, added to a number below 2^51, leaves the nearest integer in the last bits.
@@ -48,7 +48,7 @@ fn polynomial<const N: usize>(pairs: &[[f64; 2]; N], x: f64) -> f64 {
 /// sin and cos of an angle, to about a unit in the last place.
 #[inline]
 pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
-    if angle.abs() < MOST { sin_cos_of_turn(angle) } else { angle.sin_cos() }
+    if angle.abs() < MAX_ANGLE { sin_cos_of_turn(angle) } else { angle.sin_cos() }
 }
 
 /// [`sin_cos`] of an angle that is known to be within some turns.
@@ -88,12 +88,36 @@ pub(crate) fn angle_of(c: f64, s: f64) -> f64 {
     if angle <= -PI { PI } else { angle }
 }
 
+/// An angle that is at most a turn outside (-π, π], shifted into it.
+#[inline]
+pub(crate) fn wrapped(angle: f64) -> f64 {
+    if angle > PI {
+        angle - TAU
+    } else if angle <= -PI {
+        angle + TAU
+    } else {
+        angle
+    }
+}
+
+/// The greater of two numbers: a single instruction, unlike `f64::max`, which looks for NaNs.
+#[inline]
+pub(crate) fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The lesser of two numbers.
+#[inline]
+pub(crate) fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn sines_and_cosines_are_the_library_s() {
+    fn sines_and_cosines_equal_the_standard_library() {
         for i in -100_000..=100_000 {
             let angle = f64::from(i) * 1.234e-3;
             let ((s, c), (sin, cos)) = (sin_cos(angle), angle.sin_cos());
@@ -104,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn the_quotient_is_the_arc_sine() {
+    fn the_quotient_equals_the_arc_sine() {
         for i in -700..=700 {
             let x = f64::from(i) * 1.01e-3;
             assert!((asin(x, x * x) - x.asin()).abs() <= 4e-16 * x.abs(), "{x}");
@@ -112,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn every_direction_has_its_angle() {
+    fn every_direction_returns_its_angle() {
         for i in -3141..=3141 {
             let angle = f64::from(i) * 1e-3;
             assert!((angle_of(angle.cos(), angle.sin()) - angle).abs() <= 1e-15, "{angle}");

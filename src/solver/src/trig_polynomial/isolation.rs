@@ -1,20 +1,30 @@
-//! Certified isolation of all real roots; the method is described in [`crate::circle`].
+//! Certified isolation of all real roots; the method is described in [`crate::trig_polynomial`].
 
 use std::f64::consts::TAU;
 
 use super::grid::{NODES, STEP, node_angle, on_grid};
-use super::polynomial::{Jet, TrigPolynomial};
+use super::polynomial::{TrigPolynomial, ValueAndSlope};
 
-/// An arc that holds roots, as `[low, high]` with `low < high`.
+/// An arc `[low, high]` that holds roots, with `low < high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Site {
-    /// Exactly one root, simple, near `start`.
-    Crossing { low: f64, high: f64, start: f64 },
+pub(crate) struct RootArc {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    /// The angle that [`Self::roots`] refers to.
+    pub(crate) at: f64,
+    pub(crate) roots: ArcRoots,
+}
+
+/// The roots of an arc.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ArcRoots {
+    /// Exactly one root, simple, near `at`.
+    One,
     /// Two simple roots, one at either side of `at`.
-    Pair { low: f64, high: f64, at: f64 },
+    Two,
     /// The polynomial comes so close to zero at `at`, its only extremum on the arc, that its own rounding cannot
     /// distinguish two roots from none.
-    Touch { low: f64, high: f64, at: f64 },
+    NearDouble,
 }
 
 /// Factor of the fourth derivative's bound in the Hermite interpolant's error (of its value,
@@ -22,7 +32,7 @@ pub(crate) enum Site {
 const ERROR: [f64; 3] = [1.0 / 384.0, 0.008_02, 1.0 / 12.0];
 /// Arcs are not split below this width.
 const NARROWEST: f64 = 1e-7;
-/// Steps to an extremum. Most arcs are certain after one or two; a touch takes them all.
+/// Steps to an extremum. Most arcs are certain after one or two; a near double root takes them all.
 const EXTREMUM_STEPS: usize = 40;
 /// Angle by which the grid is rotated if a root lies on a node. There are ten distinct grids and at most eight roots,
 /// so one grid is free of them.
@@ -30,60 +40,52 @@ const TURN: f64 = STEP / 11.0;
 /// The point at which an arc is split: the middle, or next to it if a root is exactly there.
 const SPLITS: [f64; 4] = [0.5, 0.41, 0.59, 0.33];
 
-/// Reports all sites on the arcs of the grid that meet `|θ| <= range`, by ascending angle. `noise` bounds the
+/// Reports the arcs with roots among those of the grid that meet `|θ| <= range`, by ascending angle. `noise` bounds the
 /// polynomial's own error: smaller values count as zero.
 #[inline]
-pub(crate) fn isolate<const M: usize>(
+pub(crate) fn isolate_roots<const M: usize>(
     poly: &TrigPolynomial<M>,
     noise: f64,
     range: f64,
-    show: &mut impl FnMut(Site),
+    report: &mut impl FnMut(RootArc),
 ) {
     let values = on_grid(poly);
     if values.iter().all(|value| value.abs() > noise) {
-        walk(poly, &values, noise, range, show);
+        isolate_on_grid(poly, &values, noise, range, report);
     } else {
-        isolate_turned(poly, noise, range, show);
+        isolate_on_turned_grid(poly, noise, range, report);
     }
 }
 
-/// Like [`isolate`], for a polynomial with a root on a node of the grid.
+/// Like [`isolate_roots`], for a polynomial with a root on a node of the grid.
 #[cold]
-fn isolate_turned<const M: usize>(
+fn isolate_on_turned_grid<const M: usize>(
     poly: &TrigPolynomial<M>,
     noise: f64,
     range: f64,
-    show: &mut impl FnMut(Site),
+    report: &mut impl FnMut(RootArc),
 ) {
     let least =
         |angle: f64| on_grid(&poly.turned(angle)).iter().fold(f64::INFINITY, |m, value| m.min(value.abs()));
     let angles = (1..=10).map(|turn| f64::from(turn) * TURN);
     let turn = angles.max_by(|a, b| least(*a).total_cmp(&least(*b))).unwrap_or(TURN);
     let turned = poly.turned(turn);
-    walk(&turned, &on_grid(&turned), noise, range + STEP, &mut |site| {
-        show(match site {
-            Site::Crossing { low, high, start } => {
-                Site::Crossing { low: low + turn, high: high + turn, start: start + turn }
-            }
-            Site::Pair { low, high, at } => Site::Pair { low: low + turn, high: high + turn, at: at + turn },
-            Site::Touch { low, high, at } => {
-                Site::Touch { low: low + turn, high: high + turn, at: at + turn }
-            }
-        });
+    isolate_on_grid(&turned, &on_grid(&turned), noise, range + STEP, &mut |found| {
+        report(RootArc { low: found.low + turn, high: found.high + turn, at: found.at + turn, ..found });
     });
 }
 
 #[inline]
-fn walk<const M: usize>(
+fn isolate_on_grid<const M: usize>(
     poly: &TrigPolynomial<M>,
     values: &[f64; NODES],
     noise: f64,
     range: f64,
-    show: &mut impl FnMut(Site),
+    report: &mut impl FnMut(RootArc),
 ) {
     let slopes = on_grid(&poly.derivative());
     let search = Search { poly, noise, fourth: poly.bound(4) };
-    let slack = search.slack(0, STEP);
+    let error = search.interpolation_error(0, STEP);
     for i in 0..NODES {
         let next = (i + 1) % NODES;
         let arc = Arc {
@@ -93,8 +95,8 @@ fn walk<const M: usize>(
             slope: [slopes[i], slopes[next]],
         };
         let inside = arc.low <= range && arc.low + STEP >= -range || arc.low + STEP >= TAU - range;
-        if inside && one_sign(arc.control_points(), slack).is_none() {
-            search.resolve(&arc, show);
+        if inside && one_sign(arc.control_points(), error).is_none() {
+            search.resolve(&arc, report);
         }
     }
 }
@@ -134,41 +136,42 @@ impl Arc {
         self.low + self.width * if improved > 0.0 && improved < 1.0 { improved } else { t }
     }
 
-    fn split(&self, at: f64, jet: Jet) -> (Self, Self) {
+    fn split(&self, at: f64, point: ValueAndSlope) -> (Self, Self) {
         let ([a, b], [da, db]) = (self.value, self.slope);
-        let (value, slope) = ([a, jet.value], [da, jet.slope]);
+        let (value, slope) = ([a, point.value], [da, point.slope]);
         let left = Self { low: self.low, width: at - self.low, value, slope };
-        let (value, slope) = ([jet.value, b], [jet.slope, db]);
+        let (value, slope) = ([point.value, b], [point.slope, db]);
         (left, Self { low: at, width: self.high() - at, value, slope })
     }
 
-    /// An arc of one curvature with a point of the other sign than its bend: a root at either side
+    /// Reports the roots of an arc of one curvature with a point of the other sign than its bend: one at each side
     /// where the end's sign differs.
-    fn show_crossed(&self, at: f64, jet: Jet, show: &mut impl FnMut(Site)) {
-        let (left, right) = self.split(at, jet);
+    fn report_crossings(&self, at: f64, point: ValueAndSlope, report: &mut impl FnMut(RootArc)) {
+        let (left, right) = self.split(at, point);
         match (left.crossing(), right.crossing()) {
-            (Some(_), Some(_)) => show(Site::Pair { low: self.low, high: self.high(), at }),
-            (one, other) => {
-                push(show, one);
-                push(show, other);
-            }
+            (Some(_), Some(_)) => report(self.holding(ArcRoots::Two, at)),
+            (one, other) => one.into_iter().chain(other).for_each(report),
         }
     }
 
-    fn crossing(&self) -> Option<Site> {
+    fn holding(&self, roots: ArcRoots, at: f64) -> RootArc {
+        RootArc { low: self.low, high: self.high(), at, roots }
+    }
+
+    fn crossing(&self) -> Option<RootArc> {
         let crosses = (self.value[0] < 0.0) != (self.value[1] < 0.0);
-        crosses.then(|| Site::Crossing { low: self.low, high: self.high(), start: self.interpolated_root() })
+        crosses.then(|| self.holding(ArcRoots::One, self.interpolated_root()))
     }
 }
 
-/// The common sign of all numbers, if each exceeds `slack`.
+/// The common sign of all numbers, if each exceeds `error`.
 #[inline]
-fn one_sign<const N: usize>(numbers: [f64; N], slack: f64) -> Option<f64> {
+fn one_sign<const N: usize>(numbers: [f64; N], error: f64) -> Option<f64> {
     let least = numbers.iter().fold(f64::INFINITY, |m, &n| m.min(n));
     let most = numbers.iter().fold(f64::NEG_INFINITY, |m, &n| m.max(n));
-    if least > slack {
+    if least > error {
         Some(1.0)
-    } else if most < -slack {
+    } else if most < -error {
         Some(-1.0)
     } else {
         None
@@ -184,80 +187,74 @@ struct Search<'a, const M: usize> {
 impl<const M: usize> Search<'_, M> {
     /// Error of the interpolant's `power`-th derivative on an arc.
     #[inline]
-    fn slack(&self, power: usize, width: f64) -> f64 {
+    fn interpolation_error(&self, power: usize, width: f64) -> f64 {
         let square = width * width;
         let scaled = [square * square, square * width, square][power];
         ERROR[power] * self.fourth * scaled
     }
 
-    fn resolve(&self, arc: &Arc, show: &mut impl FnMut(Site)) {
+    fn resolve(&self, arc: &Arc, report: &mut impl FnMut(RootArc)) {
         let [b0, b1, b2, b3] = arc.control_points();
-        if one_sign([b0, b1, b2, b3], self.slack(0, arc.width)).is_some() {
+        if one_sign([b0, b1, b2, b3], self.interpolation_error(0, arc.width)).is_some() {
             return;
         }
         let slopes = [arc.slope[0], 3.0 * (b2 - b1) / arc.width, arc.slope[1]];
-        if one_sign(slopes, self.slack(1, arc.width)).is_some() {
-            push(show, arc.crossing());
+        if one_sign(slopes, self.interpolation_error(1, arc.width)).is_some() {
+            arc.crossing().into_iter().for_each(report);
             return;
         }
         let scale = 6.0 / (arc.width * arc.width);
         let curvatures = [scale * (b2 - 2.0 * b1 + b0), scale * (b3 - 2.0 * b2 + b1)];
-        if let Some(bent) = one_sign(curvatures, self.slack(2, arc.width)) {
+        if let Some(bent) = one_sign(curvatures, self.interpolation_error(2, arc.width)) {
             if (arc.slope[0] < 0.0) == (arc.slope[1] < 0.0) {
-                push(show, arc.crossing());
+                arc.crossing().into_iter().for_each(report);
             } else {
-                self.around_extremum(arc, bent, show);
+                self.around_extremum(arc, bent, report);
             }
             return;
         }
-        self.halves(arc, show);
+        self.halve(arc, report);
     }
 
     /// An arc of one curvature with its extremum inside: the slope's zero is approached until the
     /// arc's roots are certain.
-    fn around_extremum(&self, arc: &Arc, bent: f64, show: &mut impl FnMut(Site)) {
+    fn around_extremum(&self, arc: &Arc, bent: f64, report: &mut impl FnMut(RootArc)) {
         let (mut low, mut high) = ((arc.low, arc.slope[0]), (arc.high(), arc.slope[1]));
         let mut at = arc.low;
         for step in 1..EXTREMUM_STEPS {
             // Secant steps, and a bisection now and then: the first are fast, the second is certain.
             let part = if step % 3 == 0 { 0.5 } else { low.1 / (low.1 - high.1) };
             at = low.0 + (high.0 - low.0) * part;
-            let jet = self.poly.at(at);
-            if jet.value * bent < -self.noise {
-                arc.show_crossed(at, jet, show);
+            let point = self.poly.at(at);
+            if point.value * bent < -self.noise {
+                arc.report_crossings(at, point, report);
                 return;
             }
             // The curve lies on one side of its tangent, which is nearest to zero at a bracket's end.
-            let ends = [low.0 - at, high.0 - at].map(|offset| bent * (jet.value + jet.slope * offset));
+            let ends = [low.0 - at, high.0 - at].map(|offset| bent * (point.value + point.slope * offset));
             if ends[0].min(ends[1]) > self.noise {
                 return;
             }
-            if (jet.slope < 0.0) == (arc.slope[0] < 0.0) {
-                low = (at, jet.slope);
+            if (point.slope < 0.0) == (arc.slope[0] < 0.0) {
+                low = (at, point.slope);
             } else {
-                high = (at, jet.slope);
+                high = (at, point.slope);
             }
         }
-        show(Site::Touch { low: arc.low, high: arc.high(), at });
+        report(arc.holding(ArcRoots::NearDouble, at));
     }
 
-    fn halves(&self, arc: &Arc, show: &mut impl FnMut(Site)) {
+    fn halve(&self, arc: &Arc, report: &mut impl FnMut(RootArc)) {
         for part in SPLITS {
             let middle = arc.low + part * arc.width;
-            let jet = self.poly.at(middle);
-            if arc.width > NARROWEST && jet.value.abs() > self.noise {
-                let (left, right) = arc.split(middle, jet);
-                self.resolve(&left, show);
-                self.resolve(&right, show);
+            let point = self.poly.at(middle);
+            if arc.width > NARROWEST && point.value.abs() > self.noise {
+                let (left, right) = arc.split(middle, point);
+                self.resolve(&left, report);
+                self.resolve(&right, report);
                 return;
             }
         }
-        show(Site::Touch { low: arc.low, high: arc.high(), at: arc.low + 0.5 * arc.width });
-    }
-}
-
-fn push(show: &mut impl FnMut(Site), site: Option<Site>) {
-    if let Some(site) = site {
-        show(site);
+        report(arc.holding(ArcRoots::NearDouble, arc.low + 0.5 * arc.width));
     }
 }

@@ -9,7 +9,7 @@
 //! 1. all of one sign: no root on the arc;
 //! 2. the slope's control points of one sign: at most one root, by the signs at the ends;
 //! 3. the curvature of one sign: the arc's only extremum is found and its sign decides between
-//!    no root, two, and a *touch* that the polynomial's own rounding cannot decide;
+//!    no root, two, and a near double root that the polynomial's own rounding cannot decide;
 //! 4. otherwise the arc is halved. The error falls sixteenfold each time.
 //!
 //! Every decision is certified, so the method neither loses nor invents a root. It takes a few hundred
@@ -17,12 +17,12 @@
 //! to 30 times as much, loses θ = π and splits double roots by the square root of the rounding; the benches compare
 //! both. Sturm sequences on such coefficients lose the close pairs that matter here.
 //!
-//! A touch is not decided on the polynomial. The polynomial is a product over the sheets of the loop closure and
-//! squares a root that is simple on each; [`crate::closure`] decides it on the sheets.
+//! A near double root is not decided on the polynomial. The polynomial is a product over the branches of the loop
+//! closure and squares a root that is simple on each; [`crate::loop_closure`] decides it on the branches.
 
 mod grid;
-mod isolate;
+mod isolation;
 mod polynomial;
 
-pub(crate) use isolate::{Site, isolate};
+pub(crate) use isolation::{ArcRoots, RootArc, isolate_roots};
 pub(crate) use polynomial::{TrigPolynomial, linear};

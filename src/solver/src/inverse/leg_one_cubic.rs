@@ -10,19 +10,19 @@
 //!
 //! Where leg I is nearly level and y nearly zero both roots are near c = 1. The second one then
 //! follows from the first in t = 1 - c: the product of the three roots is known without
-//! cancellation. There E + k, the square of the drop at a = 0 and y = 0, is computed with twice
-//! the digits ([`level`]), for a rounding of L1² would decide whether the leg reaches.
+//! cancellation. There E + k, the square of the height at a = 0 and y = 0, is computed with twice
+//! the digits, for a rounding of L1² would decide whether the leg reaches.
 
 use arrayvec::ArrayVec;
 
-use super::level;
-use crate::machine::Machine;
+use super::leg_one_height::{is_nearly_level, square_at_pi, square_at_zero};
+use crate::mechanism::Mechanism;
 use crate::residual::RESIDUAL_TOLERANCE;
 
 /// Newton steps. Near a double root convergence is linear, with one bit a step.
 const STEPS: usize = 60;
 /// Relative size of the next step at which the iteration has converged.
-const SETTLED: f64 = 1e-16;
+const CONVERGED: f64 = 1e-16;
 /// Distance below which two roots are one: the square root of the rounding error. It is relative to the roots if both
 /// are near c = 1.
 const RESOLUTION: f64 = 4e-8;
@@ -34,7 +34,7 @@ const LARGE: f64 = 0.01;
 /// One angle of leg I with its slider above (s1 = +1); the mirror image (c, -s, -w1) is the
 /// solution with the slider below.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LegAngle {
+pub(crate) struct LegOneAngle {
     pub(crate) c: f64,
     pub(crate) s: f64,
     pub(crate) w1: f64,
@@ -45,32 +45,32 @@ pub(crate) struct LegAngle {
 #[derive(Clone, Copy, Debug)]
 struct Cubic([f64; 4]);
 
-/// Leg I at given x and y.
+/// Leg I at given x and y of P.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FirstLeg<'a> {
-    machine: &'a Machine,
+pub(crate) struct LegOneCubic<'a> {
+    mechanism: &'a Mechanism,
     x: f64,
     y: f64,
     /// E + k: w1² + y² at a = 0.
     at_zero: f64,
 }
 
-impl<'a> FirstLeg<'a> {
+impl<'a> LegOneCubic<'a> {
     #[inline]
-    pub(crate) fn new(machine: &'a Machine, x: f64, y: f64) -> Self {
-        Self { machine, x, y, at_zero: level::at_zero(machine, x) }
+    pub(crate) fn new(mechanism: &'a Mechanism, x: f64, y: f64) -> Self {
+        Self { mechanism, x, y, at_zero: square_at_zero(mechanism, x) }
     }
 
     /// The angle nearest to zero, where the working mode usually is.
     #[inline]
-    pub(crate) fn nearest(&self) -> Option<LegAngle> {
+    pub(crate) fn nearest(&self) -> Option<LegOneAngle> {
         let cubic = self.cubic(1.0);
         Some(self.angle(1.0, cubic.nearest()?, false))
     }
 
     /// Both angles; one if they have merged; none if the leg does not reach.
     #[inline]
-    pub(crate) fn both(&self) -> ArrayVec<LegAngle, 2> {
+    pub(crate) fn both(&self) -> ArrayVec<LegOneAngle, 2> {
         let right_side = self.cubic(1.0);
         let mut angles = ArrayVec::new();
         let Some(t) = right_side.nearest() else {
@@ -100,75 +100,75 @@ impl<'a> FirstLeg<'a> {
     #[inline]
     fn left(&self) -> Option<f64> {
         let cubic = self.cubic(-1.0);
-        let k = self.machine.derived.k;
+        let k = self.mechanism.k;
         let inflection = 1.0 - (self.at_zero - k) / (3.0 * k);
-        cubic.newton(if inflection > 0.0 { inflection } else { cubic.guess() })
+        cubic.newton(if inflection > 0.0 { inflection } else { cubic.start() })
     }
 
     /// A double root that rounding may have made complex.
     #[cold]
-    fn merged(&self, cubic: &Cubic) -> Option<LegAngle> {
+    fn merged(&self, cubic: &Cubic) -> Option<LegOneAngle> {
         let t = cubic.maximum()?;
-        let l1 = self.machine.geometry().L1;
-        let slack = if t < 1.0 && level::is_little(self.machine, self.at_zero) {
-            RESIDUAL_TOLERANCE * cubic.size(t)
+        let l1 = self.mechanism.geometry.L1;
+        let rounding = if t < 1.0 && is_nearly_level(self.mechanism, self.at_zero) {
+            RESIDUAL_TOLERANCE * cubic.magnitude(t)
         } else {
             2.0 * RESIDUAL_TOLERANCE * l1 * l1 * t * (2.0 - t)
         };
-        let inside = (0.0..2.0).contains(&t) && cubic.value(t) >= -slack;
+        let inside = (0.0..2.0).contains(&t) && cubic.value(t) >= -rounding;
         inside.then(|| self.angle(1.0, t, true))
     }
 
-    /// The angle that misses the closure least, for a leg that does not reach.
+    /// The angle with the least error of the closure, for a leg that does not reach.
     #[cold]
-    pub(crate) fn closest(&self) -> LegAngle {
-        self.angle(1.0, self.best(), true)
+    pub(crate) fn closest(&self) -> LegOneAngle {
+        self.angle(1.0, self.best_t(), true)
     }
 
     /// The greatest value of (15), over R1² L1². It is negative out of reach.
     #[inline]
-    pub(crate) fn slack(&self) -> f64 {
-        let l1 = self.machine.geometry().L1;
-        self.cubic(1.0).value(self.best()) / (l1 * l1)
+    pub(crate) fn closing_margin(&self) -> f64 {
+        let l1 = self.mechanism.geometry.L1;
+        self.cubic(1.0).value(self.best_t()) / (l1 * l1)
     }
 
     #[inline]
-    fn best(&self) -> f64 {
+    fn best_t(&self) -> f64 {
         self.cubic(1.0).maximum().unwrap_or(2.0).clamp(0.0, 2.0)
     }
 
     /// w1² + y² at c = `sign`.
     #[inline]
-    fn end(&self, sign: f64) -> f64 {
-        if sign > 0.0 { self.at_zero } else { level::at_half_a_turn(self.machine, self.x, self.at_zero) }
+    fn square_at(&self, sign: f64) -> f64 {
+        if sign > 0.0 { self.at_zero } else { square_at_pi(self.mechanism, self.x, self.at_zero) }
     }
 
     #[inline]
     fn cubic(&self, sign: f64) -> Cubic {
-        let d = &self.machine.derived;
+        let d = self.mechanism;
         let k = sign * d.k;
         let y_square = self.y * self.y;
-        let per_square = self.machine.derived.inverse_r1_square * y_square;
-        let p = self.end(sign);
+        let per_square = self.mechanism.inverse_r1_square * y_square;
+        let p = self.square_at(sign);
         Cubic([-(d.c - k) * per_square, 2.0 * p - k * per_square, -(p + 2.0 * k), k])
     }
 
     /// The angle of c = `sign` (1 - t).
     #[inline]
-    fn angle(&self, sign: f64, t: f64, merged: bool) -> LegAngle {
-        let g = self.machine.geometry();
+    fn angle(&self, sign: f64, t: f64, merged: bool) -> LegOneAngle {
+        let g = &self.mechanism.geometry;
         let c = sign * (1.0 - t);
-        let size = (t * (2.0 - t)).max(0.0).sqrt();
+        let sine = (t * (2.0 - t)).max(0.0).sqrt();
         let u = g.R1 * c - g.r1;
-        let s = -size.copysign(self.y * u);
-        let square = self.end(sign) - sign * self.machine.derived.k * t - self.y * self.y;
-        let v = g.R1 * size;
+        let s = -sine.copysign(self.y * u);
+        let square = self.square_at(sign) - sign * self.mechanism.k * t - self.y * self.y;
+        let v = g.R1 * sine;
         let w1 = if square > LARGE * g.L1 * g.L1 || v == 0.0 {
             square.max(0.0).sqrt()
         } else {
             (self.y * u / v).abs()
         };
-        LegAngle { c, s, w1, merged }
+        LegOneAngle { c, s, w1, merged }
     }
 }
 
@@ -180,14 +180,14 @@ impl Cubic {
     }
 
     /// The sum of the terms' magnitudes.
-    fn size(&self, t: f64) -> f64 {
+    fn magnitude(&self, t: f64) -> f64 {
         let [a0, a1, a2, a3] = self.0.map(f64::abs);
         a0 + t * (a1 + t * (a2 + t * a3))
     }
 
     /// The zero without the cubic term, which is small: where Newton's method begins.
     #[inline]
-    fn guess(&self) -> f64 {
+    fn start(&self) -> f64 {
         let [a0, a1, a2, _] = self.0;
         let disc = a1 * a1 - 4.0 * a0 * a2;
         if disc > 0.0 && a1 > 0.0 { -2.0 * a0 / (a1 + disc.sqrt()) } else { 0.0 }
@@ -196,7 +196,7 @@ impl Cubic {
     /// The least zero, if there is one up to 2.
     #[inline]
     fn nearest(&self) -> Option<f64> {
-        self.newton(self.guess()).or_else(|| self.newton(0.0))
+        self.newton(self.start()).or_else(|| self.newton(0.0))
     }
 
     /// The second zero from the first, t, and the quadratic that is left. Its terms all have one
@@ -229,7 +229,7 @@ impl Cubic {
             t -= step;
             // The size of the next step, if convergence is quadratic.
             let next = step * step * (a2 + 3.0 * a3 * t).abs();
-            if next <= SETTLED * t * slope {
+            if next <= CONVERGED * t * slope {
                 break;
             }
         }

@@ -1,8 +1,8 @@
 //! The table, as Markdown.
 
-use crate::finders::FINDERS;
+use crate::candidates::FORWARD;
 use crate::harness::Candidate;
-use crate::questions::FORWARD;
+use crate::root_finders::FINDERS;
 
 /// Factor by which the forward problem should be faster than every general root finder.
 const AHEAD: f64 = 5.0;

@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn grid_values_are_the_polynomial_s() {
+    fn grid_values_equal_the_polynomial() {
         let square = linear(0.3, -1.2, 2.0).times(&linear(1.0, 0.5, -0.25)).squared();
         let poly = square.plus(1.0, &linear(0.2, 0.3, -0.9).raised());
         for (i, value) in on_grid(&poly).into_iter().enumerate() {

@@ -1,24 +1,24 @@
-//! The candidates: the yardsticks and every entry point of the solver.
+//! The candidates: the baselines and every entry point of the solver.
 
 use verne_solver::{
     Machine, Margins, forward, forward_working, part, part_working, platform, platform_working, tool,
     tool_working,
 };
 
-use crate::finders::FINDERS;
 use crate::harness::Candidate;
 use crate::inputs::{Inputs, TOOL};
-use crate::{eliminated, newton};
+use crate::root_finders::FINDERS;
+use crate::{eliminated_newton, newton};
 
 /// The solver's row with which general root finders are compared.
 pub(crate) const FORWARD: &str = "FK, all assembly modes";
 
 /// All candidates in the order of the table, the baseline first.
-pub(crate) fn candidates<'a>(machine: &'a Machine, inputs: &'a Inputs) -> Vec<Candidate<'a>> {
+pub(crate) fn all<'a>(machine: &'a Machine, inputs: &'a Inputs) -> Vec<Candidate<'a>> {
     let mut candidates = vec![
         Candidate::new(newton::NAME, &inputs.starts, |&(rho, start)| newton::forward(machine, rho, start)),
         Candidate::new("FK, Newton-Raphson, eliminated by hand", &inputs.starts, |&(rho, start)| {
-            eliminated::forward(machine, rho, start)
+            eliminated_newton::forward(machine, rho, start)
         }),
     ];
     candidates.extend(FINDERS.map(|(name, finder)| Candidate::new(name, &inputs.octics, finder)));

@@ -1,6 +1,6 @@
 //! Trigonometric polynomials in the Fourier basis.
 
-use crate::angle::sin_cos;
+use crate::fast_math::sin_cos;
 
 /// `cos[0] + Σ (cos[n] cos nθ + sin[n] sin nθ)` of degree M - 1; `sin[0]` is zero.
 ///
@@ -14,7 +14,7 @@ pub(crate) struct TrigPolynomial<const M: usize> {
 
 /// Value and slope at one angle.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Jet {
+pub(crate) struct ValueAndSlope {
     pub(crate) value: f64,
     pub(crate) slope: f64,
 }
@@ -141,17 +141,17 @@ impl<const M: usize> TrigPolynomial<M> {
 
     /// Value and slope at an angle.
     #[inline]
-    pub(crate) fn at(&self, angle: f64) -> Jet {
+    pub(crate) fn at(&self, angle: f64) -> ValueAndSlope {
         let (s1, c1) = sin_cos(angle);
         let (mut c, mut s, mut order) = (1.0, 0.0, 0.0);
-        let mut jet = Jet { value: self.cos[0], slope: 0.0 };
+        let mut point = ValueAndSlope { value: self.cos[0], slope: 0.0 };
         for n in 1..M {
             (c, s) = (c * c1 - s * s1, s * c1 + c * s1);
             order += 1.0;
-            jet.value += self.cos[n] * c + self.sin[n] * s;
-            jet.slope += order * (self.sin[n] * c - self.cos[n] * s);
+            point.value += self.cos[n] * c + self.sin[n] * s;
+            point.slope += order * (self.sin[n] * c - self.cos[n] * s);
         }
-        jet
+        point
     }
 }
 
@@ -175,12 +175,12 @@ mod tests {
     }
 
     #[test]
-    fn the_derivative_is_the_slope() {
+    fn the_derivative_equals_the_slope() {
         let a = linear(0.3, -1.2, 2.0).times(&linear(1.0, 0.5, -0.25)).squared();
-        let jet = a.at(0.4);
+        let point = a.at(0.4);
         let h = 1e-5;
         let slope = (a.at(0.4 + h).value - a.at(0.4 - h).value) / (2.0 * h);
-        assert!((jet.slope - slope).abs() < 1e-7);
-        assert!((a.derivative().at(0.4).value - jet.slope).abs() < 1e-13);
+        assert!((point.slope - slope).abs() < 1e-7);
+        assert!((a.derivative().at(0.4).value - point.slope).abs() < 1e-13);
     }
 }

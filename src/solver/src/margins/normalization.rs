@@ -1,11 +1,12 @@
 //! Factors that make margins comparable: lengths, angles and plain numbers.
 
-use crate::machine::MachineData;
+use crate::machine::data::Limits;
+use crate::mechanism::Geometry;
 
 /// The reciprocal of each constraint's own range: the stroke, the rod's length, the cone's half-angle, the value at
 /// home, the table's range. For heights over the table it is that of the longest stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Weights {
+pub(crate) struct Normalization {
     pub(super) stroke: [f64; 3],
     pub(super) leg_length: [f64; 3],
     pub(super) serial_singularity: f64,
@@ -19,22 +20,21 @@ pub(crate) struct Weights {
     pub(super) table_clearance: f64,
 }
 
-impl Weights {
+impl Normalization {
     /// The factors of a machine with this determinant and this distance between rods at home.
-    pub(crate) fn new(data: &MachineData, home_det: f64, home_distance: f64) -> Self {
-        let (g, limits) = (&data.geometry, &data.limits);
-        let over = |[low, high]: [f64; 2]| 1.0 / (high - low);
+    pub(crate) fn new(g: &Geometry, limits: &Limits, home_det: f64, rod_distance: f64) -> Self {
+        let inverse_width = |[low, high]: [f64; 2]| 1.0 / (high - low);
         Self {
-            stroke: limits.stroke.map(over),
+            stroke: limits.stroke.map(inverse_width),
             leg_length: [1.0 / g.L1, 1.0 / g.L2, 1.0 / g.L3],
             serial_singularity: 1.0,
             parallel_singularity: 1.0 / home_det.abs(),
             slider_joint: 1.0 / limits.slider_cone,
             platform_joint: 1.0 / limits.platform_cone,
             rod_crossing: 1.0 / (g.R1 - g.r1),
-            rod_interference: 1.0 / home_distance,
-            tilt: over(limits.tilt),
-            rotary: over(limits.rotary),
+            rod_interference: 1.0 / rod_distance,
+            tilt: inverse_width(limits.tilt),
+            rotary: inverse_width(limits.rotary),
             // The sliders move the platform up and down by their strokes.
             table_clearance: 1.0
                 / limits.stroke.map(|[low, high]| high - low).into_iter().fold(0.0, f64::max),

@@ -1,21 +1,21 @@
-//! The part of the circle around a touch, and the stretches on which the sheets exist.
+//! The arc around a near double root, and the intervals of it on which both branches exist.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use arrayvec::ArrayVec;
 
-use super::{Closure, Root};
-use crate::angle::sin_cos;
+use super::equations::{LoopClosure, Root};
+use crate::fast_math::sin_cos;
 
-/// Number of even intervals of the window in which the sheets are examined.
+/// Number of even steps of the arc in which the branches are examined.
 const EVEN: u8 = 16;
-/// Further distances from the touch at which they are examined.
+/// Further distances from the near double root at which they are examined.
 const CLOSE: [f64; 6] = [1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
-/// Ratio of the steps in which sheets are examined where they meet or nearly meet.
+/// Ratio of the steps in which branches are examined where they meet or nearly meet.
 const RATIO: f64 = 0.1;
 /// Number of these steps.
 const STEPS: i32 = 10;
-/// Fraction of its greatest value below which the discriminant is small: the sheets nearly meet.
+/// Fraction of its greatest value below which the discriminant is small: the branches nearly meet.
 const SMALL: f64 = 1e-2;
 /// Steps of a golden-section search and of a bisection.
 const GOLDEN_STEPS: u8 = 80;
@@ -26,25 +26,25 @@ pub(super) type Offsets = ArrayVec<f64, 96>;
 
 /// An arc, in offsets from 0 or π: there the angle's sine has all its digits however small it is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Window {
+pub(super) struct OffsetArc {
     base: f64,
     /// The base's cosine.
     side: f64,
     ends: [f64; 2],
-    /// The touch.
+    /// The near double root.
     at: f64,
 }
 
-/// A stretch on which the sheets exist. At an end that is a fold, they meet.
+/// An interval on which the branches exist.
 #[derive(Clone, Debug)]
-pub(super) struct Stretch {
+pub(super) struct BranchInterval {
     /// Offsets of the samples, including the ends.
     pub(super) offsets: Offsets,
-    /// Whether the sheets meet at the lower and the upper end.
-    pub(super) folds: [bool; 2],
+    /// Whether the branches meet at the lower and the upper end.
+    pub(super) meets: [bool; 2],
 }
 
-impl Window {
+impl OffsetArc {
     pub(super) fn new([low, high]: [f64; 2], at: f64) -> Self {
         let base = if at.abs() < FRAC_PI_2 { 0.0 } else { PI.copysign(at) };
         let side = if base == 0.0 { 1.0 } else { -1.0 };
@@ -62,41 +62,49 @@ impl Window {
         Root { merged, ..Root::at(self.base + offset, self.direction(offset), w) }
     }
 
-    /// The stretches of the window on which the sheets exist.
-    pub(super) fn stretches<const M: usize, C: Closure<M>>(&self, closure: &C) -> ArrayVec<Stretch, 6> {
-        let height = |offset: f64| {
+    /// The intervals on which the branches exist.
+    pub(super) fn branch_intervals<const M: usize, C: LoopClosure<M>>(
+        &self,
+        closure: &C,
+    ) -> ArrayVec<BranchInterval, 6> {
+        let discriminant = |offset: f64| {
             let [c, s] = self.direction(offset);
             closure.discriminant(c, s)
         };
-        let offsets = self.with_extrema(&height);
-        let mut stretches = ArrayVec::<Stretch, 6>::new();
-        let mut open: Option<Stretch> = (height(offsets[0]) >= 0.0).then(|| Stretch::from(offsets[0], false));
+        let offsets = self.with_extrema(&discriminant);
+        let mut intervals = ArrayVec::<BranchInterval, 6>::new();
+        let mut open: Option<BranchInterval> =
+            (discriminant(offsets[0]) >= 0.0).then(|| BranchInterval::from(offsets[0], false));
         for pair in offsets.windows(2) {
             let [from, to] = [pair[0], pair[1]];
-            match (height(from) >= 0.0, height(to) >= 0.0) {
-                (false, true) => open = Some(Stretch::from(fold(&height, from, to), true)),
+            match (discriminant(from) >= 0.0, discriminant(to) >= 0.0) {
+                (false, true) => {
+                    open = Some(BranchInterval::from(end_of_branches(&discriminant, from, to), true))
+                }
                 (true, false) => {
-                    let last = open.take().map(|stretch| stretch.to(fold(&height, to, from), true));
-                    stretches.extend(last.into_iter().take(stretches.remaining_capacity()));
+                    let last = open
+                        .take()
+                        .map(|interval| interval.to(end_of_branches(&discriminant, to, from), true));
+                    intervals.extend(last.into_iter().take(intervals.remaining_capacity()));
                 }
                 _ => {}
             }
-            if let Some(stretch) = &mut open
-                && height(to) >= 0.0
+            if let Some(interval) = &mut open
+                && discriminant(to) >= 0.0
             {
-                stretch.push(to);
+                interval.push(to);
             }
         }
-        let last = open.map(|stretch| stretch.to(self.ends[1], false));
-        stretches.extend(last.into_iter().take(stretches.remaining_capacity()));
-        for stretch in &mut stretches {
-            stretch.refine(&height);
+        let last = open.map(|interval| interval.to(self.ends[1], false));
+        intervals.extend(last.into_iter().take(intervals.remaining_capacity()));
+        for interval in &mut intervals {
+            interval.refine(&discriminant);
         }
-        stretches
+        intervals
     }
 
     /// Offsets to begin with, and the extrema of the discriminant between them.
-    fn with_extrema(&self, height: &impl Fn(f64) -> f64) -> Offsets {
+    fn with_extrema(&self, discriminant: &impl Fn(f64) -> f64) -> Offsets {
         let [low, high] = self.ends;
         let even = (0..=EVEN).map(|i| low + (high - low) * f64::from(i) / f64::from(EVEN));
         let close = CLOSE.into_iter().flat_map(|apart| [self.at - apart, self.at + apart]);
@@ -105,11 +113,11 @@ impl Window {
         offsets.sort_unstable_by(f64::total_cmp);
         let mut extrema = ArrayVec::<f64, 8>::new();
         for near in offsets.windows(3) {
-            let [a, b, c] = [near[0], near[1], near[2]].map(height);
+            let [a, b, c] = [near[0], near[1], near[2]].map(discriminant);
             // A peak that may reach above zero, or a valley that may reach below.
             let up = if b >= a && b >= c && b < 0.0 { 1.0 } else { -1.0 };
             if up > 0.0 || (b <= a && b <= c && b >= 0.0 && b < SMALL * a.max(c)) {
-                let peak = peak(&|offset| up * height(offset), near[0], near[2]);
+                let peak = peak(&|offset| up * discriminant(offset), near[0], near[2]);
                 extrema.extend(Some(peak).into_iter().take(extrema.remaining_capacity()));
             }
         }
@@ -119,14 +127,14 @@ impl Window {
     }
 }
 
-impl Stretch {
-    fn from(offset: f64, fold: bool) -> Self {
-        Self { offsets: [offset].into_iter().collect(), folds: [fold, false] }
+impl BranchInterval {
+    fn from(offset: f64, meet: bool) -> Self {
+        Self { offsets: [offset].into_iter().collect(), meets: [meet, false] }
     }
 
-    fn to(mut self, offset: f64, fold: bool) -> Self {
+    fn to(mut self, offset: f64, meet: bool) -> Self {
         self.push(offset);
-        Self { folds: [self.folds[0], fold], ..self }
+        Self { meets: [self.meets[0], meet], ..self }
     }
 
     fn push(&mut self, offset: f64) {
@@ -136,23 +144,24 @@ impl Stretch {
         }
     }
 
-    /// Adds offsets towards folds and towards a valley in which the sheets nearly meet: there the
-    /// sheets bend within that distance.
-    fn refine(&mut self, height: &impl Fn(f64) -> f64) {
+    /// Adds offsets towards ends where the branches meet, and towards a valley in which they nearly meet: there the
+    /// branches bend within that distance.
+    fn refine(&mut self, discriminant: &impl Fn(f64) -> f64) {
         let (low, high) = (self.offsets[0], self.offsets[self.offsets.len() - 1]);
         let reach = high - low;
         let steps = (1..=STEPS).map(|step| reach * RATIO.powi(step));
         let mut more = ArrayVec::<f64, 48>::new();
-        if self.folds[0] {
+        if self.meets[0] {
             more.extend(steps.clone().map(|step| low + step));
         }
-        if self.folds[1] {
+        if self.meets[1] {
             more.extend(steps.clone().map(|step| high - step));
         }
-        let lowest = self.offsets.iter().copied().min_by(|a, b| height(*a).total_cmp(&height(*b)));
-        let top = self.offsets.iter().map(|offset| height(*offset)).fold(0.0, f64::max);
+        let lowest =
+            self.offsets.iter().copied().min_by(|a, b| discriminant(*a).total_cmp(&discriminant(*b)));
+        let top = self.offsets.iter().map(|offset| discriminant(*offset)).fold(0.0, f64::max);
         if let Some(lowest) = lowest.filter(|lowest| *lowest > low && *lowest < high)
-            && height(lowest) < SMALL * top
+            && discriminant(lowest) < SMALL * top
         {
             more.extend(steps.flat_map(|step| [lowest - step, lowest + step]));
         }
@@ -162,22 +171,26 @@ impl Stretch {
     }
 }
 
-/// Finds where a function that is negative at `outside` and not at `inside` becomes zero: the last place at which it
+/// Finds where a function that is negative at `outside` and not at `inside` becomes zero: the last offset at which it
 /// is not negative.
-fn fold(height: &impl Fn(f64) -> f64, mut outside: f64, mut inside: f64) -> f64 {
+fn end_of_branches(discriminant: &impl Fn(f64) -> f64, mut outside: f64, mut inside: f64) -> f64 {
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (outside + inside);
-        if height(middle) >= 0.0 { inside = middle } else { outside = middle }
+        if discriminant(middle) >= 0.0 { inside = middle } else { outside = middle }
     }
     inside
 }
 
-/// The place of the greatest value, by golden section.
-fn peak(height: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+/// The offset of the greatest value, by golden section.
+fn peak(discriminant: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     for _ in 0..GOLDEN_STEPS {
         let part = GOLDEN * (high - low);
-        if height(high - part) > height(low + part) { high = low + part } else { low = high - part }
+        if discriminant(high - part) > discriminant(low + part) {
+            high = low + part
+        } else {
+            low = high - part
+        }
     }
     0.5 * (low + high)
 }

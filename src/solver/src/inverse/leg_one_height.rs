@@ -1,41 +1,38 @@
-//! The square of leg I's drop, precise enough for a leg that is nearly level.
+//! The square of leg I's height w1, precise enough for a leg that is nearly level.
 //!
 //! E + k = L1² - X1² - (R1 - r1)² is w1² + y² at a = 0, and E - k = L1² - X1² - (R1 + r1)² the same at a = π. In
 //! double precision each has the rounding error of L1². If the value itself is small, that error would decide whether
 //! the leg reaches at all.
 
-use crate::machine::Machine;
-
-/// Fraction of L1² below which the value is computed again with twice the digits.
-pub(crate) const LITTLE: f64 = 1e-6;
+use crate::mechanism::Mechanism;
 
 /// E + k at a given x, mm².
 #[inline]
-pub(super) fn at_zero(machine: &Machine, x: f64) -> f64 {
-    let x1 = x + machine.derived.e1;
-    let length = machine.geometry().L1;
-    let found = (length - x1) * (length + x1) - machine.derived.gap_square;
-    if is_little(machine, found) { left(machine, x, -1.0) } else { found }
+pub(super) fn square_at_zero(mechanism: &Mechanism, x: f64) -> f64 {
+    let x1 = x + mechanism.e1;
+    let length = mechanism.geometry.L1;
+    let found = (length - x1) * (length + x1) - mechanism.gap_square;
+    if is_nearly_level(mechanism, found) { precise_square(mechanism, x, -1.0) } else { found }
 }
 
 /// E - k at a given x, mm², from E + k.
 #[inline]
-pub(super) fn at_half_a_turn(machine: &Machine, x: f64, at_zero: f64) -> f64 {
-    let found = at_zero - 2.0 * machine.derived.k;
-    if is_little(machine, found) { left(machine, x, 1.0) } else { found }
+pub(super) fn square_at_pi(mechanism: &Mechanism, x: f64, at_zero: f64) -> f64 {
+    let found = at_zero - 2.0 * mechanism.k;
+    if is_nearly_level(mechanism, found) { precise_square(mechanism, x, 1.0) } else { found }
 }
 
 /// Whether the value is so small that leg I may be level.
 #[inline]
-pub(super) fn is_little(machine: &Machine, left: f64) -> bool {
-    left.abs() <= machine.derived.little
+pub(super) fn is_nearly_level(mechanism: &Mechanism, square: f64) -> bool {
+    square.abs() <= mechanism.nearly_level
 }
 
 /// L1² - X1² - (R1 + `sign` r1)² from the machine's own numbers, with about twice the digits of a double: sums and
 /// products are computed with their rounding errors.
 #[cold]
-fn left(machine: &Machine, x: f64, sign: f64) -> f64 {
-    let g = machine.geometry();
+fn precise_square(mechanism: &Mechanism, x: f64, sign: f64) -> f64 {
+    let g = &mechanism.geometry;
     let (e1, e1_rest) = sum(g.D1, -g.d1);
     let (x1, x1_rest) = sum(x, e1);
     let x1_rest = x1_rest + e1_rest;
@@ -56,8 +53,8 @@ pub(super) fn signed_root(x: f64) -> f64 {
 /// a + b and its rounding error.
 fn sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
+    let rounded_b = sum - a;
+    (sum, (a - (sum - rounded_b)) + (b - rounded_b))
 }
 
 /// The product of two numbers that are each given with a remainder, and its own remainder.
