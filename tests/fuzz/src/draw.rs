@@ -1,7 +1,7 @@
 //! Structure from bytes: the same bytes always draw the same things, and where they end, zeros and first choices are drawn.
 
 use arbitrary::Unstructured;
-use verne_solver::DOMAIN;
+use verne_solver::MAX_INPUT;
 
 /// Numbers that programs stumble over.
 const SPECIAL: [f64; 24] = [
@@ -20,8 +20,8 @@ const SPECIAL: [f64; 24] = [
     1e308,
     1e300,
     1e-300,
-    DOMAIN,
-    -DOMAIN,
+    MAX_INPUT,
+    -MAX_INPUT,
     1e6,
     1e-3,
     1e-9,

@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 use verne_solver::workspace::dexterity::DexterityRequest;
 use verne_solver::workspace::{Kind, Request, Unobserved, contains, dexterity};
 use verne_solver::{
-    DOMAIN, Machine, Margins, PartPose, Posture, Refusal, TableAngles, axis, forward, forward_working,
-    jacobian, part, part_pose, part_working, platform, platform_working, table_angles, tool, tool_point,
-    tool_working,
+    KinematicsError, MAX_INPUT, Machine, Margins, PartPose, Posture, TableAngles, axis, forward,
+    forward_working, jacobian, part, part_pose, part_working, platform, platform_working, table_angles, tool,
+    tool_point, tool_working,
 };
 
 use crate::draw::Draw;
@@ -24,9 +24,10 @@ pub(crate) fn solver(bytes: &[u8]) {
     let [phi1, phi2] = [0; 2].map(|_| draw.number(2.0));
     let (short, long) = ([x, y, z], [x, y, z, length, phi1, phi2]);
     let target = PartPose { x, y, z, phi1, phi2 };
-    let many =
-        |answer: Result<verne_solver::Postures, Refusal>| answer.map(|found| found.into_iter().collect());
-    let one = |answer: Result<Posture, Refusal>| answer.map(|found| vec![found]);
+    let many = |answer: Result<verne_solver::Postures, KinematicsError>| {
+        answer.map(|found| found.into_iter().collect())
+    };
+    let one = |answer: Result<Posture, KinematicsError>| answer.map(|found| vec![found]);
     match draw.below(10) {
         0 => check(&machine, &short, &many(forward(&machine, short))),
         1 => check(&machine, &short, &one(forward_working(&machine, short))),
@@ -42,17 +43,19 @@ pub(crate) fn solver(bytes: &[u8]) {
 }
 
 fn is_in_domain(numbers: &[f64]) -> bool {
-    numbers.iter().all(|n| n.abs() <= DOMAIN)
+    numbers.iter().all(|n| n.abs() <= MAX_INPUT)
 }
 
 /// An answer as the solver's documentation promises it.
-fn check(machine: &Machine, question: &[f64], answer: &Result<Vec<Posture>, Refusal>) {
+fn check(machine: &Machine, question: &[f64], answer: &Result<Vec<Posture>, KinematicsError>) {
     let inside = is_in_domain(question);
     let sound = match answer {
         Ok(postures) => inside && !postures.is_empty(),
-        Err(Refusal::OutOfDomain) => !inside,
-        Err(Refusal::Blocked(margin)) => inside && margin.value <= 0.0 && margin.value.is_finite(),
-        Err(Refusal::SelfMotion | Refusal::TooFar) => inside,
+        Err(KinematicsError::OutOfDomain) => !inside,
+        Err(KinematicsError::Unreachable(margin)) => {
+            inside && margin.value <= 0.0 && margin.value.is_finite()
+        }
+        Err(KinematicsError::SelfMotion | KinematicsError::OutOfProportion) => inside,
     };
     assert!(sound, "{answer:?}");
     for posture in answer.iter().flatten() {

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use verne_solver::workspace::dexterity::{DexterityRequest, dexterity};
 use verne_solver::workspace::{Kind, Observer, Request, WorkspaceError, measure, slice, surface};
-use verne_solver::{DOMAIN, Machine};
+use verne_solver::{MAX_INPUT, Machine};
 
 use crate::draw::Draw;
 use crate::machines::{machine, scale};
@@ -38,7 +38,7 @@ pub(crate) fn workspaces(bytes: &[u8]) {
     let request = Request { kind, tool_length, phi1, phi2, table_clearance, tool_radius, tolerance };
     let good = [tool_length, phi1, phi2, table_clearance.unwrap_or_default(), tool_radius, tolerance]
         .iter()
-        .all(|n| n.abs() <= DOMAIN)
+        .all(|n| n.abs() <= MAX_INPUT)
         && tolerance >= 1e-3;
     let observer = Impatient(AtomicU32::new(0));
     match draw.below(8) {

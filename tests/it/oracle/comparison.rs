@@ -1,6 +1,6 @@
 //! Many of the solver's answers against the oracle's, with the disagreements collected.
 
-use verne_solver::{Machine, Posture, Postures, Refusal};
+use verne_solver::{KinematicsError, Machine, Posture, Postures};
 
 use super::agreement::{Tally, agree, distance};
 use super::found::Answer;
@@ -23,7 +23,7 @@ impl Comparison {
         question: &str,
         machine: &Machine,
         answer: &Answer,
-        got: &Result<Postures, Refusal>,
+        got: &Result<Postures, KinematicsError>,
     ) {
         let checked = self.check(machine, answer, got);
         self.failures.extend(checked.err().map(|what| format!("{question}: {what}")));
@@ -35,7 +35,7 @@ impl Comparison {
         question: &str,
         machine: &Machine,
         answer: &Answer,
-        got: &Result<Posture, Refusal>,
+        got: &Result<Posture, KinematicsError>,
     ) {
         let legs = Legs::of(machine);
         let mut working = answer.found.iter().filter(|found| found.working);
@@ -52,13 +52,13 @@ impl Comparison {
         &mut self,
         machine: &Machine,
         answer: &Answer,
-        got: &Result<Postures, Refusal>,
+        got: &Result<Postures, KinematicsError>,
     ) -> Result<(), String> {
         let none = Postures::new();
         let postures = match got {
             Ok(postures) if !postures.is_empty() => postures,
             // Out of reach: the oracle must have found nothing either.
-            Err(Refusal::Blocked(margin)) if margin.value < 0.0 => &none,
+            Err(KinematicsError::Unreachable(margin)) if margin.value < 0.0 => &none,
             other => return Err(format!("{other:?}")),
         };
         if answer.continuum {

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use verne_solver::{Machine, Postures, Refusal, forward, platform, tool, tool_point};
+use verne_solver::{KinematicsError, Machine, Postures, forward, platform, tool, tool_point};
 
 use crate::machines::Draw;
 use crate::oracle::built::{hung, leaning, upright};
@@ -15,7 +15,7 @@ const SIDES: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]
 /// The posture is found by forward, platform and tool, once, and the answers are the oracle's.
 fn check(machine: &Machine, found: &Found, comparison: &mut Comparison) {
     let legs = Legs::of(machine);
-    let mut once = |name: &str, answer: &Answer, got: Result<Postures, Refusal>| {
+    let mut once = |name: &str, answer: &Answer, got: Result<Postures, KinematicsError>| {
         comparison.of(&format!("{name} of {found:?}"), machine, answer, &got);
         let hits = got.iter().flatten().filter(|posture| distance(&legs, found, posture) < 1e-9).count();
         assert!(hits <= 1, "{name} of {found:?}: {got:#?}");

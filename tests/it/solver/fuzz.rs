@@ -2,8 +2,8 @@
 
 use nalgebra::Vector4;
 use verne_solver::{
-    DOMAIN, Machine, PartPose, Posture, Refusal, forward, forward_working, part, part_working, platform,
-    platform_working, tool, tool_working,
+    KinematicsError, MAX_INPUT, Machine, PartPose, Posture, forward, forward_working, part, part_working,
+    platform, platform_working, tool, tool_working,
 };
 
 use crate::machines::{Draw, scale};
@@ -23,8 +23,8 @@ fn number(draw: &mut Draw, unit: f64) -> f64 {
         5e-324,
         1e300,
         -1e300,
-        DOMAIN,
-        -DOMAIN,
+        MAX_INPUT,
+        -MAX_INPUT,
         1e-9,
         1e6,
         f64::EPSILON,
@@ -51,15 +51,17 @@ impl Findings {
         what: &str,
         machine: &Machine,
         numbers: &[f64],
-        answer: &Result<Vec<Posture>, Refusal>,
+        answer: &Result<Vec<Posture>, KinematicsError>,
     ) {
-        let outside = numbers.iter().any(|n| n.is_nan() || n.abs() > DOMAIN);
+        let outside = numbers.iter().any(|n| n.is_nan() || n.abs() > MAX_INPUT);
         let sound = match answer {
             Ok(postures) => !outside && !postures.is_empty(),
-            Err(Refusal::OutOfDomain) => outside,
-            Err(Refusal::TooFar) => !outside,
-            Err(Refusal::Blocked(margin)) => !outside && margin.value < 0.0 && margin.value.is_finite(),
-            Err(Refusal::SelfMotion) => false,
+            Err(KinematicsError::OutOfDomain) => outside,
+            Err(KinematicsError::OutOfProportion) => !outside,
+            Err(KinematicsError::Unreachable(margin)) => {
+                !outside && margin.value < 0.0 && margin.value.is_finite()
+            }
+            Err(KinematicsError::SelfMotion) => false,
         };
         let postures = answer.as_deref().unwrap_or_default();
         self.postures += postures.len();
@@ -91,11 +93,11 @@ fn solves(machine: &Machine, posture: &Posture, question: &[f64]) -> bool {
         && (posture.residual - truly).abs() <= allowed
 }
 
-fn many(answer: Result<verne_solver::Postures, Refusal>) -> Result<Vec<Posture>, Refusal> {
+fn many(answer: Result<verne_solver::Postures, KinematicsError>) -> Result<Vec<Posture>, KinematicsError> {
     answer.map(|postures| postures.into_iter().collect())
 }
 
-fn one(answer: Result<Posture, Refusal>) -> Result<Vec<Posture>, Refusal> {
+fn one(answer: Result<Posture, KinematicsError>) -> Result<Vec<Posture>, KinematicsError> {
     answer.map(|posture| vec![posture])
 }
 

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use verne_solver::{Constraint, Element, Machine, Posture, Refusal, platform, platform_working};
+use verne_solver::{Constraint, Element, KinematicsError, Machine, Posture, platform, platform_working};
 
 use crate::machines::Draw;
 use crate::oracle::Legs;
@@ -63,7 +63,7 @@ fn leg_one_at_its_farthest() {
                 p(0.0)
             );
             match platform(&machine, p(-distance)) {
-                Err(Refusal::Blocked(margin)) => {
+                Err(KinematicsError::Unreachable(margin)) => {
                     assert_eq!(margin.constraint, Constraint::LegLength, "{distance:e} outside: {margin:?}");
                     assert_eq!(margin.element, Element::Leg(1), "{distance:e} outside: {margin:?}");
                     assert!(margin.value < 0.0, "{margin:?}");
@@ -141,7 +141,7 @@ fn beyond_a_leg_the_working_mode_names_it() {
         data.geometry.L3 = across.sqrt() - 1.0;
         let Ok(short) = Machine::new(data) else { continue };
         assert!(hung(&Legs::of(&short), (q, rho1), [1.0, 1.0]).is_none());
-        let Err(Refusal::Blocked(margin)) = platform_working(&short, [q[0], q[1], q[2]]) else {
+        let Err(KinematicsError::Unreachable(margin)) = platform_working(&short, [q[0], q[1], q[2]]) else {
             panic!("leg III is a millimetre short at {q:?}")
         };
         assert_eq!(

@@ -5,8 +5,8 @@
 use std::f64::consts::PI;
 
 use verne_solver::{
-    Machine, PartPose, PlatformPose, Posture, Postures, Refusal, TableAngles, part, part_pose, platform,
-    tool, tool_point,
+    KinematicsError, Machine, PartPose, PlatformPose, Posture, Postures, TableAngles, part, part_pose,
+    platform, tool, tool_point,
 };
 
 use crate::machines::{Draw, scale};
@@ -26,7 +26,7 @@ fn built(machine: &Machine, alpha: f64, w1: f64, side: f64) -> Option<[f64; 2]> 
 
 /// Both mirror images of an angle and a drop with all choices of legs II and III are among the
 /// postures, and no two postures are one.
-fn check(machine: &Machine, question: &str, found: Result<Postures, Refusal>, alpha: f64, w1: f64) {
+fn check(machine: &Machine, question: &str, found: Result<Postures, KinematicsError>, alpha: f64, w1: f64) {
     let found = found.unwrap_or_else(|refusal| panic!("{question}: {refusal:?}"));
     let lever = machine.data().geometry.R1;
     let apart = |posture: &Posture, alpha: f64, w1: f64| {

@@ -1,7 +1,7 @@
 //! A machine with R2 r1 = R1 r4: the elimination's denominator is then 2 (rho3 - rho2) u, zero for
 //! every alpha when rho2 = rho3; and with all sliders level nothing holds the platform's tilt.
 
-use verne_solver::{Machine, MachineData, Refusal, forward, forward_working};
+use verne_solver::{KinematicsError, Machine, MachineData, forward, forward_working};
 
 use crate::machines::Draw;
 use crate::oracle::{self, Comparison};
@@ -58,8 +58,8 @@ fn level_sliders_do_not_hold_the_platform() {
     let machine = machine();
     for level in [0.0, 300.0, 512.75] {
         assert!(oracle::forward(&machine, [level; 3]).continuum);
-        assert_eq!(forward(&machine, [level; 3]), Err(Refusal::SelfMotion));
-        assert_eq!(forward_working(&machine, [level; 3]), Err(Refusal::SelfMotion));
+        assert_eq!(forward(&machine, [level; 3]), Err(KinematicsError::SelfMotion));
+        assert_eq!(forward_working(&machine, [level; 3]), Err(KinematicsError::SelfMotion));
     }
 }
 

@@ -1,7 +1,7 @@
 //! Lengths out of proportion to the machine: refused where double precision would lose solutions.
 
 use verne_solver::machine::{Geometry, Table};
-use verne_solver::{MOST_RATIO, Machine, PartPose, Refusal, forward, part, platform, tool};
+use verne_solver::{KinematicsError, MAX_LENGTH_RATIO, Machine, PartPose, forward, part, platform, tool};
 
 /// The reference machine at a hundredth of its size.
 fn small() -> Machine {
@@ -28,25 +28,25 @@ fn small() -> Machine {
 #[test]
 fn longer_than_double_precision_bears_is_refused_in_every_frame() {
     let machine = small();
-    let most = MOST_RATIO * machine.longest();
+    let most = MAX_LENGTH_RATIO * machine.longest();
     for length in [1.001 * most, -1.001 * most] {
         for place in 0..3 {
             let mut p = [0.5, 1.0, 12.0];
             p[place] = length;
-            assert_eq!(platform(&machine, p), Err(Refusal::TooFar));
-            assert_eq!(forward(&machine, p), Err(Refusal::TooFar));
-            assert_eq!(tool(&machine, p, 1.0), Err(Refusal::TooFar));
+            assert_eq!(platform(&machine, p), Err(KinematicsError::OutOfProportion));
+            assert_eq!(forward(&machine, p), Err(KinematicsError::OutOfProportion));
+            assert_eq!(tool(&machine, p, 1.0), Err(KinematicsError::OutOfProportion));
             let target = PartPose { x: p[0], y: p[1], z: p[2], phi1: 0.1, phi2: 0.0 };
-            assert_eq!(part(&machine, &target, 1.0), Err(Refusal::TooFar));
+            assert_eq!(part(&machine, &target, 1.0), Err(KinematicsError::OutOfProportion));
         }
-        assert_eq!(tool(&machine, [0.5, 1.0, 12.0], length), Err(Refusal::TooFar));
+        assert_eq!(tool(&machine, [0.5, 1.0, 12.0], length), Err(KinematicsError::OutOfProportion));
     }
 }
 
 #[test]
 fn up_to_there_a_shift_along_the_sliders_changes_no_count() {
     let machine = small();
-    let most = MOST_RATIO * machine.longest();
+    let most = MAX_LENGTH_RATIO * machine.longest();
     for (x, y) in [(-2.4, -0.86), (0.5, 1.0), (0.0, 0.0), (3.0, -2.0)] {
         let count = platform(&machine, [x, y, 10.0]).unwrap().len();
         for z in [0.5 * most, 0.999 * most, -0.999 * most] {
@@ -58,7 +58,7 @@ fn up_to_there_a_shift_along_the_sliders_changes_no_count() {
 #[test]
 fn a_table_too_far_from_the_legs_is_no_machine() {
     let mut data = small().data().clone();
-    data.table.da = 1.001 * MOST_RATIO * small().longest();
+    data.table.da = 1.001 * MAX_LENGTH_RATIO * small().longest();
     let faults = Machine::new(data).unwrap_err();
     assert_eq!(faults.iter().map(|fault| fault.field.as_str()).collect::<Vec<_>>(), ["table/da"]);
 }

@@ -1,8 +1,8 @@
 //! Every solution of the reference sets, and no other.
 
 use verne_solver::{
-    Machine, PartPose, Posture, Postures, Refusal, forward, forward_working, part, part_pose, part_working,
-    platform, platform_working, table_angles,
+    KinematicsError, Machine, PartPose, Posture, Postures, forward, forward_working, part, part_pose,
+    part_working, platform, platform_working, table_angles,
 };
 
 use crate::reference::{self, InverseCase, Solution};
@@ -26,9 +26,9 @@ fn is(posture: &Posture, truth: &Solution) -> bool {
 }
 
 /// One to one, flags included.
-fn check(tag: &str, postures: Result<Postures, Refusal>, solutions: &[Solution]) {
+fn check(tag: &str, postures: Result<Postures, KinematicsError>, solutions: &[Solution]) {
     if solutions.is_empty() {
-        assert!(matches!(postures, Err(Refusal::Blocked(_))), "{tag}: {postures:?}");
+        assert!(matches!(postures, Err(KinematicsError::Unreachable(_))), "{tag}: {postures:?}");
         return;
     }
     let postures = postures.unwrap_or_else(|refusal| panic!("{tag}: {refusal:?}"));
@@ -45,7 +45,7 @@ fn check(tag: &str, postures: Result<Postures, Refusal>, solutions: &[Solution])
 }
 
 /// The working mode alone is the one among all, and refused where there is none.
-fn check_working(tag: &str, posture: Result<Posture, Refusal>, solutions: &[Solution]) {
+fn check_working(tag: &str, posture: Result<Posture, KinematicsError>, solutions: &[Solution]) {
     if let Some(truth) = solutions.iter().find(|truth| truth.working) {
         let posture = posture.unwrap_or_else(|refusal| panic!("{tag}: {refusal:?}"));
         assert!(
@@ -55,7 +55,7 @@ fn check_working(tag: &str, posture: Result<Posture, Refusal>, solutions: &[Solu
         );
         assert!(posture.working && posture.residual < LENGTH, "{tag}: {posture:?}");
     } else {
-        assert!(matches!(posture, Err(Refusal::Blocked(_))), "{tag}: {posture:?}");
+        assert!(matches!(posture, Err(KinematicsError::Unreachable(_))), "{tag}: {posture:?}");
     }
 }
 

@@ -2,15 +2,15 @@
 //! out of the domain.
 
 use verne_solver::{
-    Constraint, DOMAIN, Element, Machine, PartPose, Posture, Postures, Refusal, forward, forward_working,
-    part, part_working, platform, platform_working, tool, tool_working,
+    Constraint, Element, KinematicsError, MAX_INPUT, Machine, PartPose, Posture, Postures, forward,
+    forward_working, part, part_working, platform, platform_working, tool, tool_working,
 };
 
 use crate::machines::Draw;
 
-fn blocked<T: std::fmt::Debug>(answer: Result<T, Refusal>) -> (Constraint, Element) {
+fn blocked<T: std::fmt::Debug>(answer: Result<T, KinematicsError>) -> (Constraint, Element) {
     match answer {
-        Err(Refusal::Blocked(margin)) => {
+        Err(KinematicsError::Unreachable(margin)) => {
             assert!(margin.value < 0.0 && margin.value.is_finite(), "{margin:?}");
             (margin.constraint, margin.element)
         }
@@ -78,9 +78,12 @@ fn infeasible_is_not_unreachable() {
 }
 
 /// Every entry point with one number of its question replaced.
-fn with_each_number(machine: &Machine, number: f64) -> Vec<(&'static str, usize, Result<(), Refusal>)> {
-    let all = |answer: Result<Postures, Refusal>| answer.map(|_| ());
-    let one = |answer: Result<Posture, Refusal>| answer.map(|_| ());
+fn with_each_number(
+    machine: &Machine,
+    number: f64,
+) -> Vec<(&'static str, usize, Result<(), KinematicsError>)> {
+    let all = |answer: Result<Postures, KinematicsError>| answer.map(|_| ());
+    let one = |answer: Result<Posture, KinematicsError>| answer.map(|_| ());
     let mut answers = Vec::new();
     for i in 0..6 {
         let mut n = [100.0, 50.0, 300.0, 0.1, 0.2, 40.0];
@@ -105,20 +108,20 @@ fn with_each_number(machine: &Machine, number: f64) -> Vec<(&'static str, usize,
 
 #[test]
 fn numbers_beyond_the_domain_are_no_question() {
-    let beyond = DOMAIN.next_up();
+    let beyond = MAX_INPUT.next_up();
     let numbers = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300, f64::MAX, beyond, -beyond];
     for number in numbers {
         for (name, place, answer) in with_each_number(&Machine::verne(), number) {
-            assert_eq!(answer, Err(Refusal::OutOfDomain), "{name} with {number} in place {place}");
+            assert_eq!(answer, Err(KinematicsError::OutOfDomain), "{name} with {number} in place {place}");
         }
     }
 }
 
 #[test]
 fn numbers_at_the_edge_of_the_domain_are_a_question() {
-    for number in [DOMAIN, -DOMAIN, 0.0, -0.0, f64::MIN_POSITIVE, 5e-324] {
+    for number in [MAX_INPUT, -MAX_INPUT, 0.0, -0.0, f64::MIN_POSITIVE, 5e-324] {
         for (name, place, answer) in with_each_number(&Machine::verne(), number) {
-            assert_ne!(answer, Err(Refusal::OutOfDomain), "{name} with {number} in place {place}");
+            assert_ne!(answer, Err(KinematicsError::OutOfDomain), "{name} with {number} in place {place}");
         }
     }
 }

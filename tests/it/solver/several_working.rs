@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use verne_solver::machine::{Geometry, Table};
 use verne_solver::workspace::{Kind, Request, Unobserved, contains};
 use verne_solver::{
-    Machine, Margins, PartPose, Posture, Postures, Refusal, TableAngles, part, part_every_working, part_pose,
-    part_working, platform_working, table_angles, tool, tool_every_working, tool_working,
+    KinematicsError, Machine, Margins, PartPose, Posture, Postures, TableAngles, part, part_every_working,
+    part_pose, part_working, platform_working, table_angles, tool, tool_every_working, tool_working,
 };
 
 use crate::machines::{Draw, scale};
@@ -52,9 +52,9 @@ fn sorted(mut postures: Vec<Posture>) -> Vec<Posture> {
 /// Every working posture among all, each to the last bit.
 fn check(
     question: &str,
-    all: Result<Postures, Refusal>,
-    every: Result<Postures, Refusal>,
-    one: Result<Posture, Refusal>,
+    all: Result<Postures, KinematicsError>,
+    every: Result<Postures, KinematicsError>,
+    one: Result<Posture, KinematicsError>,
 ) -> Vec<Posture> {
     let among_all = all.into_iter().flatten().filter(|posture| posture.working).collect();
     let working: Vec<Posture> = every.into_iter().flatten().collect();

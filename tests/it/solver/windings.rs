@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use verne_solver::{Machine, Winding, table_windings};
+use verne_solver::{Machine, SplitAngle, table_windings};
 
 use crate::machines::Draw;
 
@@ -27,18 +27,18 @@ fn the_nearest_one_within_the_range_is_chosen() {
             [low, low + draw.magnitude(0.1, 40.0)]
         });
         let machine = machine(ranges[0], ranges[1]);
-        let asked = [0; 2].map(|_| Winding { angle: draw.between(-PI, PI), turns: 0.0 });
+        let asked = [0; 2].map(|_| SplitAngle { remainder: draw.between(-PI, PI), turns: 0.0 });
         let near = [0; 2].map(|_| draw.between(-40.0, 40.0));
         let found = table_windings(&machine, asked, near.map(Some));
         for i in 0..2 {
-            let values = admissible(ranges[i], asked[i].angle);
+            let values = admissible(ranges[i], asked[i].remainder);
             let off = |value: f64| (value - near[i]).abs();
             let Some(best) = values.iter().copied().min_by(|a, b| off(*a).total_cmp(&off(*b))) else {
                 assert_eq!(found[i].turns, 0.0, "{ranges:?} {asked:?}");
                 continue;
             };
             assert!((found[i].value - best).abs() < 1e-12, "{ranges:?} {asked:?} {near:?} {found:?}");
-            assert!((found[i].value - asked[i].angle - TAU * found[i].turns).abs() < 1e-12, "{found:?}");
+            assert!((found[i].value - asked[i].remainder - TAU * found[i].turns).abs() < 1e-12, "{found:?}");
         }
     }
 }
@@ -49,7 +49,7 @@ fn without_a_place_nearby_the_one_asked_for_stays() {
     for (angle, turns, expected) in
         [(0.5, 0.0, 0.5), (-0.5, 1.0, TAU - 0.5), (0.5, 1.0, 0.5), (3.0, -1.0, 3.0 - TAU)]
     {
-        let asked = [Winding { angle: 0.0, turns: 0.0 }, Winding { angle, turns }];
+        let asked = [SplitAngle { remainder: 0.0, turns: 0.0 }, SplitAngle { remainder: angle, turns }];
         let [_, theta2] = table_windings(&machine, asked, [None; 2]);
         assert_eq!(theta2.value, expected, "{angle} {turns}");
     }

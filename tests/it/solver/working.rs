@@ -1,22 +1,26 @@
 //! The working mode by itself is the working one among all.
 
 use verne_solver::{
-    Posture, Postures, Refusal, forward, forward_working, part, part_working, platform, platform_working,
-    tool, tool_working,
+    KinematicsError, Posture, Postures, forward, forward_working, part, part_working, platform,
+    platform_working, tool, tool_working,
 };
 
 use crate::machines::Draw;
 
 /// How many working postures there are among all; the one returned must be one of them, to the last
 /// bit.
-fn check(question: &str, all: Result<Postures, Refusal>, one: Result<Posture, Refusal>) -> usize {
+fn check(
+    question: &str,
+    all: Result<Postures, KinematicsError>,
+    one: Result<Posture, KinematicsError>,
+) -> usize {
     let working: Vec<Posture> = all.into_iter().flatten().filter(|posture| posture.working).collect();
     match one {
         Ok(posture) => {
             assert!(posture.working, "{question}: {posture:?}");
             assert!(working.contains(&posture), "{question}: {posture:?} not among {working:?}");
         }
-        Err(Refusal::Blocked(margin)) => {
+        Err(KinematicsError::Unreachable(margin)) => {
             assert!(working.is_empty(), "{question}: refused for {margin:?}, but {working:?}");
             assert!(margin.value < 0.0, "{question}: {margin:?}");
         }

@@ -2,7 +2,7 @@
 
 use arrayvec::ArrayVec;
 use serde_json::value::RawValue;
-use verne_solver::{Clearance, DOMAIN, Machine, Margin, Margins, Posture, Refusal, TableAngles};
+use verne_solver::{Clearance, KinematicsError, MAX_INPUT, Machine, Margin, Margins, Posture, TableAngles};
 
 use crate::operations::solutions::unheld;
 use crate::wire::batch::{Counts, Row, RowError, RowReport, Rows, Status};
@@ -78,7 +78,7 @@ fn check(row: &Row) -> Result<(), String> {
 
 fn check_item(i: usize, number: f64) -> Result<(), String> {
     if i < 3 && !is_length(number) {
-        return Err(format!("item {i} must be within ±{DOMAIN:e} mm"));
+        return Err(format!("item {i} must be within ±{MAX_INPUT:e} mm"));
     }
     if i >= 3 && !is_angle(number) {
         return Err(format!("item {i} must be within ±{LARGEST_ANGLE} degrees"));
@@ -107,12 +107,14 @@ pub(crate) fn judge(
 }
 
 /// Judges a row without solution.
-pub(crate) fn refuse(machine: &Machine, refusal: Refusal) -> Verdict {
+pub(crate) fn refuse(machine: &Machine, refusal: KinematicsError) -> Verdict {
     match refusal {
-        Refusal::Blocked(margin) => Verdict::Unreachable(margin),
-        Refusal::SelfMotion => Verdict::Unreachable(unheld(machine)),
-        Refusal::OutOfDomain => Verdict::Invalid("the numbers together are too large".to_owned()),
-        Refusal::TooFar => Verdict::Invalid(format!("the row's lengths {}", too_far(machine))),
+        KinematicsError::Unreachable(margin) => Verdict::Unreachable(margin),
+        KinematicsError::SelfMotion => Verdict::Unreachable(unheld(machine)),
+        KinematicsError::OutOfDomain => Verdict::Invalid("the numbers together are too large".to_owned()),
+        KinematicsError::OutOfProportion => {
+            Verdict::Invalid(format!("the row's lengths {}", too_far(machine)))
+        }
     }
 }
 

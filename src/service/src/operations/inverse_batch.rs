@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 use verne_solver::{
-    Clearance, Machine, PartPose, Point, Posture, Postures, Refusal, part_every_working, part_working,
-    platform_working, tool_every_working, tool_working,
+    Clearance, KinematicsError, Machine, PartPose, Point, Posture, Postures, part_every_working,
+    part_working, platform_working, tool_every_working, tool_working,
 };
 
 use crate::operations::batch_rows::{
@@ -98,7 +98,7 @@ enum Target {
 }
 
 impl Target {
-    fn working(&self, machine: &Machine) -> Result<Posture, Refusal> {
+    fn working(&self, machine: &Machine) -> Result<Posture, KinematicsError> {
         match self {
             Self::Platform(point) => platform_working(machine, *point),
             Self::Tool(point, length) => tool_working(machine, *point, *length),

@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use verne_solver::{Machine, MachineData, MachineFault};
+use verne_solver::{Machine, MachineData, MachineError};
 
 use crate::operations::machine_hash::machine_hash;
 use crate::wire::answer::MachineId;
@@ -37,7 +37,7 @@ impl Published {
     }
 
     /// Checks a machine.
-    pub(crate) fn from_object(object: &MachineObject) -> Result<Self, Vec<MachineFault>> {
+    pub(crate) fn from_object(object: &MachineObject) -> Result<Self, Vec<MachineError>> {
         Machine::new(MachineData::from(object)).map(Self::new)
     }
 
@@ -139,7 +139,7 @@ impl Registry {
     }
 }
 
-fn below(pointer: &str, faults: Vec<MachineFault>) -> Vec<FieldError> {
+fn below(pointer: &str, faults: Vec<MachineError>) -> Vec<FieldError> {
     faults
         .into_iter()
         .map(|fault| FieldError::new(format!("{pointer}/{}", fault.field), fault.detail))

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use verne_solver::{
-    Clearance, Constraint, Element, Machine, Margin, Margins, PartPose, Posture, Postures, Refusal,
+    Clearance, Constraint, Element, KinematicsError, Machine, Margin, Margins, PartPose, Posture, Postures,
     TableAngles, jacobian, part_pose, tool_point,
 };
 
@@ -33,12 +33,16 @@ pub(crate) struct Found {
 pub(crate) struct Findings {
     pub(crate) found: Vec<Found>,
     /// The first refusal.
-    pub(crate) refusal: Option<Refusal>,
+    pub(crate) refusal: Option<KinematicsError>,
 }
 
 impl Findings {
     /// Adds all that one question to the solver found.
-    pub(crate) fn add(&mut self, outcome: Result<Postures, Refusal>, complete: impl Fn(Posture) -> Found) {
+    pub(crate) fn add(
+        &mut self,
+        outcome: Result<Postures, KinematicsError>,
+        complete: impl Fn(Posture) -> Found,
+    ) {
         match outcome {
             Ok(postures) => self.found.extend(postures.into_iter().map(complete)),
             Err(refusal) => self.refuse(refusal),
@@ -46,14 +50,18 @@ impl Findings {
     }
 
     /// Adds the one posture that was wanted.
-    pub(crate) fn add_one(&mut self, outcome: Result<Posture, Refusal>, complete: impl Fn(Posture) -> Found) {
+    pub(crate) fn add_one(
+        &mut self,
+        outcome: Result<Posture, KinematicsError>,
+        complete: impl Fn(Posture) -> Found,
+    ) {
         match outcome {
             Ok(posture) => self.found.push(complete(posture)),
             Err(refusal) => self.refuse(refusal),
         }
     }
 
-    fn refuse(&mut self, refusal: Refusal) {
+    fn refuse(&mut self, refusal: KinematicsError) {
         self.refusal.get_or_insert(refusal);
     }
 }
@@ -140,19 +148,19 @@ impl Presentation<'_> {
     fn why_nothing(
         &self,
         violated: Option<Margin>,
-        refusal: Option<Refusal>,
+        refusal: Option<KinematicsError>,
     ) -> Result<(Option<Reason>, Option<Limit>), OperationError> {
         let (reason, margin) = match (violated, refusal) {
             (Some(margin), _) => (Reason::Infeasible, margin),
-            (None, Some(Refusal::Blocked(margin))) => (Reason::Unreachable, margin),
-            (None, Some(Refusal::SelfMotion)) => (Reason::SelfMotion, unheld(self.machine())),
-            (None, Some(Refusal::OutOfDomain)) => {
+            (None, Some(KinematicsError::Unreachable(margin))) => (Reason::Unreachable, margin),
+            (None, Some(KinematicsError::SelfMotion)) => (Reason::SelfMotion, unheld(self.machine())),
+            (None, Some(KinematicsError::OutOfDomain)) => {
                 return Err(OperationError::Fields(vec![FieldError::new(
                     "",
                     "the numbers together are too large",
                 )]));
             }
-            (None, Some(Refusal::TooFar)) => {
+            (None, Some(KinematicsError::OutOfProportion)) => {
                 let detail = format!("pose, tool and table together {}", too_far(self.machine()));
                 return Err(OperationError::Fields(vec![FieldError::new("", detail)]));
             }

@@ -1,6 +1,6 @@
 //! Collects every bad field of a request, so that one answer names them all.
 
-use verne_solver::{DOMAIN, MOST_RATIO, Machine};
+use verne_solver::{MAX_INPUT, MAX_LENGTH_RATIO, Machine};
 
 use crate::wire::error::{FieldError, OperationError};
 
@@ -20,7 +20,7 @@ impl FieldErrors {
     /// A length in mm, of any sign.
     pub(crate) fn length(&mut self, pointer: &str, value: f64) {
         if !is_length(value) {
-            self.add(pointer, format!("must be a finite number within ±{DOMAIN:e} mm"));
+            self.add(pointer, format!("must be a finite number within ±{MAX_INPUT:e} mm"));
         }
     }
 
@@ -43,7 +43,7 @@ impl FieldErrors {
     /// The length of the tool, from P to its tip.
     pub(crate) fn tool_length(&mut self, value: f64) {
         if !is_tool_length(value) {
-            self.add("/tool_length", format!("must be a number from 0 to {DOMAIN:e} mm"));
+            self.add("/tool_length", format!("must be a number from 0 to {MAX_INPUT:e} mm"));
         }
     }
 
@@ -57,7 +57,7 @@ impl FieldErrors {
     /// The clearance over the table, if one is asked for, and the tool's radius. `theta1` is what a question must
     /// have for a clearance, if it does not have it.
     pub(crate) fn clearance(&mut self, least: Option<f64>, tool_radius: f64, lacking: Option<&str>) {
-        let allowed = format!("must be a number from 0 to {DOMAIN:e} mm");
+        let allowed = format!("must be a number from 0 to {MAX_INPUT:e} mm");
         if !is_tool_length(tool_radius) {
             self.add("/tool_radius", allowed.clone());
         }
@@ -79,21 +79,21 @@ impl FieldErrors {
 
 /// What is wrong with a length that is too long for the machine.
 pub(crate) fn out_of_proportion(value: f64, machine: &Machine) -> Option<String> {
-    (value.abs() > MOST_RATIO * machine.longest()).then(|| too_far(machine))
+    (value.abs() > MAX_LENGTH_RATIO * machine.longest()).then(|| too_far(machine))
 }
 
 /// What lengths have to be for a machine.
 pub(crate) fn too_far(machine: &Machine) -> String {
     format!(
-        "must be within ±{} mm for this machine: {MOST_RATIO:e} times its longest dimension. Beyond that double \
+        "must be within ±{} mm for this machine: {MAX_LENGTH_RATIO:e} times its longest dimension. Beyond that double \
          precision loses solutions",
-        MOST_RATIO * machine.longest()
+        MAX_LENGTH_RATIO * machine.longest()
     )
 }
 
 /// Whether a number can be a length in a question.
 pub(crate) fn is_length(value: f64) -> bool {
-    value.abs() <= DOMAIN
+    value.abs() <= MAX_INPUT
 }
 
 /// Whether a number can be an angle in a question.
@@ -103,5 +103,5 @@ pub(crate) fn is_angle(degrees: f64) -> bool {
 
 /// Whether a number can be the length of a tool.
 pub(crate) fn is_tool_length(value: f64) -> bool {
-    (0.0..=DOMAIN).contains(&value)
+    (0.0..=MAX_INPUT).contains(&value)
 }
