@@ -79,7 +79,7 @@ impl OffsetArc {
             let [from, to] = [pair[0], pair[1]];
             match (discriminant(from) >= 0.0, discriminant(to) >= 0.0) {
                 (false, true) => {
-                    open = Some(BranchInterval::from(end_of_branches(&discriminant, from, to), true))
+                    open = Some(BranchInterval::from(end_of_branches(&discriminant, from, to), true));
                 }
                 (true, false) => {
                     let last = open
@@ -187,9 +187,9 @@ fn peak(discriminant: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 
     for _ in 0..GOLDEN_STEPS {
         let part = GOLDEN * (high - low);
         if discriminant(high - part) > discriminant(low + part) {
-            high = low + part
+            high = low + part;
         } else {
-            low = high - part
+            low = high - part;
         }
     }
     0.5 * (low + high)
