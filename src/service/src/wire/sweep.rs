@@ -1,5 +1,6 @@
 //! The values of a parameter: one number, a list of numbers, or equal steps.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use serde::de::value::MapAccessDeserializer;
@@ -45,6 +46,10 @@ impl PartialSchema for Sweep {
 }
 
 impl ToSchema for Sweep {
+    fn name() -> Cow<'static, str> {
+        Cow::Borrowed("Span")
+    }
+
     fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
         schemas.push(("Steps".to_owned(), Steps::schema()));
     }
