@@ -1,31 +1,45 @@
 //! From a checked question to its answer, for handlers, the command line and jobs. Knows no HTTP.
 //!
 //! May import `telemetry`, `limits` and `wire`.
+//!
+//! - Kinematics: [`forward`], [`inverse`] and their batches. The solver computes the margins; [`solutions`] puts them
+//!   into answers.
+//! - Workspaces: [`workspace_question`], [`family_question`] and [`dexterity_question`] check requests; [`workspace`]
+//!   and [`dexterity_map`] compute answers; [`mesh_files`], [`slice`] and [`drawing`] write files.
+//! - Jobs: a [`question`] is submitted as text ([`question_text`]); [`job_executor`] answers it, large ones in
+//!   [`subtask`]s, and stores the [`results`].
+//!
+//! A new constraint of the solver needs a name and a unit in [`crate::wire::constraint`] and a colour in
+//! [`workspace_colours`].
 
 pub(crate) mod batch_rows;
+pub(crate) mod blocking_results;
 pub(crate) mod compute_pool;
 pub(crate) mod contains;
-pub(crate) mod dexterity;
+pub(crate) mod dexterity_map;
 pub(crate) mod dexterity_question;
 pub(crate) mod dexterity_subtasks;
 pub(crate) mod drawing;
-pub(crate) mod family;
 pub(crate) mod family_question;
+pub(crate) mod family_table;
 pub(crate) mod forward;
 pub(crate) mod forward_batch;
 pub(crate) mod inverse;
 pub(crate) mod inverse_batch;
 pub(crate) mod job_executor;
 pub(crate) mod machine_hash;
+pub(crate) mod machine_registry;
 pub(crate) mod mesh_files;
 pub(crate) mod nearest;
-pub(crate) mod orientation;
+pub(crate) mod observers;
 pub(crate) mod question;
-pub(crate) mod registry;
+pub(crate) mod question_cache;
+pub(crate) mod question_text;
+pub(crate) mod requested_orientation;
 pub(crate) mod results;
 pub(crate) mod slice;
 pub(crate) mod solutions;
-pub(crate) mod subprogress;
+pub(crate) mod solver_errors;
 pub(crate) mod subtask;
 pub(crate) mod table_angles;
 pub(crate) mod workspace;

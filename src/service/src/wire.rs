@@ -1,4 +1,4 @@
-//! Types of requests, answers and errors: the contract's JSON, and the units between it and the solver.
+//! The JSON of requests, answers and errors, and the conversion between its degrees and the solver's radians.
 //!
 //! Imports no other folder of the service.
 
@@ -6,7 +6,7 @@ pub(crate) mod alphas;
 pub(crate) mod answer;
 pub(crate) mod batch;
 pub(crate) mod bounded_list;
-pub(crate) mod catalogue;
+pub(crate) mod constraint;
 pub(crate) mod contains;
 pub(crate) mod degrees;
 pub(crate) mod dexterity;
@@ -15,9 +15,12 @@ pub(crate) mod family;
 pub(crate) mod field_errors;
 pub(crate) mod fixed_array;
 pub(crate) mod format;
+pub(crate) mod health;
 pub(crate) mod json;
+pub(crate) mod json_pointer;
 pub(crate) mod limit;
 pub(crate) mod machine;
+pub(crate) mod machine_list;
 pub(crate) mod machine_ref;
 pub(crate) mod margins;
 pub(crate) mod missing;
@@ -30,6 +33,7 @@ pub(crate) mod role;
 pub(crate) mod slice;
 pub(crate) mod strict_object;
 pub(crate) mod sweep;
+pub(crate) mod tool;
 pub(crate) mod workspace;
 pub(crate) mod workspace_query;
 pub(crate) mod workspace_summary;

@@ -16,7 +16,7 @@ use crate::http::state::Shared;
 use crate::limits::admission::Memory;
 use crate::limits::client_quota::Share;
 use crate::limits::response_memory::with_share;
-use crate::operations::compute_pool::{on_workers, on_workers_while_waited_for};
+use crate::operations::compute_pool::run_on_pool;
 use crate::wire::error::OperationError;
 use crate::wire::parse::parse_body;
 use crate::wire::query_string::parse_query;
@@ -64,7 +64,7 @@ impl Batch {
         work: impl FnOnce(&[u8], &dyn Observer) -> Result<Vec<u8>, OperationError> + Send + 'static,
     ) -> Result<Bytes, HttpError> {
         let Self { mut body, coding, limit, mut memory, share } = self;
-        on_workers_while_waited_for(move |observer| {
+        run_on_pool(move |observer| {
             if let Some(coding) = coding {
                 let sent = body.len();
                 body = coding.decode(&body, limit, |decoded| memory.hold(sent + decoded))?;
@@ -99,7 +99,7 @@ async fn json_bytes(request: Request, limit: usize) -> Result<Bytes, HttpError> 
     let body =
         to_bytes(request.into_body(), limit).await.map_err(|error| lost(&*error.into_inner(), limit))?;
     match coding {
-        Some(coding) => on_workers(move || coding.decode(&body, limit, |_| Ok(())).map(Bytes::from)).await,
+        Some(coding) => run_on_pool(move |_| coding.decode(&body, limit, |_| Ok(())).map(Bytes::from)).await,
         None => Ok(body),
     }
 }

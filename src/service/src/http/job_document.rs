@@ -11,7 +11,7 @@ use verne_jobs::{Job, JobId, State};
 use crate::http::problem::Problem;
 use crate::http::proxy::BasePath;
 use crate::http::result_or_job::failure;
-use crate::operations::question::Gist;
+use crate::operations::question_text::QuestionHeader;
 use crate::wire::answer::MachineId;
 use crate::wire::error::OperationError;
 use crate::wire::result_id::ResultId;
@@ -103,15 +103,15 @@ impl From<StateName> for State {
 impl JobObject {
     /// The job in the contract's words, with links that begin with the path under which the service is published.
     pub(crate) fn new(job: &Job, base: &BasePath) -> Result<Self, OperationError> {
-        let gist = Gist::of(&job.payload)?;
+        let header = QuestionHeader::read(&job.payload).map_err(|_| OperationError::Internal)?;
         let time = |time: SystemTime| format_rfc3339_millis(time).to_string();
         let itself = format!("{base}{}", Self::path(job.id));
         Ok(Self {
             id: job.id.to_string(),
             state: job.state.into(),
             progress: job.progress,
-            request: gist.request.to_owned(),
-            machine: gist.machine(),
+            request: header.request.to_owned(),
+            machine: header.machine(),
             created: time(job.created),
             started: job.started.map(time),
             finished: job.finished.map(time),

@@ -8,7 +8,7 @@ use verne_jobs::Backend;
 
 use crate::http::error::{HttpError, JobError};
 use crate::operations::results::Results;
-use crate::wire::catalogue::{Health, Part, Status};
+use crate::wire::health::{Health, HealthStatus, SharedPart};
 
 /// Asked by `/readyz`.
 pub(crate) struct Readiness {
@@ -34,16 +34,16 @@ impl Readiness {
             if !self.results.are_shared() {
                 return Err(error.into());
             }
-            failing.push(Part::Store);
+            failing.push(SharedPart::Store);
         }
         if let Err(unavailable) = self.jobs.reachable().await {
             if !self.jobs.is_shared() {
                 return Err(unavailable.into());
             }
             tracing::error!(%unavailable, "cannot reach the job records");
-            failing.push(Part::Broker);
+            failing.push(SharedPart::Broker);
         }
-        let status = if failing.is_empty() { Status::Ok } else { Status::Degraded };
+        let status = if failing.is_empty() { HealthStatus::Ok } else { HealthStatus::Degraded };
         Ok(Json(Health { status, failing }))
     }
 }

@@ -10,10 +10,12 @@ use crate::http::caller::Caller;
 use crate::http::error::{HttpError, JobError};
 use crate::http::state::State;
 use crate::limits::admission::Place;
-use crate::operations::compute_pool::on_workers_while_waited_for;
-use crate::operations::question::{Question, TaskFault, Terms};
+use crate::operations::compute_pool::run_on_pool;
+use crate::operations::question::Question;
+use crate::operations::question_text::JobParameters;
 use crate::operations::results::Record;
 use crate::wire::error::OperationError;
+use crate::wire::format::MeshFormat;
 use crate::wire::result_id::ResultId;
 use crate::wire::role::Role;
 
@@ -40,25 +42,28 @@ impl State {
     /// The record of a question's answer.
     pub(crate) async fn obtain(
         &self,
-        question: &Question,
+        question: &Arc<Question>,
         patience: &Patience,
     ) -> Result<Obtained<Record>, HttpError> {
-        let id = question.id();
-        match self.results.record(id).await {
+        match self.results.record(question.id()).await {
             Some(record) => Ok(Obtained::Ready(record)),
-            None => self.compute(question, patience).await,
+            None => self.compute(question, None, patience).await,
         }
     }
 
-    /// Has a job compute the answer, and waits for it.
+    /// Has a job compute the answer, and waits for it. The job also stores the mesh of a workspace in `mesh_format`.
     pub(crate) async fn compute(
         &self,
-        question: &Question,
+        question: &Arc<Question>,
+        mesh_format: Option<MeshFormat>,
         patience: &Patience,
     ) -> Result<Obtained<Record>, HttpError> {
         patience.caller.must_be(Role::Compute)?;
-        let terms = self.terms(question).await?;
-        let submission = question.submission(terms, patience.caller.client.clone(), Some(self.limits.job))?;
+        let (cost, max_triangles) = (self.cost(question).await?, self.limits.triangles);
+        let parameters = JobParameters { max_triangles, cost, mesh_format };
+        let submission =
+            question.submission(parameters, patience.caller.client.clone(), Some(self.limits.job))?;
+        self.results.questions.insert(Arc::clone(question));
         let claim = self.jobs.submit(submission).await.map_err(JobError::from)?;
         if patience.wait.is_zero() {
             return Ok(Obtained::Pending(kept(&claim)));
@@ -80,26 +85,26 @@ impl State {
         }
     }
 
-    /// On which terms a job may answer. Of equal questions at the same moment one is estimated.
-    async fn terms(&self, question: &Question) -> Result<Terms, OperationError> {
-        let (asked, most) = (question.clone(), self.limits.triangles);
-        let estimate = on_workers_while_waited_for(move |observer| asked.terms(most, observer));
-        let terms = self.terms.try_get_with(question.id().job(), estimate).await;
-        terms.map_err(|error| error.as_ref().clone())
+    /// The estimated work of a question, seconds of one core. Equal questions at the same moment are estimated once.
+    async fn cost(&self, question: &Arc<Question>) -> Result<f64, OperationError> {
+        let (estimated, max_triangles) = (Arc::clone(question), self.limits.triangles);
+        let estimate = run_on_pool(move |observer| estimated.cost(max_triangles, observer));
+        let cost = self.costs.try_get_with(question.id().job(), estimate).await;
+        cost.map_err(|error| error.as_ref().clone())
     }
 
-    /// What a look at a part of a question's answer finds. It may have left the store before the figures did: then a
-    /// job computes it again.
-    pub(crate) async fn part<T, F: Future<Output = Option<T>>>(
+    /// What `look` finds. The store may have evicted it earlier than the summary: then a job computes it again.
+    pub(crate) async fn blob<T, F: Future<Output = Option<T>>>(
         &self,
-        question: &Question,
+        question: &Arc<Question>,
+        mesh_format: Option<MeshFormat>,
         patience: &Patience,
         look: impl Fn() -> F,
     ) -> Result<Obtained<T>, HttpError> {
-        if let Some(part) = look().await {
-            return Ok(Obtained::Ready(part));
+        if let Some(found) = look().await {
+            return Ok(Obtained::Ready(found));
         }
-        match self.compute(question, patience).await? {
+        match self.compute(question, mesh_format, patience).await? {
             Obtained::Pending(job) => Ok(Obtained::Pending(job)),
             Obtained::Ready(_) => Ok(Obtained::Ready(look().await.ok_or(JobError::ResultTooLarge)?)),
         }
@@ -124,9 +129,9 @@ fn kept(claim: &Claim) -> Box<Job> {
 /// Why a job failed.
 pub(crate) fn failure(job: &Job) -> HttpError {
     match &job.failure {
-        Some(Failure::Work(fault)) => serde_json::from_slice::<TaskFault>(fault)
-            .map_or(OperationError::Internal, OperationError::from)
-            .into(),
+        Some(Failure::Work(reason)) => {
+            serde_json::from_slice(reason).unwrap_or(OperationError::Internal).into()
+        }
         Some(Failure::DeadlinePassed) => JobError::DeadlinePassed.into(),
         Some(Failure::Panicked(_) | Failure::TooManyAttempts) | None => OperationError::Internal.into(),
     }

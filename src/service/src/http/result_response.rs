@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use axum::response::Response;
-use verne_store::{Content, Found};
+use verne_store::Found;
 
 use crate::http::base_path::linked;
 use crate::http::conditional_response::{Conditions, Delivery};
@@ -12,17 +12,20 @@ use crate::http::handlers::jobs::accepted;
 use crate::http::prefer::Prefer;
 use crate::http::result_or_job::{Obtained, Patience};
 use crate::http::state::State;
-use crate::operations::compute_pool::on_workers;
-use crate::operations::mesh_files::{Described, write_mesh};
+use crate::operations::compute_pool::run_on_pool;
+use crate::operations::mesh_files::{MeshDescription, mesh_file_name, write_mesh};
 use crate::operations::question::Question;
-use crate::operations::results::{MESH, Record, content, unpacked_mesh};
+use crate::operations::question_text::QuestionKind;
+use crate::operations::results::{MESH, Record, hashed, unpack_mesh};
 use crate::wire::dexterity::SetName;
+use crate::wire::error::OperationError;
 use crate::wire::format::MeshFormat;
+use crate::wire::result_id::ResultId;
 
 /// The figures that answer a question.
 pub(crate) async fn figures(
     state: &State,
-    question: &Question,
+    question: &Arc<Question>,
     patience: &Patience,
 ) -> Result<Obtained<Delivery>, HttpError> {
     Ok(match state.obtain(question, patience).await? {
@@ -31,35 +34,35 @@ pub(crate) async fn figures(
     })
 }
 
-/// Which surface of a question's answer is meant: its name among the kept parts, and what its files say.
-fn surface(question: &Question, set: Option<SetName>) -> Result<(&'static str, Described<'_>), HttpError> {
-    match (question, set) {
-        (Question::Workspace(workspace), None) => Ok((MESH, Described::workspace(workspace))),
-        (Question::Workspace(_), Some(_)) => {
-            let detail = "is allowed only for dexterity maps: a workspace has one mesh";
-            Err(HttpError::field("/query/set", detail))
-        }
-        (Question::Family(_) | Question::Piece(_), _) => {
-            Err(LookupError::Mesh(question.id().to_string()).into())
-        }
-        (Question::Dexterity(dexterity), set) => {
-            let set = set.unwrap_or(SetName::Reachable);
-            Ok((set.name(), Described::set(dexterity, set)))
-        }
-    }
+/// A surface of a result.
+pub(crate) struct Surface {
+    id: ResultId,
+    /// The set of a dexterity map.
+    set: Option<SetName>,
+    /// The blob with its mesh.
+    blob: &'static str,
 }
 
-/// A mesh in a format.
-pub(crate) async fn mesh(
-    state: &State,
-    question: Question,
-    set: Option<SetName>,
-    format: MeshFormat,
-    patience: &Patience,
-) -> Result<Obtained<Delivery>, HttpError> {
-    let (id, name) = (question.id(), format.name());
-    let sent = |content: Found, own| {
-        let set = set.map(|set| format!("&set={}", set.name())).unwrap_or_default();
+impl Surface {
+    /// The surface of a result that a request means by `set`.
+    pub(crate) fn of(id: ResultId, kind: QuestionKind, set: Option<SetName>) -> Result<Self, HttpError> {
+        let blob = match (kind, set) {
+            (QuestionKind::Workspace, None) => MESH,
+            (QuestionKind::Workspace, Some(_)) => {
+                let detail = "is allowed only for dexterity maps: a workspace has one mesh";
+                return Err(HttpError::field("/query/set", detail));
+            }
+            (QuestionKind::Family | QuestionKind::Subtask, _) => {
+                return Err(LookupError::Mesh(id.to_string()).into());
+            }
+            (QuestionKind::Dexterity, set) => set.unwrap_or(SetName::Reachable).name(),
+        };
+        Ok(Self { id, set, blob })
+    }
+
+    fn delivery(&self, format: MeshFormat, content: Found, own: bool) -> Delivery {
+        let (id, name) = (self.id, format.name());
+        let set = self.set.map(|set| format!("&set={}", set.name())).unwrap_or_default();
         Delivery {
             content,
             own,
@@ -68,19 +71,30 @@ pub(crate) async fn mesh(
             location: format!("{}/mesh?format={name}{set}", id.path()),
             file_name: Some(format!("workspace-{id:.8}.{name}")),
         }
-    };
-    let file = format!("{}.{name}", surface(&question, set)?.0);
-    if let Some(content) = state.results.found(id, &file).await {
-        return Ok(Obtained::Ready(sent(content, false)));
     }
+}
+
+/// The mesh of a surface in a format. `question` is the question of the result; it is needed if the file is not stored.
+pub(crate) async fn mesh(
+    state: &State,
+    surface: &Surface,
+    format: MeshFormat,
+    patience: &Patience,
+    question: impl FnOnce() -> Result<Arc<Question>, OperationError>,
+) -> Result<Obtained<Delivery>, HttpError> {
+    let file = mesh_file_name(surface.blob, format);
+    if let Some(content) = state.results.find_blob(surface.id, &file).await {
+        return Ok(Obtained::Ready(surface.delivery(format, content, false)));
+    }
+    let question = question()?;
     let make = || async {
         // Without the mesh a job is to compute it again.
-        made(state, &question, set, format, &file, patience.caller.sharer()).await.transpose()
+        made(state, &question, surface, format, &file, patience.caller.sharer()).await.transpose()
     };
-    Ok(match state.part(&question, patience, make).await? {
+    Ok(match state.blob(&question, Some(format), patience, make).await? {
         Obtained::Ready(made) => {
             let Made { content, own } = made?;
-            Obtained::Ready(sent(content.into(), own))
+            Obtained::Ready(surface.delivery(format, content, own))
         }
         Obtained::Pending(job) => Obtained::Pending(job),
     })
@@ -88,37 +102,48 @@ pub(crate) async fn mesh(
 
 /// The file of a mesh.
 struct Made {
-    content: Content,
-    /// Here, and not for another who asked at the same time.
+    content: Found,
+    /// Whether this request made it, and not another one or the job.
     own: bool,
 }
 
-/// Makes the file of a mesh, once for all who ask for it now; `None` where the mesh is not kept. It has its turn
-/// until the file is made, whether anybody waits or not, and while somebody does until it is kept.
+/// Makes the file of a mesh from the stored mesh, once for all requests of this moment; `None` if the mesh is not stored.
+/// It counts among the files that are made at once until it is made, even if the client no longer waits.
 async fn made(
     state: &State,
-    question: &Question,
-    set: Option<SetName>,
+    question: &Arc<Question>,
+    surface: &Surface,
     format: MeshFormat,
     file: &str,
     client: Option<&str>,
 ) -> Result<Option<Made>, HttpError> {
-    let (id, part) = (question.id(), surface(question, set)?.0);
+    if let Some(content) = state.results.find_blob(surface.id, file).await {
+        return Ok(Some(Made { content, own: false }));
+    }
+    let (id, blob, set) = (surface.id, surface.blob, surface.set);
     let mut turn = None;
     let make = Box::pin(async {
         let taken = Arc::clone(turn.insert(Arc::new(state.admission.mesh(client).await?)));
-        let Some(packed) = state.results.part(id, part).await else { return Ok::<_, HttpError>(None) };
-        let question = question.clone();
-        on_workers(move || {
+        let Some(packed) = state.results.blob(id, blob).await else { return Ok::<_, HttpError>(None) };
+        let question = Arc::clone(question);
+        run_on_pool(move |_| {
             let _taken = taken;
-            let Some(mesh) = unpacked_mesh(&packed) else { return Ok(None) };
+            let Some(mesh) = unpack_mesh(&packed) else { return Ok(None) };
             drop(packed);
-            Ok(Some(write_mesh(&surface(&question, set)?.1, &mesh, format)?))
+            Ok(Some(write_mesh(&description(&question, set)?, &mesh, format)?))
         })
         .await
     });
-    let content = state.results.part_or(id, file, make).await?;
-    Ok(content.map(|content| Made { content, own: turn.is_some() }))
+    let content = state.results.blob_or_make(id, file, make).await?;
+    Ok(content.map(|content| Made { content: content.into(), own: turn.is_some() }))
+}
+
+fn description(question: &Question, set: Option<SetName>) -> Result<MeshDescription<'_>, OperationError> {
+    match question {
+        Question::Workspace(workspace) => Ok(MeshDescription::of_workspace(workspace)),
+        Question::Dexterity(map) => Ok(MeshDescription::of_set(map, set.unwrap_or(SetName::Reachable))),
+        Question::Family(_) | Question::Subtask(_) => Err(OperationError::Internal),
+    }
 }
 
 /// The answer, or the address of the job that will have it.
@@ -139,11 +164,11 @@ pub(crate) fn respond(
 
 /// A record's figures.
 pub(crate) fn summary(state: &State, record: Record) -> Delivery {
-    let id = record.question.id();
+    let id = record.id;
     let linked = linked(&record.summary.bytes, id, &state.base);
     Delivery {
         location: id.path(),
-        content: linked.map_or(record.summary, content).into(),
+        content: linked.map_or(record.summary, hashed).into(),
         own: false,
         media: "application/json",
         cache_control: None,

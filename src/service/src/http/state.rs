@@ -11,8 +11,7 @@ use crate::http::proxy::BasePath;
 use crate::http::readiness::Readiness;
 use crate::http::static_content::Fixed;
 use crate::limits::admission::Admission;
-use crate::operations::question::Terms;
-use crate::operations::registry::Registry;
+use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::results::Results;
 use crate::telemetry::metrics::Metrics;
 
@@ -33,13 +32,13 @@ pub(crate) struct RequestLimits {
     pub job: Duration,
 }
 
-/// Questions whose terms are kept.
-pub(crate) const TERMS: u64 = 10_000;
+/// Most questions whose estimated work is remembered.
+pub(crate) const ESTIMATES: u64 = 10_000;
 
 /// Shared state.
 pub(crate) struct State {
     /// The published machines.
-    pub machines: Registry,
+    pub machines: MachineRegistry,
     /// The largest requests that are answered.
     pub limits: RequestLimits,
     /// How much is worked on at once.
@@ -48,8 +47,8 @@ pub(crate) struct State {
     pub results: Results,
     /// What is being computed.
     pub jobs: Arc<dyn Backend>,
-    /// On which terms jobs answer the questions that were asked last.
-    pub terms: Cache<JobId, Terms>,
+    /// The estimated work of the questions that were asked last, seconds of one core.
+    pub costs: Cache<JobId, f64>,
     /// Whether all of it works.
     pub readiness: Readiness,
     /// What is measured.

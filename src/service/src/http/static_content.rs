@@ -12,7 +12,7 @@ use flate2::write::GzEncoder;
 use headers::{ETag, HeaderMapExt, IfNoneMatch};
 use tokio::sync::OnceCell;
 
-use crate::operations::compute_pool::on_workers;
+use crate::operations::compute_pool::run_on_pool;
 use crate::wire::error::OperationError;
 
 /// How hard Brotli tries, of 11: with the document the last two steps save one byte in nine and take thirteen times as long.
@@ -70,7 +70,7 @@ impl Fixed {
             Encoding::Gzip => &self.gzip,
         };
         let plain = self.plain.clone();
-        kept.get_or_try_init(|| on_workers(move || encoding.encode(&plain))).await.cloned()
+        kept.get_or_try_init(|| run_on_pool(move |_| encoding.encode(&plain))).await.cloned()
     }
 }
 

@@ -1,61 +1,76 @@
-//! What both batches share: reading a row, judging it, and turning rows into columns.
+//! The rows of a batch: reading the numbers of a row, the outcome of a row, and the columns of the answer.
 
 use arrayvec::ArrayVec;
 use serde_json::value::RawValue;
 use verne_solver::{Clearance, KinematicsError, MAX_INPUT, Machine, Margin, Margins, Posture, TableAngles};
 
-use crate::operations::solutions::unheld;
-use crate::wire::batch::{Counts, Row, RowError, RowReport, Rows, Status};
+use crate::operations::solutions::self_motion_margin;
+use crate::wire::batch::{Counts, Row, RowError, RowReport, Status};
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::{FieldErrors, LARGEST_ANGLE, is_angle, is_length, too_far};
 use crate::wire::limit::{Limit, Unchecked};
+use crate::wire::tool::Tool;
 
-/// Rows that one task takes at least: enough to outweigh the cost of handing them over.
-pub(crate) const CHUNK: usize = 64;
+/// Least rows of one task on the compute pool: enough to outweigh the cost of handing them over.
+pub(crate) const MIN_CHUNK: usize = 64;
 
 /// About the bytes of an answered row.
 pub(crate) const ROW_BYTES: usize = 192;
 
-/// How many bad rows are explained.
-pub(crate) const EXPLAINED: usize = 100;
+/// Most invalid rows whose errors are explained.
+pub(crate) const MAX_EXPLAINED: usize = 100;
 
-/// How one row fares.
+/// The outcome of a row.
 #[derive(Debug)]
-pub(crate) enum Verdict {
+pub(crate) enum RowOutcome {
+    /// The solution keeps every limit.
     Ok,
+    /// No solution: the margin names the constraint that prevents it.
     Unreachable(Margin),
+    /// The solution breaks a limit: the worst margin.
     Infeasible(Margin),
+    /// The row cannot be used: the reason.
     Invalid(String),
 }
 
-/// What a row may hold, and how that is said: the last two of five numbers are angles in degrees.
+/// The numbers that a row may have. The first three numbers are lengths in mm, the others angles in degrees.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Shape {
+pub(crate) struct RowFormat {
+    /// The accepted lengths of a row.
     pub(crate) lengths: &'static [usize],
-    pub(crate) words: &'static str,
+    /// The accepted rows in words.
+    pub(crate) description: &'static str,
 }
 
-impl Shape {
-    /// One of the rows, or what is wrong with it.
-    pub(crate) fn row(self, rows: &Rows<'_>, i: usize) -> Result<Row, String> {
-        let row = match rows {
-            Rows::Read(rows) => {
-                let row = &rows.kept()[i];
-                check(row).map(|()| row.clone())
-            }
-            Rows::Text(rows) => self.read(rows.kept()[i]),
-        }?;
+impl RowFormat {
+    fn expected(self) -> String {
+        format!("expected {}", self.description)
+    }
+
+    /// The row if it has an accepted length.
+    fn with_accepted_length(self, row: Row) -> Result<Row, String> {
         if self.lengths.contains(&row.len()) { Ok(row) } else { Err(self.expected()) }
     }
+}
 
-    fn expected(self) -> String {
-        format!("expected {}", self.words)
+/// A row of a batch in either form: as numbers, or as JSON text that is still to be read.
+pub(crate) trait BatchRow: Sync {
+    /// The numbers of the row, or the reason why they cannot be used.
+    fn numbers(&self, format: RowFormat) -> Result<Row, String>;
+}
+
+impl BatchRow for Row {
+    fn numbers(&self, format: RowFormat) -> Result<Row, String> {
+        self.iter().enumerate().try_for_each(|(i, &number)| check_item(i, number))?;
+        format.with_accepted_length(self.clone())
     }
+}
 
-    fn read(self, text: &RawValue) -> Result<Row, String> {
-        let bare = text.get().strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+impl BatchRow for &RawValue {
+    fn numbers(&self, format: RowFormat) -> Result<Row, String> {
+        let items = self.get().strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
         let mut row: Row = ArrayVec::new();
-        let mut rest = Some(bare.ok_or_else(|| self.expected())?);
+        let mut rest = Some(items.ok_or_else(|| format.expected())?);
         while let Some(text) = rest {
             let i = row.len();
             let item;
@@ -64,16 +79,12 @@ impl Shape {
             let number: f64 = item
                 .trim_ascii()
                 .parse()
-                .map_err(|_| format!("item {i} is not a number; expected {}", self.words))?;
+                .map_err(|_| format!("item {i} is not a number; {}", format.expected()))?;
             check_item(i, number)?;
-            row.try_push(number).map_err(|_| self.expected())?;
+            row.try_push(number).map_err(|_| format.expected())?;
         }
-        Ok(row)
+        format.with_accepted_length(row)
     }
-}
-
-fn check(row: &Row) -> Result<(), String> {
-    row.iter().enumerate().try_for_each(|(i, &number)| check_item(i, number))
 }
 
 fn check_item(i: usize, number: f64) -> Result<(), String> {
@@ -86,8 +97,8 @@ fn check_item(i: usize, number: f64) -> Result<(), String> {
     Ok(())
 }
 
-/// The text up to the first comma, and what follows it. Items are short: the standard library's search, made for long
-/// texts, takes longer.
+/// The text up to the first comma, and the text after it. Items are short: the standard library's search is made for
+/// long texts and takes more time.
 fn first_item(text: &str) -> (&str, Option<&str>) {
     match text.bytes().position(|byte| byte == b',') {
         Some(at) => (&text[..at], Some(&text[at + 1..])),
@@ -95,32 +106,35 @@ fn first_item(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// Judges a solved row by its margins.
-pub(crate) fn judge(
+/// The outcome of a row with a solution.
+pub(crate) fn outcome_of_solution(
     machine: &Machine,
     posture: &Posture,
     table: Option<TableAngles>,
     clearance: Option<&Clearance>,
-) -> Verdict {
+) -> RowOutcome {
     let margins = Margins::above_table(machine, posture, table, clearance);
-    if margins.feasible() { Verdict::Ok } else { Verdict::Infeasible(margins.worst(machine)) }
+    if margins.feasible() { RowOutcome::Ok } else { RowOutcome::Infeasible(margins.worst(machine)) }
 }
 
-/// Judges a row without solution.
-pub(crate) fn refuse(machine: &Machine, refusal: KinematicsError) -> Verdict {
+/// The outcome of a row without a solution.
+pub(crate) fn outcome_of_refusal(machine: &Machine, refusal: KinematicsError) -> RowOutcome {
     match refusal {
-        KinematicsError::Unreachable(margin) => Verdict::Unreachable(margin),
-        KinematicsError::SelfMotion => Verdict::Unreachable(unheld(machine)),
-        KinematicsError::OutOfDomain => Verdict::Invalid("the numbers together are too large".to_owned()),
+        KinematicsError::Unreachable(margin) => RowOutcome::Unreachable(margin),
+        KinematicsError::SelfMotion => RowOutcome::Unreachable(self_motion_margin(machine)),
+        KinematicsError::OutOfDomain => RowOutcome::Invalid("the numbers together are too large".to_owned()),
         KinematicsError::OutOfProportion => {
-            Verdict::Invalid(format!("the row's lengths {}", too_far(machine)))
+            RowOutcome::Invalid(format!("the row's lengths {}", too_far(machine)))
         }
     }
 }
 
-/// Turns verdicts into columns; says whether the table was checked of every row.
-pub(crate) fn report(verdicts: impl ExactSizeIterator<Item = Verdict>, table_checked: bool) -> RowReport {
-    let rows = verdicts.len();
+/// The columns of the answer. `table_checked` states whether the table was checked for every row.
+pub(crate) fn row_report(
+    outcomes: impl ExactSizeIterator<Item = RowOutcome>,
+    table_checked: bool,
+) -> RowReport {
+    let rows = outcomes.len();
     let mut report = RowReport {
         status: Vec::with_capacity(rows),
         constraint: Vec::with_capacity(rows),
@@ -129,13 +143,13 @@ pub(crate) fn report(verdicts: impl ExactSizeIterator<Item = Verdict>, table_che
         not_checked: Unchecked::beside(table_checked),
         ..RowReport::default()
     };
-    for (row, verdict) in verdicts.enumerate() {
-        let (status, margin) = match verdict {
-            Verdict::Ok => (Status::Ok, None),
-            Verdict::Unreachable(margin) => (Status::Unreachable, Some(margin)),
-            Verdict::Infeasible(margin) => (Status::Infeasible, Some(margin)),
-            Verdict::Invalid(detail) => {
-                if report.errors.len() < EXPLAINED {
+    for (row, outcome) in outcomes.enumerate() {
+        let (status, margin) = match outcome {
+            RowOutcome::Ok => (Status::Ok, None),
+            RowOutcome::Unreachable(margin) => (Status::Unreachable, Some(margin)),
+            RowOutcome::Infeasible(margin) => (Status::Infeasible, Some(margin)),
+            RowOutcome::Invalid(detail) => {
+                if report.errors.len() < MAX_EXPLAINED {
                     report.errors.push(RowError { row, detail });
                 }
                 (Status::Invalid, None)
@@ -160,33 +174,17 @@ fn count(counts: &mut Counts, status: Status) {
     }
 }
 
-/// A tool and the clearance over the table, as all rows of a batch have them.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Shared {
-    pub(crate) tool_length: f64,
-    pub(crate) table_clearance: Option<f64>,
-    pub(crate) tool_radius: f64,
-}
-
-impl Shared {
-    /// The clearance that is checked.
-    pub(crate) fn clearance(self, machine: &Machine) -> Option<Clearance> {
-        Clearance::of(machine, self.table_clearance, self.tool_length, self.tool_radius)
-    }
-}
-
-/// Checks what all rows share; `lacking` is why they have no theta1, where none has.
+/// Checks what all rows share. `without_theta1` is the reason why no row has theta1, if none has.
 pub(crate) fn check_batch(
-    shared: Shared,
-    lacking: Option<&str>,
+    tool: Tool,
+    without_theta1: Option<&str>,
     rows: usize,
-    limit: usize,
+    max_rows: usize,
 ) -> Result<(), OperationError> {
-    if rows > limit {
-        return Err(OperationError::TooManyRows { rows, limit });
+    if rows > max_rows {
+        return Err(OperationError::TooManyRows { rows, limit: max_rows });
     }
     let mut faults = FieldErrors::default();
-    faults.tool_length(shared.tool_length);
-    faults.clearance(shared.table_clearance, shared.tool_radius, lacking);
+    tool.check(without_theta1, &mut faults);
     faults.into_result()
 }

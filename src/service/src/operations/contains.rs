@@ -4,64 +4,59 @@ use rayon::prelude::*;
 use verne_solver::Point;
 use verne_solver::workspace::{Membership, Observer, Request, contains};
 
-use crate::operations::batch_rows::{CHUNK, EXPLAINED, Shape};
-use crate::operations::registry::Registry;
-use crate::operations::workspace_question::{WorkspaceQuestion, workspace_error};
-use crate::wire::batch::{RowError, Rows};
+use crate::operations::batch_rows::{BatchRow, MAX_EXPLAINED, MIN_CHUNK, RowFormat};
+use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::solver_errors::workspace_error;
+use crate::operations::workspace_question::WorkspaceQuestion;
+use crate::wire::batch::RowError;
 use crate::wire::contains::{ContainsAnswer, ContainsCounts, ContainsRequest};
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::{FieldErrors, out_of_proportion};
 use crate::wire::json::write_json;
 use crate::wire::limit::Limit;
 use crate::wire::parse::parse_body;
-use crate::wire::workspace::WorkspaceRequest;
-
-/// Membership needs no tolerance; any one that is allowed will do.
-const COARSE: f64 = 1000.0;
 
 /// About the bytes of an answered point.
 const POINT_BYTES: usize = 96;
 
-/// Answers a batch of points, from its body to the answer's; to be called on the worker threads.
+/// A point as a row.
+const POINT: RowFormat = RowFormat { lengths: &[3], description: "[x, y, z]" };
+
+/// Answers a batch of points: from the JSON of the request to the JSON of the answer. Call it on the compute pool.
 pub(crate) fn answer_contains(
     body: &[u8],
-    machines: &Registry,
-    most_rows: usize,
+    machines: &MachineRegistry,
+    max_rows: usize,
     observer: &dyn Observer,
 ) -> Result<Vec<u8>, OperationError> {
-    let asked: ContainsRequest<'_> = parse_body(body)?;
-    let (rows, limit) = (asked.points.len(), most_rows);
-    if rows > limit {
-        return Err(OperationError::TooManyRows { rows, limit });
+    let request: ContainsRequest<'_> = parse_body(body)?;
+    let rows = request.points.len();
+    if rows > max_rows {
+        return Err(OperationError::TooManyRows { rows, limit: max_rows });
     }
-    let ContainsRequest { machine, kind, tool_length, table_clearance, tool_radius, phi1, phi2, points } =
-        asked;
-    let tolerance = COARSE;
-    let whole =
-        WorkspaceRequest { machine, kind, tool_length, table_clearance, tool_radius, phi1, phi2, tolerance };
-    let question = WorkspaceQuestion::new(&whole, machines)?;
-    let machine = &question.published.machine;
+    let question = WorkspaceQuestion::new(&request.workspace(), machines)?;
+    let machine = &*question.machine;
     let mut faults = FieldErrors::default();
     faults.proportion("/tool_length", question.request.tool_length.unwrap_or_default(), machine);
     faults.into_result()?;
-    let (shape, points) = (Shape { lengths: &[3], words: "[x, y, z]" }, Rows::Text(points));
-    let read: Vec<Result<Point, String>> = (0..rows)
-        .into_par_iter()
-        .with_min_len(CHUNK)
-        .map(|i| {
-            let row = shape.row(&points, i)?;
+    let points: Vec<Result<Point, String>> = request
+        .points
+        .items()
+        .par_iter()
+        .with_min_len(MIN_CHUNK)
+        .map(|row| {
+            let row = row.numbers(POINT)?;
             let fault = row.iter().find_map(|&length| out_of_proportion(length, machine));
             fault.map_or(Ok([row[0], row[1], row[2]]), |fault| Err(format!("each coordinate {fault}")))
         })
         .collect();
-    let good: Vec<Point> = read.iter().flatten().copied().collect();
-    let request = Request::from(&question.request);
-    let found = contains(machine, &request, &good, observer).map_err(workspace_error)?;
-    let mut answer = ContainsAnswer::with_room(&question, rows);
-    let mut found = found.into_iter();
-    for point in read {
+    let valid: Vec<Point> = points.iter().flatten().copied().collect();
+    let found = contains(machine, &Request::from(&question.request), &valid, observer);
+    let mut memberships = found.map_err(workspace_error)?.into_iter();
+    let mut answer = ContainsAnswer::with_capacity(&question, rows);
+    for point in points {
         match point {
-            Ok(_) => answer.add(found.next().ok_or(OperationError::Internal)?),
+            Ok(_) => answer.add(memberships.next().ok_or(OperationError::Internal)?),
             Err(detail) => answer.add_invalid(detail),
         }
     }
@@ -69,9 +64,9 @@ pub(crate) fn answer_contains(
 }
 
 impl ContainsAnswer {
-    fn with_room(question: &WorkspaceQuestion, points: usize) -> Self {
+    fn with_capacity(question: &WorkspaceQuestion, points: usize) -> Self {
         Self {
-            machine: question.published.id.clone(),
+            machine: question.machine.id.clone(),
             inside: Vec::with_capacity(points),
             margin: Vec::with_capacity(points),
             unit: Vec::with_capacity(points),
@@ -89,7 +84,7 @@ impl ContainsAnswer {
     }
 
     fn add_invalid(&mut self, detail: String) {
-        if self.errors.len() < EXPLAINED {
+        if self.errors.len() < MAX_EXPLAINED {
             self.errors.push(RowError { row: self.inside.len(), detail });
         }
         self.counts.invalid += 1;

@@ -1,75 +1,74 @@
-//! The pieces of a dexterity map as bytes.
+//! Computes the subtasks of a dexterity map, and reads their results.
 
 use serde::{Deserialize, Serialize};
 use verne_solver::workspace::dexterity::{Crossing, DexterityRequest, Grid, Slab, slab, volumes};
 use verne_solver::workspace::{Observer, Volume};
 
-use crate::operations::dexterity::{POINTS, too_many_points};
 use crate::operations::dexterity_question::DexterityQuestion;
-use crate::operations::workspace_question::workspace_error;
+use crate::operations::solver_errors::{MAX_GRID_POINTS, too_many_grid_points, workspace_error};
 use crate::wire::error::OperationError;
 
-/// A slab as it is kept.
+/// A slab as it is stored.
 #[derive(Serialize, Deserialize)]
-struct KeptSlab {
+struct StoredSlab {
     layers: [u32; 2],
     counts: Vec<u8>,
     intervals: Vec<[f64; 2]>,
     crossings: [Vec<(u64, [f64; 3])>; 2],
 }
 
-/// The grid of a map; refused where it has too many points.
+/// The grid of a map. A grid with too many points is an error.
 pub(crate) fn grid(question: &DexterityQuestion, observer: &dyn Observer) -> Result<Grid, OperationError> {
     let request = DexterityRequest::from(&question.request);
-    let grid = Grid::new(&question.published.machine, &request, observer).map_err(workspace_error)?;
-    if grid.nodes() > POINTS { Err(too_many_points(grid.nodes())) } else { Ok(grid) }
+    let grid = Grid::new(&question.machine, &request, observer).map_err(workspace_error)?;
+    if grid.nodes() > MAX_GRID_POINTS { Err(too_many_grid_points(grid.nodes())) } else { Ok(grid) }
 }
 
-/// One of so many slabs of a map.
+/// Computes slab `number` of `count` slabs of a map.
 pub(crate) fn compute_slab(
     question: &DexterityQuestion,
     [number, count]: [u32; 2],
     observer: &dyn Observer,
 ) -> Result<Vec<u8>, OperationError> {
     let (grid, request) = (grid(question, observer)?, DexterityRequest::from(&question.request));
-    let cut = |number: u32| {
+    let first_layer = |number: u32| {
         let layers = u64::from(grid.counts[0]) * u64::from(number) / u64::from(count.max(1));
         u32::try_from(layers).unwrap_or(u32::MAX)
     };
-    let layers = cut(number)..cut(number + 1);
-    let slab =
-        slab(&question.published.machine, &request, &grid, layers, observer).map_err(workspace_error)?;
+    let layers = first_layer(number)..first_layer(number + 1);
+    let slab = slab(&question.machine, &request, &grid, layers, observer).map_err(workspace_error)?;
     let Slab { layers, counts, intervals, crossings } = slab;
     let crossings =
         crossings.map(|found| found.into_iter().map(|crossing| (crossing.edge, crossing.at)).collect());
-    let kept = KeptSlab { layers: [layers.start, layers.end], counts, intervals, crossings };
-    postcard::to_stdvec(&kept).map_err(|_| OperationError::Internal)
+    let stored = StoredSlab { layers: [layers.start, layers.end], counts, intervals, crossings };
+    postcard::to_stdvec(&stored).map_err(|_| OperationError::Internal)
 }
 
-/// A slab that was kept.
+/// Reads the result of [`compute_slab`].
 pub(crate) fn read_slab(bytes: &[u8]) -> Result<Slab, OperationError> {
-    let KeptSlab { layers: [start, end], counts, intervals, crossings } =
+    let StoredSlab { layers: [start, end], counts, intervals, crossings } =
         postcard::from_bytes(bytes).map_err(|_| OperationError::Internal)?;
-    let crossings = crossings.map(|kept| kept.into_iter().map(|(edge, at)| Crossing { edge, at }).collect());
+    let crossings =
+        crossings.map(|stored| stored.into_iter().map(|(edge, at)| Crossing { edge, at }).collect());
     Ok(Slab { layers: start..end, counts, intervals, crossings })
 }
 
-/// The volumes of a map's two sets.
+/// Computes the volumes of a map's two sets.
 pub(crate) fn compute_volumes(
     question: &DexterityQuestion,
     observer: &dyn Observer,
 ) -> Result<Vec<u8>, OperationError> {
     let request = DexterityRequest::from(&question.request);
-    let volumes = volumes(&question.published.machine, &request, observer).map_err(workspace_error)?;
-    let kept = volumes.map(|volume| match volume {
+    let volumes = volumes(&question.machine, &request, observer).map_err(workspace_error)?;
+    let stored = volumes.map(|volume| match volume {
         Volume::Value { value, error } => Some([value, error]),
         Volume::Folded => None,
     });
-    postcard::to_stdvec(&kept).map_err(|_| OperationError::Internal)
+    postcard::to_stdvec(&stored).map_err(|_| OperationError::Internal)
 }
 
-/// Volumes that were kept.
+/// Reads the result of [`compute_volumes`].
 pub(crate) fn read_volumes(bytes: &[u8]) -> Result<[Volume; 2], OperationError> {
-    let kept: [Option<[f64; 2]>; 2] = postcard::from_bytes(bytes).map_err(|_| OperationError::Internal)?;
-    Ok(kept.map(|kept| kept.map_or(Volume::Folded, |[value, error]| Volume::Value { value, error })))
+    let stored: [Option<[f64; 2]>; 2] = postcard::from_bytes(bytes).map_err(|_| OperationError::Internal)?;
+    Ok(stored.map(|volume| volume.map_or(Volume::Folded, |[value, error]| Volume::Value { value, error })))
 }

@@ -1,63 +1,61 @@
-//! `/fk`: where platform, tool and part are for given joints.
+//! `/fk`: the poses of platform, tool and part for given joints.
 
-use verne_solver::{Clearance, forward, forward_working};
+use verne_solver::{forward, forward_working};
 
-use crate::operations::nearest;
-use crate::operations::registry::Registry;
-use crate::operations::solutions::{Findings, Found, Presentation};
-use crate::operations::table_angles::Stand;
+use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::nearest::check_near;
+use crate::operations::solutions::{AnswerBuilder, SolutionSet, SolvedPosture};
+use crate::operations::table_angles::TablePosition;
 use crate::wire::answer::Answer;
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::FieldErrors;
-use crate::wire::request::{FkRequest, Wanted};
+use crate::wire::request::{FkRequest, SolutionFilter};
 
-/// Answers a forward question.
-pub(crate) fn answer_fk(request: &FkRequest, machines: &Registry) -> Result<Answer, OperationError> {
+/// Answers a request for poses.
+pub(crate) fn answer_fk(request: &FkRequest, machines: &MachineRegistry) -> Result<Answer, OperationError> {
     let table = checked_table(request)?;
-    let published = machines.resolve(&request.machine)?;
+    let machine = machines.resolve(&request.machine)?;
     let rho = request.joints.rho.0;
     let mut faults = FieldErrors::default();
     for (i, &rho) in rho.iter().enumerate() {
-        faults.proportion(&format!("/joints/rho/{i}"), rho, &published.machine);
+        faults.proportion(&format!("/joints/rho/{i}"), rho, &machine);
     }
     faults.into_result()?;
-    let complete = |posture| Found { posture, table, asked: None };
-    let mut findings = Findings::default();
+    let complete = |posture| SolvedPosture { posture, table, requested: None };
+    let mut set = SolutionSet::default();
     match request.solutions {
-        Wanted::All => findings.add(forward(&published.machine, rho), complete),
-        Wanted::Working | Wanted::Feasible => {
-            findings.add_one(forward_working(&published.machine, rho), complete);
+        SolutionFilter::All => set.add(forward(&machine, rho), complete),
+        SolutionFilter::Working | SolutionFilter::Feasible => {
+            set.add(forward_working(&machine, rho).map(|posture| [posture]), complete);
         }
     }
-    let FkRequest { tool_length, table_clearance, tool_radius, .. } = *request;
-    let presentation = Presentation {
-        published: &published,
-        tool_length,
-        clearance: table
-            .and_then(|_| Clearance::of(&published.machine, table_clearance, tool_length, tool_radius)),
-        wanted: request.solutions,
+    let tool = request.tool();
+    let builder = AnswerBuilder {
+        machine: &machine,
+        tool_length: tool.length,
+        clearance: table.and_then(|_| tool.clearance(&machine)),
+        filter: request.solutions,
         near: request.near,
         free: false,
         joints: false,
     };
-    presentation.answer(findings)
+    builder.answer(set)
 }
 
-/// The table's angles, once every number of the request has been looked at.
-fn checked_table(request: &FkRequest) -> Result<Option<Stand>, OperationError> {
+/// Checks every number of the request; the table's angles.
+fn checked_table(request: &FkRequest) -> Result<Option<TablePosition>, OperationError> {
     let mut faults = FieldErrors::default();
     let joints = &request.joints;
     faults.lengths("/joints/rho", &joints.rho.0);
     faults.angle("/joints/theta1", joints.theta1);
     faults.angle("/joints/theta2", joints.theta2);
-    faults.tool_length(request.tool_length);
-    let lacking = joints.theta1.is_none().then_some("needs theta1 and theta2");
-    faults.clearance(request.table_clearance, request.tool_radius, lacking);
+    let without_theta1 = joints.theta1.is_none().then_some("needs theta1 and theta2");
+    request.tool().check(without_theta1, &mut faults);
     if let Some(near) = &request.near {
-        nearest::check(near, &mut faults);
+        check_near(near, &mut faults);
     }
     let table = match (joints.theta1, joints.theta2) {
-        (Some(theta1), Some(theta2)) => Some(Stand::given([theta1, theta2])),
+        (Some(theta1), Some(theta2)) => Some(TablePosition::of_degrees([theta1, theta2])),
         (None, None) => None,
         (Some(_), None) => {
             faults.add("/joints/theta2", "is required with theta1");

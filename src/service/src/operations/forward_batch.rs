@@ -1,113 +1,117 @@
 //! `/fk/batch`: the working pose for many joint positions.
 
 use rayon::prelude::*;
+use serde_json::value::RawValue;
 use verne_solver::{Clearance, Machine, TableAngles, forward_working, part_pose};
 
 use crate::operations::batch_rows::{
-    CHUNK, ROW_BYTES, Shape, Shared, Verdict, check_batch, judge, refuse, report,
+    BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_refusal,
+    outcome_of_solution, row_report,
 };
-use crate::operations::registry::Registry;
-use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Row, Rows};
+use crate::operations::machine_registry::MachineRegistry;
+use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Row};
 use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
-use crate::wire::machine_ref::MachineRef;
-use crate::wire::parse::{parse_body, parse_usual};
+use crate::wire::parse::{parse_body, parse_expected};
+use crate::wire::tool::Tool;
+
+/// A row without a table clearance.
+const JOINTS: RowFormat =
+    RowFormat { lengths: &[3, 5], description: "[rho1, rho2, rho3] or [rho1, rho2, rho3, theta1, theta2]" };
+
+/// A row with a table clearance.
+const JOINTS_WITH_TABLE: RowFormat = RowFormat {
+    lengths: &[5],
+    description: "[rho1, rho2, rho3, theta1, theta2]: table_clearance needs theta1",
+};
 
 /// One answered row.
-struct Answered {
+struct AnsweredRow {
     pose: Option<Row>,
     part: Option<Row>,
-    verdict: Verdict,
+    outcome: RowOutcome,
     /// Whether the row gives theta1.
-    tilted: bool,
+    has_theta1: bool,
 }
 
-impl Answered {
-    fn nothing(verdict: Verdict, tilted: bool) -> Self {
-        Self { pose: None, part: None, verdict, tilted }
+impl AnsweredRow {
+    fn without_solution(outcome: RowOutcome, has_theta1: bool) -> Self {
+        Self { pose: None, part: None, outcome, has_theta1 }
     }
 }
 
-/// A batch as it was read.
-struct Question<'a> {
-    machine: MachineRef,
-    shared: Shared,
-    rows: Rows<'a>,
-}
-
-/// Reads a batch: at one go if every row is as it should be.
-fn read(body: &[u8]) -> Result<Question<'_>, OperationError> {
-    if let Some(usual) = parse_usual(body) {
-        let FkBatchNumbers { machine, tool_length, table_clearance, tool_radius, joints } = usual;
-        let shared = Shared { tool_length, table_clearance, tool_radius };
-        return Ok(Question { machine, shared, rows: Rows::Read(joints) });
-    }
-    let FkBatchRequest { machine, tool_length, table_clearance, tool_radius, joints } = parse_body(body)?;
-    let shared = Shared { tool_length, table_clearance, tool_radius };
-    Ok(Question { machine, shared, rows: Rows::Text(joints) })
-}
-
-/// Answers a batch, from its body to the answer's; to be called on the worker threads.
+/// Answers a batch: from the JSON of the request to the JSON of the answer. Call it on the compute pool.
 pub(crate) fn answer_fk_batch(
     body: &[u8],
-    machines: &Registry,
-    most_rows: usize,
+    machines: &MachineRegistry,
+    max_rows: usize,
 ) -> Result<Vec<u8>, OperationError> {
-    let question = read(body)?;
-    check_batch(question.shared, None, question.rows.len(), most_rows)?;
-    let published = machines.resolve(&question.machine)?;
-    let clearance = question.shared.clearance(&published.machine);
-    let rows: Vec<_> = (0..question.rows.len())
-        .into_par_iter()
-        .with_min_len(CHUNK)
-        .map(|row| answer_row(&published.machine, &question, clearance.as_ref(), row))
+    // Nearly always every row is an array of numbers. Only another body is read row by row.
+    match parse_expected::<FkBatchNumbers>(body) {
+        Some(request) => answer(&request, machines, max_rows),
+        None => answer(&parse_body::<FkBatchRequest<&RawValue>>(body)?, machines, max_rows),
+    }
+}
+
+fn answer<R: BatchRow>(
+    request: &FkBatchRequest<R>,
+    machines: &MachineRegistry,
+    max_rows: usize,
+) -> Result<Vec<u8>, OperationError> {
+    let tool = request.tool();
+    check_batch(tool, None, request.joints.len(), max_rows)?;
+    let machine = machines.resolve(&request.machine)?;
+    let clearance = tool.clearance(&machine);
+    let rows: Vec<_> = request
+        .joints
+        .items()
+        .par_iter()
+        .with_min_len(MIN_CHUNK)
+        .map(|row| answer_row(&machine, tool, clearance.as_ref(), row))
         .collect();
     let (mut poses, mut parts) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
-    let mut verdicts = Vec::with_capacity(rows.len());
+    let mut outcomes = Vec::with_capacity(rows.len());
     let mut table_checked = clearance.is_some();
-    for Answered { pose, part, verdict, tilted } in rows {
-        table_checked &= tilted;
+    for AnsweredRow { pose, part, outcome, has_theta1 } in rows {
+        table_checked &= has_theta1;
         poses.push(pose);
         parts.push(part);
-        verdicts.push(verdict);
+        outcomes.push(outcome);
     }
-    let machine = published.id.clone();
-    let report = report(verdicts.into_iter(), table_checked);
-    let answer = FkBatchAnswer { machine, poses, parts, report };
+    let report = row_report(outcomes.into_iter(), table_checked);
+    let answer = FkBatchAnswer { machine: machine.id.clone(), poses, parts, report };
     write_json(&answer, ROW_BYTES * answer.poses.len())
 }
 
 fn answer_row(
     machine: &Machine,
-    question: &Question<'_>,
+    tool: Tool,
     clearance: Option<&Clearance>,
-    row: usize,
-) -> Answered {
-    let shape = if question.shared.table_clearance.is_none() {
-        Shape { lengths: &[3, 5], words: "[rho1, rho2, rho3] or [rho1, rho2, rho3, theta1, theta2]" }
-    } else {
-        Shape { lengths: &[5], words: "[rho1, rho2, rho3, theta1, theta2]: table_clearance needs theta1" }
-    };
-    let row = match shape.row(&question.rows, row) {
+    row: &impl BatchRow,
+) -> AnsweredRow {
+    let format = if tool.table_clearance.is_none() { JOINTS } else { JOINTS_WITH_TABLE };
+    let row = match row.numbers(format) {
         Ok(row) => row,
-        Err(detail) => return Answered::nothing(Verdict::Invalid(detail), true),
+        Err(detail) => return AnsweredRow::without_solution(RowOutcome::Invalid(detail), true),
     };
     let table =
         (row.len() == 5).then(|| TableAngles { theta1: from_degrees(row[3]), theta2: from_degrees(row[4]) });
     let posture = match forward_working(machine, [row[0], row[1], row[2]]) {
         Ok(posture) => posture,
-        Err(refusal) => return Answered::nothing(refuse(machine, refusal), table.is_some()),
+        Err(refusal) => {
+            return AnsweredRow::without_solution(outcome_of_refusal(machine, refusal), table.is_some());
+        }
     };
     let pose = &posture.pose;
     let part = table.map(|table| {
-        let part = part_pose(machine, pose, table, question.shared.tool_length);
+        let part = part_pose(machine, pose, table, tool.length);
         [part.x, part.y, part.z, to_degrees(part.phi1), to_degrees(part.phi2)].into()
     });
-    Answered {
+    AnsweredRow {
         pose: Some([pose.x, pose.y, pose.z, to_degrees(pose.alpha)].into_iter().collect()),
         part,
-        verdict: judge(machine, &posture, table, clearance),
-        tilted: table.is_some(),
+        outcome: outcome_of_solution(machine, &posture, table, clearance),
+        has_theta1: table.is_some(),
     }
 }

@@ -1,68 +1,66 @@
-//! `/ik`: which joints bring the machine to a pose.
+//! `/ik`: the joints that bring the machine to a pose.
 
 use verne_solver::{
-    Clearance, Machine, Point, Posture, part, part_every_working, platform, platform_working, tool,
-    tool_every_working,
+    Machine, Point, Posture, part, part_every_working, platform, platform_working, tool, tool_every_working,
 };
 
-use crate::operations::nearest;
-use crate::operations::orientation::{Orientations, no_orientation, orientations};
-use crate::operations::registry::Registry;
-use crate::operations::solutions::{Findings, Found, Presentation};
-use crate::operations::table_angles::Orientation;
+use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::nearest::check_near;
+use crate::operations::requested_orientation::{
+    RequestedOrientations, check_no_orientation, requested_orientations,
+};
+use crate::operations::solutions::{AnswerBuilder, SolutionSet, SolvedPosture};
+use crate::operations::table_angles::ToolOrientation;
 use crate::wire::answer::Answer;
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::FieldErrors;
-use crate::wire::request::{Frame, IkRequest, Wanted};
+use crate::wire::request::{Frame, IkRequest, SolutionFilter};
 
-/// Answers an inverse question.
-pub(crate) fn answer_ik(request: &IkRequest, machines: &Registry) -> Result<Answer, OperationError> {
+/// Answers a request for joints.
+pub(crate) fn answer_ik(request: &IkRequest, machines: &MachineRegistry) -> Result<Answer, OperationError> {
     let orientations = checked_orientations(request)?;
-    let published = machines.resolve(&request.machine)?;
-    let machine = &published.machine;
+    let machine = machines.resolve(&request.machine)?;
     let point = [request.pose.x, request.pose.y, request.pose.z];
-    in_proportion(request, machine)?;
-    let findings = match request.frame {
-        Frame::Part => in_part(machine, request, point, &orientations),
-        Frame::Platform | Frame::Tool => in_base(machine, request, point),
+    check_proportions(request, &machine)?;
+    let set = match request.frame {
+        Frame::Part => in_part(&machine, request, point, &orientations),
+        Frame::Platform | Frame::Tool => in_base(&machine, request, point),
     };
-    let IkRequest { tool_length, table_clearance, tool_radius, .. } = *request;
-    let clearance = Clearance::of(machine, table_clearance, tool_length, tool_radius);
-    let presentation = Presentation {
-        published: &published,
-        tool_length,
-        clearance: clearance.filter(|_| request.frame == Frame::Part),
-        wanted: request.solutions,
+    let tool = request.tool();
+    let builder = AnswerBuilder {
+        machine: &machine,
+        tool_length: tool.length,
+        clearance: tool.clearance(&machine).filter(|_| request.frame == Frame::Part),
+        filter: request.solutions,
         near: request.near,
         free: orientations.free,
         joints: true,
     };
-    presentation.answer(findings)
+    builder.answer(set)
 }
 
-/// The orientations asked for, once every number of the request has been looked at.
-fn checked_orientations(request: &IkRequest) -> Result<Orientations, OperationError> {
+/// Checks every number of the request; the requested orientations.
+fn checked_orientations(request: &IkRequest) -> Result<RequestedOrientations, OperationError> {
     let mut faults = FieldErrors::default();
     let pose = &request.pose;
     for (pointer, value) in [("/pose/x", pose.x), ("/pose/y", pose.y), ("/pose/z", pose.z)] {
         faults.length(pointer, value);
     }
-    faults.tool_length(request.tool_length);
-    faults.clearance(request.table_clearance, request.tool_radius, request.frame.without_tilt());
+    request.tool().check(request.frame.without_tilt(), &mut faults);
     if let Some(near) = &request.near {
-        nearest::check(near, &mut faults);
+        check_near(near, &mut faults);
     }
     let orientations = if request.frame == Frame::Part {
-        orientations(pose, request.near.as_ref(), &mut faults)
+        requested_orientations(pose, request.near.as_ref(), &mut faults)
     } else {
-        no_orientation(pose, &mut faults);
-        Orientations::default()
+        check_no_orientation(pose, &mut faults);
+        RequestedOrientations::default()
     };
     faults.into_result().map(|()| orientations)
 }
 
 /// Refuses lengths that are too long for the machine.
-fn in_proportion(request: &IkRequest, machine: &Machine) -> Result<(), OperationError> {
+fn check_proportions(request: &IkRequest, machine: &Machine) -> Result<(), OperationError> {
     let pose = &request.pose;
     let lengths = [
         ("/pose/x", pose.x),
@@ -77,30 +75,35 @@ fn in_proportion(request: &IkRequest, machine: &Machine) -> Result<(), Operation
     faults.into_result()
 }
 
-fn in_part(machine: &Machine, request: &IkRequest, point: Point, asked: &Orientations) -> Findings {
-    let mut findings = Findings::default();
-    for &[phi1, phi2] in &asked.each {
-        let orientation = Orientation::of_radians([phi1, phi2]);
+fn in_part(
+    machine: &Machine,
+    request: &IkRequest,
+    point: Point,
+    requested: &RequestedOrientations,
+) -> SolutionSet {
+    let mut set = SolutionSet::default();
+    for &[phi1, phi2] in &requested.each {
+        let orientation = ToolOrientation::of_radians([phi1, phi2]);
         let target = orientation.at(point);
         let complete = |posture: Posture| {
-            let table = orientation.stand(machine, posture.pose.alpha, request.near.as_ref());
-            Found { posture, table: Some(table), asked: Some([phi1, phi2]) }
+            let table = orientation.table(machine, posture.pose.alpha, request.near.as_ref());
+            SolvedPosture { posture, table: Some(table), requested: Some([phi1, phi2]) }
         };
-        let solve = if request.solutions == Wanted::All { part } else { part_every_working };
-        findings.add(solve(machine, &target, request.tool_length), complete);
+        let solve = if request.solutions == SolutionFilter::All { part } else { part_every_working };
+        set.add(solve(machine, &target, request.tool_length), complete);
     }
-    findings
+    set
 }
 
-fn in_base(machine: &Machine, request: &IkRequest, point: Point) -> Findings {
-    let (all, length) = (request.solutions == Wanted::All, request.tool_length);
-    let complete = |posture| Found { posture, table: None, asked: None };
-    let mut findings = Findings::default();
+fn in_base(machine: &Machine, request: &IkRequest, point: Point) -> SolutionSet {
+    let (all, length) = (request.solutions == SolutionFilter::All, request.tool_length);
+    let complete = |posture| SolvedPosture { posture, table: None, requested: None };
+    let mut set = SolutionSet::default();
     match (request.frame == Frame::Tool, all) {
-        (true, true) => findings.add(tool(machine, point, length), complete),
-        (true, false) => findings.add(tool_every_working(machine, point, length), complete),
-        (false, true) => findings.add(platform(machine, point), complete),
-        (false, false) => findings.add_one(platform_working(machine, point), complete),
+        (true, true) => set.add(tool(machine, point, length), complete),
+        (true, false) => set.add(tool_every_working(machine, point, length), complete),
+        (false, true) => set.add(platform(machine, point), complete),
+        (false, false) => set.add(platform_working(machine, point).map(|posture| [posture]), complete),
     }
-    findings
+    set
 }

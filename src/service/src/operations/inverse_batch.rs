@@ -1,100 +1,95 @@
 //! `/ik/batch`: the working solution for many poses.
 
 use rayon::prelude::*;
+use serde_json::value::RawValue;
 use verne_solver::{
     Clearance, KinematicsError, Machine, PartPose, Point, Posture, Postures, part_every_working,
     part_working, platform_working, tool_every_working, tool_working,
 };
 
 use crate::operations::batch_rows::{
-    CHUNK, ROW_BYTES, Shape, Shared, Verdict, check_batch, judge, refuse, report,
+    BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_refusal,
+    outcome_of_solution, row_report,
 };
-use crate::operations::registry::Registry;
-use crate::operations::table_angles::{Orientation, Stand};
-use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, Row, Rows};
+use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::table_angles::{TablePosition, ToolOrientation};
+use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, Row};
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
-use crate::wire::machine_ref::MachineRef;
-use crate::wire::parse::{parse_body, parse_usual};
+use crate::wire::parse::{parse_body, parse_expected};
 use crate::wire::request::Frame;
 
-/// A batch as it was read.
-struct Question<'a> {
-    machine: MachineRef,
-    frame: Frame,
-    shared: Shared,
-    rows: Rows<'a>,
-}
+/// A row in frame `part`.
+const PART_POSE: RowFormat = RowFormat { lengths: &[5], description: "[x, y, z, phi1, phi2]" };
 
-/// Reads a batch: at one go if every row is as it should be.
-fn read(body: &[u8]) -> Result<Question<'_>, OperationError> {
-    if let Some(usual) = parse_usual(body) {
-        let IkBatchNumbers { machine, frame, tool_length, table_clearance, tool_radius, poses } = usual;
-        let shared = Shared { tool_length, table_clearance, tool_radius };
-        return Ok(Question { machine, frame, shared, rows: Rows::Read(poses) });
-    }
-    let IkBatchRequest { machine, frame, tool_length, table_clearance, tool_radius, poses } =
-        parse_body(body)?;
-    let shared = Shared { tool_length, table_clearance, tool_radius };
-    Ok(Question { machine, frame, shared, rows: Rows::Text(poses) })
-}
+/// A row in the other frames.
+const POSITION: RowFormat = RowFormat { lengths: &[3], description: "[x, y, z]" };
 
-/// Answers a batch, from its body to the answer's; to be called on the worker threads.
+/// Answers a batch: from the JSON of the request to the JSON of the answer. Call it on the compute pool.
 pub(crate) fn answer_ik_batch(
     body: &[u8],
-    machines: &Registry,
-    most_rows: usize,
+    machines: &MachineRegistry,
+    max_rows: usize,
 ) -> Result<Vec<u8>, OperationError> {
-    let question = read(body)?;
-    check_batch(question.shared, question.frame.without_tilt(), question.rows.len(), most_rows)?;
-    let published = machines.resolve(&question.machine)?;
-    let clearance = question.shared.clearance(&published.machine);
-    let clearance = clearance.filter(|_| question.frame == Frame::Part);
-    let (joints, verdicts): (Vec<_>, Vec<_>) = (0..question.rows.len())
-        .into_par_iter()
-        .with_min_len(CHUNK)
-        .map(|row| answer_row(&published.machine, &question, clearance.as_ref(), row))
+    // Nearly always every row is an array of numbers. Only another body is read row by row.
+    match parse_expected::<IkBatchNumbers>(body) {
+        Some(request) => answer(&request, machines, max_rows),
+        None => answer(&parse_body::<IkBatchRequest<&RawValue>>(body)?, machines, max_rows),
+    }
+}
+
+fn answer<R: BatchRow>(
+    request: &IkBatchRequest<R>,
+    machines: &MachineRegistry,
+    max_rows: usize,
+) -> Result<Vec<u8>, OperationError> {
+    let (tool, frame) = (request.tool(), request.frame);
+    check_batch(tool, frame.without_tilt(), request.poses.len(), max_rows)?;
+    let machine = machines.resolve(&request.machine)?;
+    let clearance = tool.clearance(&machine).filter(|_| frame == Frame::Part);
+    let (joints, outcomes): (Vec<_>, Vec<_>) = request
+        .poses
+        .items()
+        .par_iter()
+        .with_min_len(MIN_CHUNK)
+        .map(|row| answer_row(&machine, frame, tool.length, clearance.as_ref(), row))
         .unzip();
-    let report = report(verdicts.into_iter(), clearance.is_some());
-    let answer = IkBatchAnswer { machine: published.id.clone(), joints, report };
+    let report = row_report(outcomes.into_iter(), clearance.is_some());
+    let answer = IkBatchAnswer { machine: machine.id.clone(), joints, report };
     write_json(&answer, ROW_BYTES * answer.joints.len())
 }
 
 fn answer_row(
     machine: &Machine,
-    question: &Question<'_>,
+    frame: Frame,
+    tool_length: f64,
     clearance: Option<&Clearance>,
-    row: usize,
-) -> (Option<Row>, Verdict) {
-    let &Question { frame, shared: Shared { tool_length, .. }, .. } = question;
-    let shape = match frame {
-        Frame::Part => Shape { lengths: &[5], words: "[x, y, z, phi1, phi2]" },
-        Frame::Platform | Frame::Tool => Shape { lengths: &[3], words: "[x, y, z]" },
-    };
-    let row = match shape.row(&question.rows, row) {
+    row: &impl BatchRow,
+) -> (Option<Row>, RowOutcome) {
+    let row = match row.numbers(if frame == Frame::Part { PART_POSE } else { POSITION }) {
         Ok(row) => row,
-        Err(detail) => return (None, Verdict::Invalid(detail)),
+        Err(detail) => return (None, RowOutcome::Invalid(detail)),
     };
     let point = [row[0], row[1], row[2]];
     let target = match frame {
         Frame::Platform => Target::Platform(point),
         Frame::Tool => Target::Tool(point, tool_length),
         Frame::Part => {
-            let orientation = Orientation::of_degrees([row[3], row[4]]);
+            let orientation = ToolOrientation::of_degrees([row[3], row[4]]);
             Target::Part(orientation.at(point), orientation, tool_length)
         }
     };
     match target.working(machine) {
-        Ok(first) => target.chosen(machine, clearance, &first),
-        Err(refusal) => (None, refuse(machine, refusal)),
+        Ok(first) => target.preferred(machine, clearance, &first),
+        Err(refusal) => (None, outcome_of_refusal(machine, refusal)),
     }
 }
 
-/// What a row asks for.
+/// The pose of a row.
 enum Target {
     Platform(Point),
     Tool(Point, f64),
-    Part(PartPose, Orientation, f64),
+    Part(PartPose, ToolOrientation, f64),
 }
 
 impl Target {
@@ -106,26 +101,26 @@ impl Target {
         }
     }
 
-    /// The first working posture if it keeps every limit, or if no other does; else the next that
-    /// does, in the order of alpha.
-    fn chosen(
+    /// Joints and outcome of the first working posture if it is feasible, or if no other is; otherwise of the feasible
+    /// one with the least alpha.
+    fn preferred(
         &self,
         machine: &Machine,
         clearance: Option<&Clearance>,
         first: &Posture,
-    ) -> (Option<Row>, Verdict) {
-        let judged = |posture: &Posture| {
+    ) -> (Option<Row>, RowOutcome) {
+        let answered = |posture: &Posture| {
             let table = self.table(machine, posture.pose.alpha);
-            let verdict = judge(machine, posture, table.map(|table| table.angles), clearance);
-            (Some(joints(posture, table)), verdict)
+            let outcome = outcome_of_solution(machine, posture, table.map(|table| table.angles), clearance);
+            (Some(joints(posture, table)), outcome)
         };
-        let answer = judged(first);
-        if !matches!(answer.1, Verdict::Infeasible(_)) {
+        let answer = answered(first);
+        if !matches!(answer.1, RowOutcome::Infeasible(_)) {
             return answer;
         }
         let mut others = self.every_working(machine);
         others.sort_by(|a, b| a.pose.alpha.total_cmp(&b.pose.alpha));
-        others.iter().map(judged).find(|(_, verdict)| matches!(verdict, Verdict::Ok)).unwrap_or(answer)
+        others.iter().map(answered).find(|(_, outcome)| matches!(outcome, RowOutcome::Ok)).unwrap_or(answer)
     }
 
     fn every_working(&self, machine: &Machine) -> Postures {
@@ -137,15 +132,15 @@ impl Target {
         found.unwrap_or_default()
     }
 
-    fn table(&self, machine: &Machine, alpha: f64) -> Option<Stand> {
+    fn table(&self, machine: &Machine, alpha: f64) -> Option<TablePosition> {
         match self {
-            Self::Part(_, orientation, _) => Some(orientation.stand(machine, alpha, None)),
+            Self::Part(_, orientation, _) => Some(orientation.table(machine, alpha, None)),
             _ => None,
         }
     }
 }
 
-fn joints(posture: &Posture, table: Option<Stand>) -> Row {
+fn joints(posture: &Posture, table: Option<TablePosition>) -> Row {
     let mut row: Row = posture.rho.into_iter().collect();
     row.extend(table.into_iter().flat_map(|table| table.degrees));
     row

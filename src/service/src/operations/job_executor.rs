@@ -1,22 +1,26 @@
-//! What jobs compute: the answer to a written question, kept among the results.
+//! Runs jobs: reads the question of a job, computes its answer and stores it among the results.
 
+use std::sync::Arc;
 use std::time::Instant;
 
-use axum::body::Bytes;
+use bytes::Bytes;
 use tokio::runtime::Handle;
 use tracing::info_span;
 use verne_jobs::{JobId, RunControl, Submission, Work, WorkError};
 use verne_solver::workspace::Observer;
 
-use crate::operations::dexterity::merge_dexterity;
+use crate::operations::blocking_results::BlockingResults;
+use crate::operations::dexterity_map::merge_map;
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::dexterity_subtasks::{compute_slab, compute_volumes};
-use crate::operations::family::FamilyTable;
 use crate::operations::family_question::FamilyQuestion;
-use crate::operations::question::{Question, TaskFault, Terms};
-use crate::operations::results::{CELLS, MESH, Record, Results, packed_mesh};
-use crate::operations::subprogress::part_of;
-use crate::operations::subtask::Piece;
+use crate::operations::family_table::FamilyTable;
+use crate::operations::mesh_files::{MeshDescription, mesh_file_name, write_mesh};
+use crate::operations::observers::{ObserverFns, equal_section};
+use crate::operations::question::Question;
+use crate::operations::question_text::JobParameters;
+use crate::operations::results::{CELLS, MESH, Results, pack_mesh};
+use crate::operations::subtask::{Subtask, SubtaskRequest};
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::telemetry::metrics::computations::Computations;
@@ -25,84 +29,78 @@ use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::result_id::ResultId;
 
-/// The parts of a dexterity map.
+/// The blobs of a dexterity map.
 const MAP: [&str; 3] = [SetName::Reachable.name(), SetName::Dexterous.name(), CELLS];
 
-/// The one part of a piece.
-const PIECE: &str = "piece";
+/// The blob of a subtask's result.
+const SUBTASK: &str = "subtask";
 
-/// About the bytes of a failure.
-const FAULT_BYTES: usize = 256;
+/// About the bytes of a job's error.
+const ERROR_BYTES: usize = 256;
 
-/// Answers questions on the threads of the queue.
-pub(crate) struct Tasks {
-    results: Results,
+/// Computes the answers of jobs on the threads of the queue, and stores them.
+pub(crate) struct JobExecutor {
+    store: BlockingResults,
     computations: Computations,
-    /// The store is asked on the runtime; the queue's threads are none of its own and may wait for it.
-    runtime: Handle,
 }
 
-impl Tasks {
-    /// Keeps what it computes among these results, and counts it.
+impl JobExecutor {
+    /// An executor that stores its answers in `results` and counts them in `computations`. `runtime` runs the store.
     pub(crate) fn new(results: Results, computations: Computations, runtime: Handle) -> Self {
-        Self { results, computations, runtime }
+        Self { store: BlockingResults { results, runtime }, computations }
     }
 
-    /// A mesh may have `most` triangles.
     fn answer(
         &self,
         question: &Question,
-        most: usize,
+        parameters: JobParameters,
         observer: &dyn Observer,
     ) -> Result<(), OperationError> {
         match question {
-            Question::Workspace(workspace) => self.workspace(workspace, most, observer).map(drop),
-            Question::Family(family) => self.family(family, most, observer),
-            Question::Dexterity(map) => self.dexterity(map, most, observer),
-            Question::Piece(piece) => self.piece(piece, most, observer).map(drop),
+            Question::Workspace(workspace) => self.workspace(workspace, parameters, observer).map(drop),
+            Question::Family(family) => self.family(question, family, parameters, observer),
+            Question::Dexterity(map) => self.dexterity(question, map, parameters, observer),
+            Question::Subtask(subtask) => self.subtask(subtask, parameters, observer).map(drop),
         }
     }
 
-    /// Computes a workspace unless it is there, mesh and all; its summary.
+    /// The summary of a workspace. Computes and stores the workspace unless the store has its record and its mesh.
     fn workspace(
         &self,
-        asked: &WorkspaceQuestion,
-        most: usize,
+        question: &WorkspaceQuestion,
+        parameters: JobParameters,
         observer: &dyn Observer,
-    ) -> Result<Vec<u8>, OperationError> {
-        if let Some(record) = self.known(asked.id, &[MESH]) {
-            return Ok(record.summary.bytes.to_vec());
+    ) -> Result<Bytes, OperationError> {
+        if let Some(record) = self.store.complete_record(question.id, &[MESH]) {
+            return Ok(record.summary.bytes);
         }
         self.computations.count();
-        let computed = compute_workspace(asked, most, observer)?;
-        let parts = vec![(MESH, packed_mesh(&computed.mesh)?)];
-        let question = Question::Workspace(asked.clone());
-        self.runtime.block_on(self.results.keep(
-            &question,
-            &computed.summary,
-            parts,
-            computed.inclination,
-        ))?;
-        Ok(computed.summary)
+        let computed = compute_workspace(question, parameters.max_triangles(), observer)?;
+        self.store.put_blob(question.id, MESH, pack_mesh(&computed.mesh)?)?;
+        if let Some(format) = parameters.mesh_format {
+            let file = write_mesh(&MeshDescription::of_workspace(question), &computed.mesh, format)?;
+            self.store.put_blob(question.id, &mesh_file_name(MESH, format), file)?;
+        }
+        let question = Question::Workspace(question.clone());
+        self.store.put_record(&question, &computed.summary, computed.inclination)?;
+        Ok(computed.summary.into())
     }
 
-    /// A member's summary, or why it has none, which is a result as well.
+    /// The summary of a family's member, or the reason why it has none. The reason is a stored result as well.
     fn member(
         &self,
         member: &WorkspaceQuestion,
-        most: usize,
+        parameters: JobParameters,
         observer: &dyn Observer,
-    ) -> Result<Result<Vec<u8>, OperationError>, OperationError> {
-        let piece = Piece::Member(member.clone()).id();
-        if let Some(fault) = self.kept(piece) {
-            let fault: TaskFault = serde_json::from_slice(&fault).map_err(|_| OperationError::Internal)?;
-            return Ok(Err(fault.into()));
+    ) -> Result<Result<Bytes, OperationError>, OperationError> {
+        let id = Subtask::of_member(member).id();
+        if let Some(error) = self.store.blob(id, SUBTASK) {
+            return Ok(Err(serde_json::from_slice(&error).map_err(|_| OperationError::Internal)?));
         }
-        match self.workspace(member, most, observer) {
-            Err(OperationError::Fields(faults)) => {
-                let fault = write_json(&TaskFault::Fields(faults.clone()), FAULT_BYTES)?;
-                self.keep(piece, fault)?;
-                Ok(Err(OperationError::Fields(faults)))
+        match self.workspace(member, parameters, observer) {
+            Err(error @ OperationError::Fields(_)) => {
+                self.store.put_blob(id, SUBTASK, write_json(&error, ERROR_BYTES)?)?;
+                Ok(Err(error))
             }
             summary => summary.map(Ok),
         }
@@ -110,148 +108,190 @@ impl Tasks {
 
     fn family(
         &self,
+        question: &Question,
         family: &FamilyQuestion,
-        most: usize,
+        parameters: JobParameters,
         observer: &dyn Observer,
     ) -> Result<(), OperationError> {
         let members = family.members.len();
-        let mut table = FamilyTable::with_room(members);
+        let mut table = FamilyTable::with_capacity(members);
         for (i, member) in family.members.iter().enumerate() {
-            let summary = self.member(member, most, &part_of(observer, i, members))?;
-            table.add(member, summary.as_deref().map_err(Clone::clone))?;
+            let summary = self.member(member, parameters, &equal_section(observer, i, members))?;
+            table.add(member, summary)?;
         }
-        let summary = table.written(family)?;
-        let question = Question::Family(family.clone());
-        self.runtime.block_on(self.results.keep(&question, &summary, Vec::new(), None))
+        self.store.put_record(question, &table.write(family)?, None)
     }
 
-    /// A piece's bytes, kept or made. Of a member there are none unless it failed.
-    fn piece(&self, piece: &Piece, most: usize, observer: &dyn Observer) -> Result<Bytes, OperationError> {
-        if let Some(kept) = self.kept(piece.id()) {
-            return Ok(kept);
+    /// The bytes of a subtask's result, stored or computed. A member has none unless it failed: its workspace is the
+    /// result.
+    fn subtask(
+        &self,
+        subtask: &Subtask,
+        parameters: JobParameters,
+        observer: &dyn Observer,
+    ) -> Result<Bytes, OperationError> {
+        let id = subtask.id();
+        if let Some(stored) = self.store.blob(id, SUBTASK) {
+            return Ok(stored);
         }
-        let made = match piece {
-            Piece::Member(member) => return self.member(member, most, observer).map(|_| Bytes::new()),
-            Piece::Slab { of, number, count } => compute_slab(of, [*number, *count], observer)?,
-            Piece::Volumes(map) => compute_volumes(map, observer)?,
+        let machine = Arc::clone(&subtask.machine);
+        let computed = match subtask.request {
+            SubtaskRequest::Member(member) => {
+                let member = WorkspaceQuestion::of(machine, member);
+                return self.member(&member, parameters, observer).map(|_| Bytes::new());
+            }
+            SubtaskRequest::Slab { map, number, count } => {
+                compute_slab(&DexterityQuestion::of(machine, map), [number, count], observer)?
+            }
+            SubtaskRequest::Volumes(map) => compute_volumes(&DexterityQuestion::of(machine, map), observer)?,
         };
         self.computations.count();
-        self.keep(piece.id(), made)
+        self.store.put_blob(id, SUBTASK, computed)
     }
 
-    /// Merges a map from its pieces; one that has made room for others is made again.
+    /// Merges a map from the results of its subtasks, and computes those that the store has evicted.
     fn dexterity(
         &self,
+        question: &Question,
         map: &DexterityQuestion,
-        most: usize,
+        parameters: JobParameters,
         observer: &dyn Observer,
     ) -> Result<(), OperationError> {
-        if self.known(map.id, &MAP).is_some() {
+        if self.store.complete_record(map.id, &MAP).is_some() {
             return Ok(());
         }
-        let pieces = Piece::of_map(map);
-        let made = pieces
-            .iter()
-            .enumerate()
-            .map(|(i, piece)| self.piece(piece, most, &part_of(observer, i, pieces.len())));
-        let made = made.collect::<Result<Vec<Bytes>, OperationError>>()?;
-        let Some((volumes, slabs)) = made.split_last() else { return Err(OperationError::Internal) };
-        let computed = merge_dexterity(map, slabs, volumes, observer)?;
-        let [reachable, dexterous] = &computed.meshes;
-        let parts = [packed_mesh(reachable)?, packed_mesh(dexterous)?, computed.cells];
-        let parts = MAP.into_iter().zip(parts).collect();
-        let question = Question::Dexterity(map.clone());
-        self.runtime.block_on(self.results.keep(&question, &computed.summary, parts, None))
+        let subtasks = Subtask::of_map(map);
+        let results = subtasks.iter().enumerate().map(|(i, subtask)| {
+            self.subtask(subtask, parameters, &equal_section(observer, i, subtasks.len()))
+        });
+        let results = results.collect::<Result<Vec<Bytes>, OperationError>>()?;
+        let Some((volumes, slabs)) = results.split_last() else { return Err(OperationError::Internal) };
+        let merged = merge_map(map, slabs, volumes, observer)?;
+        let [reachable, dexterous] = &merged.meshes;
+        for (name, bytes) in MAP.into_iter().zip([pack_mesh(reachable)?, pack_mesh(dexterous)?, merged.cells])
+        {
+            self.store.put_blob(map.id, name, bytes)?;
+        }
+        self.store.put_record(question, &merged.summary, None)
     }
 
-    fn kept(&self, piece: ResultId) -> Option<Bytes> {
-        self.runtime.block_on(self.results.part(piece, PIECE)).map(|content| content.bytes)
-    }
-
-    fn keep(&self, piece: ResultId, bytes: Vec<u8>) -> Result<Bytes, OperationError> {
-        self.runtime.block_on(self.results.keep_part(piece, PIECE, bytes)).map(|content| content.bytes)
-    }
-
-    /// What a question's answer is merged from, unless the answer is there.
-    fn pieces(&self, question: &Question) -> Vec<Piece> {
-        let (pieces, parts): (_, &[&str]) = match question {
-            Question::Workspace(_) | Question::Piece(_) => return Vec::new(),
-            Question::Family(family) => (Piece::of_family(family), &[]),
-            Question::Dexterity(map) => (Piece::of_map(map), &MAP),
+    /// The subtasks from which a question's answer is merged; none if the answer is stored.
+    fn subtasks(&self, question: &Question) -> Vec<Subtask> {
+        let (subtasks, blobs): (_, &[&str]) = match question {
+            Question::Workspace(_) | Question::Subtask(_) => return Vec::new(),
+            Question::Family(family) => (Subtask::of_family(family), &[]),
+            Question::Dexterity(map) => (Subtask::of_map(map), &MAP),
         };
-        if self.known(question.id(), parts).is_some() { Vec::new() } else { pieces }
+        if self.store.complete_record(question.id(), blobs).is_some() { Vec::new() } else { subtasks }
     }
 
-    /// The record of a result that is there with these parts.
-    fn known(&self, id: ResultId, parts: &[&str]) -> Option<Record> {
-        self.runtime.block_on(async {
-            let record = self.results.record(id).await?;
-            for part in parts {
-                self.results.part(id, part).await?;
-            }
-            Some(record)
-        })
+    /// The question of a job, which may come from another process.
+    fn question(&self, job: JobId, payload: &[u8]) -> Result<Arc<Question>, OperationError> {
+        self.store.results.questions.get_or_read(ResultId::from(job), payload)
+    }
+
+    fn submissions(&self, job: JobId, payload: &[u8]) -> Result<Vec<Submission>, OperationError> {
+        let subtasks = self.subtasks(&*self.question(job, payload)?);
+        if subtasks.is_empty() {
+            return Ok(Vec::new());
+        }
+        let parameters = JobParameters { mesh_format: None, ..JobParameters::read(payload)? };
+        let count = u32::try_from(subtasks.len()).unwrap_or(u32::MAX);
+        // The deadline of the job holds for its subtasks.
+        let submission = |subtask: Subtask| {
+            let cost = subtask.cost(parameters.cost, count);
+            let question = Arc::new(Question::Subtask(subtask));
+            let submission = question.submission(JobParameters { cost, ..parameters }, String::new(), None);
+            self.store.results.questions.insert(question);
+            submission
+        };
+        let mut submissions =
+            subtasks.into_iter().map(submission).collect::<Result<Vec<_>, OperationError>>()?;
+        // The longest first: otherwise one worker might compute it at the end while the others have nothing to do.
+        submissions.sort_by(|one, other| other.cost.total_cmp(&one.cost));
+        Ok(submissions)
     }
 }
 
-impl Work for Tasks {
+impl Work for JobExecutor {
     fn subtasks(&self, job: &JobId, payload: &[u8]) -> Result<Vec<Submission>, WorkError> {
-        let question = Question::read(payload, ResultId::from(*job)).map_err(stop)?;
-        let pieces = self.pieces(&question);
-        let (whole, count) = (Terms::read(payload).map_err(stop)?, u32::try_from(pieces.len()));
-        // The job's own deadline holds for all of them.
-        let submission = |piece: Piece| {
-            let cost = piece.cost(whole.cost, count.unwrap_or(u32::MAX));
-            Question::Piece(piece).submission(Terms { cost, ..whole }, String::new(), None)
-        };
-        let mut pieces =
-            pieces.into_iter().map(submission).collect::<Result<Vec<_>, OperationError>>().map_err(stop)?;
-        // The longest first: at the end one worker would have it while the others had nothing.
-        pieces.sort_by(|one, other| other.cost.total_cmp(&one.cost));
-        Ok(pieces)
+        self.submissions(*job, payload).map_err(|error| stop(&error))
     }
 
     fn run(&self, job: &JobId, payload: &[u8], control: &dyn RunControl) -> Result<(), WorkError> {
-        let question = Question::read(payload, ResultId::from(*job)).map_err(stop)?;
-        let _span = info_span!("job", %job, kind = question.kind()).entered();
+        let question = self.question(*job, payload).map_err(|error| stop(&error))?;
+        let kind = question.kind().name();
+        let _span = info_span!("job", %job, kind).entered();
         let began = Instant::now();
-        let most = Terms::read(payload).map_err(stop)?.most();
-        let answered = self.answer(&question, most, &Watched(control)).map_err(stop);
+        let parameters = JobParameters::read(payload).map_err(|error| stop(&error))?;
+        let observer = ObserverFns {
+            progress: |fraction| control.progress(fraction),
+            cancelled: || control.cancelled(),
+        };
+        let answered = self.answer(&question, parameters, &observer).map_err(|error| stop(&error));
         let outcome = match &answered {
             Ok(()) => "succeeded",
             Err(WorkError::Cancelled) => "stopped",
             Err(WorkError::Failed(_)) => "failed",
             Err(WorkError::CannotRunHere(_)) => "handed_on",
         };
-        self.computations.ran(question.kind(), outcome, began.elapsed());
+        self.computations.ran(kind, outcome, began.elapsed());
         answered
     }
 }
 
-fn stop(error: OperationError) -> WorkError {
+fn stop(error: &OperationError) -> WorkError {
+    let reason = write_json(error, ERROR_BYTES).unwrap_or_default().into();
     match error {
         OperationError::Cancelled => WorkError::Cancelled,
-        // A worker of that version can, or one that reaches the store.
-        error @ (OperationError::OtherVersion | OperationError::StoreUnavailable) => {
-            WorkError::CannotRunHere(written(error))
+        // A worker of the other version, or one that reaches the store, may succeed.
+        OperationError::OtherVersion | OperationError::StoreUnavailable => WorkError::CannotRunHere(reason),
+        _ => WorkError::Failed(reason),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use serde_json::{from_value, json};
+    use tokio::runtime::Handle;
+    use verne_jobs::{RunControl, Work};
+    use verne_store::Store;
+
+    use super::JobExecutor;
+    use crate::operations::machine_registry::MachineRegistry;
+    use crate::operations::question::Question;
+    use crate::operations::question_text::JobParameters;
+    use crate::operations::results::{MESH, Results};
+    use crate::operations::workspace_question::WorkspaceQuestion;
+    use crate::telemetry::metrics::computations::Computations;
+    use crate::wire::format::MeshFormat;
+
+    struct Unwatched;
+
+    impl RunControl for Unwatched {
+        fn progress(&self, _: f64) {}
+
+        fn cancelled(&self) -> bool {
+            false
         }
-        error => WorkError::Failed(written(error)),
-    }
-}
-
-fn written(error: OperationError) -> Bytes {
-    write_json(&TaskFault::from(error), FAULT_BYTES).unwrap_or_default().into()
-}
-
-/// The queue's view of a run as the solver's.
-struct Watched<'a>(&'a dyn RunControl);
-
-impl Observer for Watched<'_> {
-    fn progress(&self, part: f64) {
-        self.0.progress(part);
     }
 
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
+    #[tokio::test]
+    async fn a_job_stores_the_mesh_in_the_format_that_the_client_waits_for() {
+        let results = Results::new(Store::in_memory(1 << 24));
+        let executor = JobExecutor::new(results.clone(), Computations::default(), Handle::current());
+        let request = from_value(json!({"tolerance": 50})).unwrap();
+        let question = WorkspaceQuestion::new(&request, &MachineRegistry::default()).unwrap();
+        let id = question.id;
+        let parameters =
+            JobParameters { max_triangles: 100_000, cost: 1.0, mesh_format: Some(MeshFormat::Stl) };
+        let job = Question::Workspace(question).submission(parameters, String::new(), None).unwrap();
+        let run = tokio::task::spawn_blocking(move || executor.run(&job.id, &job.payload, &Unwatched));
+        run.await.unwrap().unwrap();
+        for (blob, stored) in [(MESH, true), ("mesh.stl", true), ("mesh.glb", false)] {
+            assert_eq!(results.blob(id, blob).await.is_some(), stored, "{blob}");
+        }
+        assert!(results.record(id).await.is_some());
     }
 }

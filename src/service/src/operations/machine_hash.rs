@@ -1,15 +1,15 @@
-//! The hash by which two answers can be compared: of a machine's numbers, whatever it is called.
+//! The hash of a machine's numbers. Answers state it: equal hashes mean the same machine, whatever its name.
 
 use verne_solver::MachineData;
 
-/// Changes when the list of numbers below does.
-const LAYOUT: &[u8] = b"verne machine 1";
+/// Begins the hash. It changes when the list of numbers below changes.
+const HASH_PREFIX: &[u8] = b"verne machine 1";
 
-/// BLAKE3, in hex, of geometry, table and limits as little-endian doubles in a fixed order. Name and
-/// description stay out: they change no answer. Lengths in mm and angles in radians, -0 as 0.
+/// BLAKE3, in hexadecimal digits, of geometry, table and limits as little-endian doubles in a fixed order: lengths in
+/// mm, angles in radians, -0 as 0. Name and description are left out because they change no solution.
 pub(crate) fn machine_hash(data: &MachineData) -> String {
     let mut hasher = blake3::Hasher::new();
-    hasher.update(LAYOUT);
+    hasher.update(HASH_PREFIX);
     let mut put = |number: f64| {
         hasher.update(&(number + 0.0).to_le_bytes());
     };
@@ -39,7 +39,7 @@ pub(crate) fn machine_hash(data: &MachineData) -> String {
         put(if axes.is_some() { 1.0 } else { 0.0 });
         axes.into_iter().flatten().flatten().for_each(&mut put);
     }
-    // Machines without it keep the hash that they had before there was such a limit.
+    // An optional limit comes last, so that it does not change the hash of machines without it.
     l.table_clearance.into_iter().for_each(&mut put);
     hasher.finalize().to_hex().to_string()
 }

@@ -1,4 +1,4 @@
-//! Writes a result's mesh in a format.
+//! Writes the mesh of a result as a file: GLB, STL, PLY or JSON. The crate `verne-mesh` has the formats.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use verne_mesh::{Mesh, glb, ply, stl};
 
 use crate::operations::dexterity_question::DexterityQuestion;
-use crate::operations::registry::Published;
+use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::dexterity::SetName;
 use crate::wire::error::OperationError;
@@ -15,52 +15,51 @@ use crate::wire::limit::Unchecked;
 use crate::wire::result_id::ResultId;
 use crate::wire::workspace::FrameName;
 
-/// The bend from which an edge is shown sharp, rad.
+/// The angle between two triangles from which a viewer shows their edge as sharp, rad.
 const CREASE: f64 = std::f64::consts::PI / 6.0;
 
 /// About the bytes of a triangle in a file.
 const TRIANGLE_BYTES: usize = 64;
 
-/// A mesh's kind, frame and origin, which every file names.
-pub(crate) struct Described<'a> {
+/// What every file states about its mesh: kind, frame, request and machine.
+pub(crate) struct MeshDescription<'a> {
     kind: &'static str,
     frame: FrameName,
     request: Value,
     not_checked: &'static [Unchecked],
-    published: &'a Published,
+    machine: &'a IdentifiedMachine,
     id: ResultId,
 }
 
-impl<'a> Described<'a> {
+impl<'a> MeshDescription<'a> {
     /// The mesh of a workspace.
-    pub(crate) fn workspace(question: &'a WorkspaceQuestion) -> Self {
+    pub(crate) fn of_workspace(question: &'a WorkspaceQuestion) -> Self {
         let kind = question.request.kind;
         Self {
             kind: kind.name(),
             frame: kind.frame(),
             request: json!(question.request),
             not_checked: question.request.not_checked(),
-            published: &question.published,
+            machine: &question.machine,
             id: question.id,
         }
     }
 
     /// The mesh of one set of a dexterity map.
-    pub(crate) fn set(question: &'a DexterityQuestion, set: SetName) -> Self {
+    pub(crate) fn of_set(question: &'a DexterityQuestion, set: SetName) -> Self {
         Self {
             kind: set.name(),
             frame: FrameName::Part,
             request: json!(question.request),
             not_checked: Unchecked::beside(question.request.table_clearance.is_some()),
-            published: &question.published,
+            machine: &question.machine,
             id: question.id,
         }
     }
 
-    /// What files say about themselves. `unit` is that of the coordinates; the machine's data and the request are in
-    /// mm whatever it is.
+    /// The description as JSON. `unit` is the unit of the coordinates; machine and request are in mm in every format.
     fn about(&self, mesh: &Mesh, unit: &str) -> Value {
-        let machine = &self.published.id;
+        let machine = &self.machine.id;
         json!({
             "unit": unit,
             "machine_unit": "mm",
@@ -71,7 +70,7 @@ impl<'a> Described<'a> {
             "machine": {
                 "name": machine.name,
                 "hash": machine.hash,
-                "description": self.published.machine.data().description,
+                "description": self.machine.data().description,
             },
             "id": self.id,
             "solver": concat!("verne ", env!("CARGO_PKG_VERSION")),
@@ -84,29 +83,34 @@ impl<'a> Described<'a> {
             FrameName::Base => glb::Up::NegativeZ,
             FrameName::Part => glb::Up::PositiveZ,
         };
-        let name = format!("{} workspace of {}", self.kind, self.published.id.name);
+        let name = format!("{} workspace of {}", self.kind, self.machine.id.name);
         glb::Options { name, up, crease: CREASE, extras }
     }
 
-    /// A header of STL has little room.
+    /// A short title: the header of an STL file has 80 bytes.
     fn title(&self) -> String {
-        format!("{} {}, {:.16}", self.published.id.name, self.kind, self.id)
+        format!("{} {}, {:.16}", self.machine.id.name, self.kind, self.id)
     }
 }
 
-/// The mesh as a file.
+/// The name of the blob with a mesh file, from the blob with the mesh.
+pub(crate) fn mesh_file_name(mesh: &str, format: MeshFormat) -> String {
+    format!("{mesh}.{}", format.name())
+}
+
+/// Writes a mesh as a file.
 pub(crate) fn write_mesh(
-    described: &Described<'_>,
+    description: &MeshDescription<'_>,
     mesh: &Mesh,
     format: MeshFormat,
 ) -> Result<Vec<u8>, OperationError> {
     // glTF has no other unit than the metre.
     let unit = if format == MeshFormat::Glb { "m" } else { "mm" };
-    let about = described.about(mesh, unit);
+    let about = description.about(mesh, unit);
     let mut file = Vec::with_capacity(TRIANGLE_BYTES * mesh.triangles().len());
     let written = match format {
-        MeshFormat::Glb => glb::write(mesh, &described.options(about), &mut file),
-        MeshFormat::Stl => stl::write(mesh, &described.title(), &mut file),
+        MeshFormat::Glb => glb::write(mesh, &description.options(about), &mut file),
+        MeshFormat::Stl => stl::write(mesh, &description.title(), &mut file),
         MeshFormat::Ply => ply::write(mesh, &comments(&about), &mut file),
         MeshFormat::Json => verne_mesh::json::write(mesh, &about, &mut file),
     };
@@ -114,7 +118,7 @@ pub(crate) fn write_mesh(
     Ok(file)
 }
 
-/// One line for each thing that is said, except for the constraints, which the format says itself.
+/// One line for each property, except for those that the format states itself.
 fn comments(about: &Value) -> String {
     let lines = about
         .as_object()

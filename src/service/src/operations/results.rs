@@ -1,28 +1,44 @@
-//! What has been answered, under its id: the question with its figures, the mesh, and each file that was asked for.
+//! Stored results. A result is a record (its question and its summary) and named blobs: meshes, mesh files, grid cells.
 
+use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use verne_mesh::{Mesh, packed};
 use verne_store::{Content, Found, Kept as Durability, Store};
 
 use crate::operations::question::Question;
+use crate::operations::question_cache::QuestionCache;
+use crate::operations::question_text::{QuestionHeader, QuestionKind};
 use crate::wire::error::OperationError;
 use crate::wire::result_id::ResultId;
 
-/// An answered question.
+/// The blob with the question and the summary of a result.
+const RECORD: &str = "record";
+
+/// The blob with the mesh of a workspace.
+pub(crate) const MESH: &str = "mesh";
+
+/// The blob with the points of a dexterity map.
+pub(crate) const CELLS: &str = "cells";
+
+/// The record of a result.
 #[derive(Debug)]
 pub(crate) struct Record {
-    /// The question.
-    pub question: Question,
-    /// The figures, as they are sent.
+    /// The result.
+    pub id: ResultId,
+    /// The kind of its question.
+    pub kind: QuestionKind,
+    /// The summary, as it is sent.
     pub summary: Content,
     /// Greatest |alpha|, rad, of a workspace that is not empty.
     pub inclination: Option<f64>,
+    /// The question's text.
+    pub question: Bytes,
 }
 
-/// A record as it is kept.
+/// A record as JSON.
 #[derive(Serialize, Deserialize)]
-struct Kept<'a> {
+struct RecordText<'a> {
     #[serde(borrow)]
     question: &'a RawValue,
     #[serde(borrow)]
@@ -30,36 +46,42 @@ struct Kept<'a> {
     inclination: Option<f64>,
 }
 
-const RECORD: &str = "record";
-/// The part that is a workspace's mesh.
-pub(crate) const MESH: &str = "mesh";
+impl Record {
+    /// Reads a record; nothing if another version wrote it.
+    fn read(id: ResultId, bytes: &Bytes) -> Option<Self> {
+        let text: RecordText<'_> = serde_json::from_slice(bytes).ok()?;
+        let [question, summary] =
+            [text.question, text.summary].map(|part| bytes.slice_ref(part.get().as_bytes()));
+        let kind = QuestionHeader::read(&question).ok()?.kind;
+        Some(Self { id, kind, summary: hashed(summary), inclination: text.inclination, question })
+    }
+}
 
-/// The part that lists the points of a dexterity map.
-pub(crate) const CELLS: &str = "cells";
-
-/// The results that are kept. Its clones are one.
+/// The stored results, and the typed questions of recent ones. Its clones share one store.
 #[derive(Clone)]
 pub(crate) struct Results {
     store: Store,
+    /// The questions that were asked or read last.
+    pub questions: QuestionCache,
 }
 
 impl Results {
     /// The results of a store.
     pub(crate) fn new(store: Store) -> Self {
-        Self { store }
+        Self { store, questions: QuestionCache::new() }
     }
 
-    /// Whether other processes look for results here.
+    /// Whether other processes use the same store.
     pub(crate) fn are_shared(&self) -> bool {
         self.store.is_shared()
     }
 
-    /// Where they are kept.
+    /// The store.
     pub(crate) fn store(&self) -> Store {
         self.store.clone()
     }
 
-    /// Whether more can be kept.
+    /// Whether the store takes results.
     pub(crate) async fn healthy(&self) -> Result<(), OperationError> {
         self.store.healthy().await.map_err(|reason| {
             tracing::error!(reason, "cannot store results");
@@ -67,32 +89,31 @@ impl Results {
         })
     }
 
-    /// The record of an answered question. One that cannot be read is as if not there: another version wrote it.
+    /// The record of a result; nothing if there is none, or if another version wrote it.
     pub(crate) async fn record(&self, id: ResultId) -> Option<Record> {
         let content = self.store.get(&id.key(RECORD)).await?;
-        read(&content.bytes, id)
+        Record::read(id, &content.bytes)
     }
 
-    /// Keeps an answer, its parts first: where there is a record, there were parts.
-    pub(crate) async fn keep(
+    /// Stores the record of a result. Store its blobs first: whoever finds a record expects them.
+    pub(crate) async fn put_record(
         &self,
         question: &Question,
         summary: &[u8],
-        parts: Vec<(&str, Vec<u8>)>,
         inclination: Option<f64>,
     ) -> Result<(), OperationError> {
-        let id = question.id();
-        for (name, bytes) in parts {
-            self.keep_part(id, name, bytes).await?;
-        }
-        let (question, summary) = (raw(&question.written()?)?, raw(summary)?);
-        let kept = Kept { question: &question, summary: &summary, inclination };
-        let bytes = serde_json::to_vec(&kept).map_err(|_| OperationError::Internal)?;
-        self.keep_part(id, RECORD, bytes).await.map(drop)
+        let (text, summary) = (raw_json(question.to_text(None)?)?, raw_json(summary.to_vec())?);
+        let record = RecordText { question: &text, summary: &summary, inclination };
+        let bytes = serde_json::to_vec(&record).map_err(|_| OperationError::Internal)?;
+        self.put_blob(question.id(), RECORD, bytes).await.map(drop)
     }
 
-    /// Keeps a part of a result. Where other processes look for it, memory is not enough.
-    pub(crate) async fn keep_part(
+    /// Stores a blob of a result.
+    ///
+    /// # Errors
+    ///
+    /// Other processes use the store, but it could keep the blob only in the memory of this one.
+    pub(crate) async fn put_blob(
         &self,
         id: ResultId,
         name: &str,
@@ -104,26 +125,25 @@ impl Results {
         }
     }
 
-    /// A part of a result, to be sent.
-    pub(crate) async fn found(&self, id: ResultId, name: &str) -> Option<Found> {
+    /// A blob of a result, to be sent.
+    pub(crate) async fn find_blob(&self, id: ResultId, name: &str) -> Option<Found> {
         self.store.find(&id.key(name)).await
     }
 
-    /// A part of a result, whole.
-    pub(crate) async fn part(&self, id: ResultId, name: &str) -> Option<Content> {
+    /// A blob of a result, in memory.
+    pub(crate) async fn blob(&self, id: ResultId, name: &str) -> Option<Content> {
         self.store.get(&id.key(name)).await
     }
 
-    /// A part of a result, made if it is not there.
-    ///
-    /// `None` where what it is made of is not there either.
-    pub(crate) async fn part_or<E: Clone + Send + Sync + 'static>(
+    /// A blob of a result. If there is none, `make` makes it, once for all callers, and the store keeps it; `None` if
+    /// `make` returns nothing.
+    pub(crate) async fn blob_or_make<E: Clone + Send + Sync + 'static>(
         &self,
         id: ResultId,
         name: &str,
         make: impl Future<Output = Result<Option<Vec<u8>>, E>> + Send,
     ) -> Result<Option<Content>, E> {
-        // The store keeps what is made, and nothing else.
+        // The store keeps bytes only: an error and a missing source come back as its error.
         let make = async { make.await.map_err(Some)?.map(Into::into).ok_or(None) };
         match self.store.get_or_make(&id.key(name), make).await {
             Ok(content) => Ok(Some(content)),
@@ -133,29 +153,25 @@ impl Results {
     }
 }
 
-/// A mesh as a part of a result.
-pub(crate) fn packed_mesh(mesh: &Mesh) -> Result<Vec<u8>, OperationError> {
+/// A mesh as the bytes of a blob.
+pub(crate) fn pack_mesh(mesh: &Mesh) -> Result<Vec<u8>, OperationError> {
     packed::pack(mesh).map_err(|_| OperationError::Internal)
 }
 
-/// A mesh that is part of a result. One that cannot be read is as if not there: another version wrote it.
-pub(crate) fn unpacked_mesh(part: &Content) -> Option<Mesh> {
-    packed::unpack(&part.bytes).ok()
+/// The mesh of a blob; nothing if another version wrote it.
+pub(crate) fn unpack_mesh(blob: &Content) -> Option<Mesh> {
+    packed::unpack(&blob.bytes).ok()
 }
 
-fn raw(json: &[u8]) -> Result<Box<RawValue>, OperationError> {
-    let text = std::str::from_utf8(json).map_err(|_| OperationError::Internal)?;
-    RawValue::from_string(text.to_owned()).map_err(|_| OperationError::Internal)
+fn raw_json(json: Vec<u8>) -> Result<Box<RawValue>, OperationError> {
+    String::from_utf8(json)
+        .ok()
+        .and_then(|text| RawValue::from_string(text).ok())
+        .ok_or(OperationError::Internal)
 }
 
-fn read(bytes: &[u8], id: ResultId) -> Option<Record> {
-    let kept: Kept<'_> = serde_json::from_slice(bytes).ok()?;
-    let question = Question::read(kept.question.get().as_bytes(), id).ok()?;
-    let summary = content(kept.summary.get().as_bytes().to_vec());
-    Some(Record { question, summary, inclination: kept.inclination })
-}
-
-/// Bytes with their hash; for what is small, or on the worker threads.
-pub(crate) fn content(bytes: Vec<u8>) -> Content {
-    Content { hash: blake3::hash(&bytes), bytes: bytes.into() }
+/// Bytes with their hash. Hash few bytes, or hash them on the compute pool.
+pub(crate) fn hashed(bytes: impl Into<Bytes>) -> Content {
+    let bytes = bytes.into();
+    Content { hash: blake3::hash(&bytes), bytes }
 }

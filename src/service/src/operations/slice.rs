@@ -1,9 +1,10 @@
-//! `/workspace/{id}/slice`: a workspace cut at one height.
+//! Slices: cuts of a workspace at one height, in the requested format.
 
 use verne_solver::workspace::{Observer, Request, slice};
 
 use crate::operations::drawing;
-use crate::operations::workspace_question::{WorkspaceQuestion, workspace_error};
+use crate::operations::solver_errors::workspace_error;
+use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::alphas::Alphas;
 use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::error::OperationError;
@@ -12,13 +13,13 @@ use crate::wire::format::SliceFormat;
 use crate::wire::json::write_json;
 use crate::wire::slice::SliceObject;
 
-/// Degrees between two of the usual lines of constant alpha.
+/// Degrees between two lines of constant alpha if the request does not list them.
 const STEP: f64 = 5.0;
 
 /// About the bytes of a slice.
 const SLICE_BYTES: usize = 16 * 1024;
 
-/// Cuts a workspace; to be called on the worker threads.
+/// Cuts a workspace. `inclination` is its greatest |alpha|, rad. Call it on the compute pool.
 pub(crate) fn answer_slice(
     question: &WorkspaceQuestion,
     inclination: Option<f64>,
@@ -32,10 +33,10 @@ pub(crate) fn answer_slice(
     faults.into_result()?;
     let alphas = angles(alphas, inclination);
     let (request, z) = (Request::from(&question.request), z + 0.0);
-    let cut = slice(&question.published.machine, &request, z, &alphas, observer).map_err(workspace_error)?;
+    let cut = slice(&question.machine, &request, z, &alphas, observer).map_err(workspace_error)?;
     let cut = SliceObject::new(question.id, &question.request, z, cut);
     let title =
-        format!("{}: {} workspace at z = {z} mm", question.published.id.name, question.request.kind.name());
+        format!("{}: {} workspace at z = {z} mm", question.machine.id.name, question.request.kind.name());
     match format {
         SliceFormat::Json => write_json(&cut, SLICE_BYTES),
         SliceFormat::Svg => Ok(drawing::svg::write(&cut, &title).into_bytes()),
@@ -43,12 +44,12 @@ pub(crate) fn answer_slice(
     }
 }
 
-/// The lines that are wanted, rad.
+/// The requested lines, rad.
 fn angles(alphas: &Alphas, most: Option<f64>) -> Vec<f64> {
     match alphas {
         Alphas::None => Vec::new(),
-        Alphas::These(degrees) => degrees.iter().copied().map(from_degrees).collect(),
-        Alphas::Usual => {
+        Alphas::List(degrees) => degrees.iter().copied().map(from_degrees).collect(),
+        Alphas::EqualSteps => {
             let most = to_degrees(most.unwrap_or_default());
             let positive = (1..).map(|i| STEP * f64::from(i)).take_while(|angle| *angle < most);
             let mut degrees: Vec<f64> = positive.flat_map(|angle| [-angle, angle]).chain([0.0]).collect();

@@ -1,151 +1,135 @@
-//! From postures to the answer: order, labels, margins, or why there is nothing.
+//! The answer of `/fk` and `/ik` from the solver's postures: order, labels and margins of the solutions, or the reason
+//! why there is none.
 
 use std::cmp::Ordering;
 
 use verne_solver::{
-    Clearance, Constraint, Element, KinematicsError, Machine, Margin, Margins, PartPose, Posture, Postures,
+    Clearance, Constraint, Element, KinematicsError, Machine, Margin, Margins, PartPose, Posture,
     TableAngles, jacobian, part_pose, tool_point,
 };
 
-use crate::operations::nearest;
-use crate::operations::registry::Published;
-use crate::operations::table_angles::Stand;
+use crate::operations::machine_registry::IdentifiedMachine;
+use crate::operations::nearest::squared_distance;
+use crate::operations::table_angles::TablePosition;
 use crate::wire::answer::{Answer, Free, ModeObject, PartObject, Reason, Solution};
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::field_errors::too_far;
-use crate::wire::fixed_array::Exactly;
+use crate::wire::fixed_array::FixedArray;
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::margins::MarginsObject;
-use crate::wire::request::{Joints, Near, Wanted};
+use crate::wire::request::{Joints, Near, SolutionFilter};
 
-/// A posture with the table's part in it.
+/// A posture with the table's angles.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Found {
+pub(crate) struct SolvedPosture {
     pub(crate) posture: Posture,
-    /// Where the table takes part.
-    pub(crate) table: Option<Stand>,
-    /// `[phi1, phi2]` as the question put them.
-    pub(crate) asked: Option<[f64; 2]>,
+    /// The table's angles, if the request determines them.
+    pub(crate) table: Option<TablePosition>,
+    /// `[phi1, phi2]`, rad, as in the request.
+    pub(crate) requested: Option<[f64; 2]>,
 }
 
-/// What the solver found, over all orientations of a question.
+/// The solver's postures for all orientations of a request.
 #[derive(Debug, Default)]
-pub(crate) struct Findings {
-    pub(crate) found: Vec<Found>,
+pub(crate) struct SolutionSet {
+    pub(crate) postures: Vec<SolvedPosture>,
     /// The first refusal.
     pub(crate) refusal: Option<KinematicsError>,
 }
 
-impl Findings {
-    /// Adds all that one question to the solver found.
+impl SolutionSet {
+    /// Adds the postures of one call of the solver.
     pub(crate) fn add(
         &mut self,
-        outcome: Result<Postures, KinematicsError>,
-        complete: impl Fn(Posture) -> Found,
+        outcome: Result<impl IntoIterator<Item = Posture>, KinematicsError>,
+        complete: impl Fn(Posture) -> SolvedPosture,
     ) {
         match outcome {
-            Ok(postures) => self.found.extend(postures.into_iter().map(complete)),
-            Err(refusal) => self.refuse(refusal),
+            Ok(postures) => self.postures.extend(postures.into_iter().map(complete)),
+            Err(refusal) => _ = self.refusal.get_or_insert(refusal),
         }
-    }
-
-    /// Adds the one posture that was wanted.
-    pub(crate) fn add_one(
-        &mut self,
-        outcome: Result<Posture, KinematicsError>,
-        complete: impl Fn(Posture) -> Found,
-    ) {
-        match outcome {
-            Ok(posture) => self.found.push(complete(posture)),
-            Err(refusal) => self.refuse(refusal),
-        }
-    }
-
-    fn refuse(&mut self, refusal: KinematicsError) {
-        self.refusal.get_or_insert(refusal);
     }
 }
 
-/// What is needed to put findings into an answer.
+/// The parts of a request that decide which solutions are answered, and in which order.
 #[derive(Debug)]
-pub(crate) struct Presentation<'a> {
-    pub(crate) published: &'a Published,
+pub(crate) struct AnswerBuilder<'a> {
+    pub(crate) machine: &'a IdentifiedMachine,
     pub(crate) tool_length: f64,
-    /// The clearance over the table that is checked: only where the findings have the table in them.
+    /// The table clearance to check; only if the solutions have table angles.
     pub(crate) clearance: Option<Clearance>,
-    pub(crate) wanted: Wanted,
+    pub(crate) filter: SolutionFilter,
     pub(crate) near: Option<Near>,
+    /// Whether phi2 is free.
     pub(crate) free: bool,
-    /// Whether solutions carry their joints: /ik's do.
+    /// Whether the solutions have joints, as in answers of /ik.
     pub(crate) joints: bool,
 }
 
-impl Presentation<'_> {
+impl AnswerBuilder<'_> {
     /// The answer.
-    pub(crate) fn answer(&self, mut findings: Findings) -> Result<Answer, OperationError> {
-        findings.found.sort_by(order);
-        let mut kept = Vec::with_capacity(findings.found.len());
+    pub(crate) fn answer(&self, mut set: SolutionSet) -> Result<Answer, OperationError> {
+        set.postures.sort_by(order);
+        let mut answered = Vec::with_capacity(set.postures.len());
         let mut violated = None;
-        for (i, found) in findings.found.iter().enumerate() {
-            let table = found.table.map(|table| table.angles);
-            let margins =
-                Margins::above_table(self.machine(), &found.posture, table, self.clearance.as_ref());
-            if self.wanted == Wanted::Feasible && !margins.feasible() {
-                violated.get_or_insert_with(|| margins.worst(self.machine()));
+        for (i, solved) in set.postures.iter().enumerate() {
+            let table = solved.table.map(|table| table.angles);
+            let margins = Margins::above_table(self.machine, &solved.posture, table, self.clearance.as_ref());
+            if self.filter == SolutionFilter::Feasible && !margins.feasible() {
+                violated.get_or_insert_with(|| margins.worst(self.machine));
             } else {
-                let equal_before = findings.found[..i].iter().filter(|other| same_label(found, other));
-                kept.push((found, self.solution(found, equal_before.count(), &margins)));
+                let equal_before = set.postures[..i].iter().filter(|other| same_label(solved, other));
+                answered.push((solved, self.solution(solved, equal_before.count(), &margins)));
             }
         }
         if let Some(near) = &self.near {
-            let radius = self.machine().data().geometry.R1;
-            let distance = |found| nearest::distance(near, radius, found);
-            kept.sort_by(|(a, _), (b, _)| distance(a).total_cmp(&distance(b)));
+            let radius = self.machine.data().geometry.R1;
+            let distance = |solved: &SolvedPosture| {
+                squared_distance(near, radius, &solved.posture, solved.table.map(|table| table.angles))
+            };
+            answered.sort_by(|(a, _), (b, _)| distance(a).total_cmp(&distance(b)));
         }
         let (reason, constraint) =
-            if kept.is_empty() { self.why_nothing(violated, findings.refusal)? } else { (None, None) };
-        let solutions = kept.into_iter().map(|(_, solution)| solution).collect();
+            if answered.is_empty() { self.reason(violated, set.refusal)? } else { (None, None) };
+        let solutions = answered.into_iter().map(|(_, solution)| solution).collect();
         let free = if self.free { vec![Free::Phi2] } else { Vec::new() };
         let not_checked = Unchecked::beside(self.clearance.is_some());
-        let machine = self.published.id.clone();
+        let machine = self.machine.id.clone();
         Ok(Answer { machine, solutions, not_checked, free, reason, constraint })
     }
 
-    fn machine(&self) -> &Machine {
-        &self.published.machine
-    }
-
-    fn solution(&self, found: &Found, index: usize, margins: &Margins) -> Solution {
-        let posture = &found.posture;
+    fn solution(&self, solved: &SolvedPosture, index: usize, margins: &Margins) -> Solution {
+        let posture = &solved.posture;
         Solution {
             joints: self.joints.then(|| Joints {
-                rho: Exactly(posture.rho),
-                theta1: found.table.map(|table| table.degrees[0]),
-                theta2: found.table.map(|table| table.degrees[1]),
+                rho: FixedArray(posture.rho),
+                theta1: solved.table.map(|table| table.degrees[0]),
+                theta2: solved.table.map(|table| table.degrees[1]),
             }),
             platform: posture.pose.into(),
             tool: tool_point(&posture.pose, self.tool_length).into(),
-            part: found.table.map(|table| self.part(found, table.angles)),
+            part: solved.table.map(|table| self.part(solved, table.angles)),
             mode: ModeObject::new(posture, index),
             working: posture.working,
             merged: posture.merged,
             feasible: margins.feasible(),
-            margins: MarginsObject::new(self.machine(), margins),
-            conditioning: jacobian::conditioning(self.machine(), posture).into(),
+            margins: MarginsObject::new(self.machine, margins),
+            conditioning: jacobian::conditioning(self.machine, posture).into(),
             residual: posture.residual,
         }
     }
 
-    fn part(&self, found: &Found, table: TableAngles) -> PartObject {
-        let pose = part_pose(self.machine(), &found.posture.pose, table, self.tool_length);
-        match found.asked {
-            // The table may stand whole revolutions away; the caller knows the angles asked for.
+    fn part(&self, solved: &SolvedPosture, table: TableAngles) -> PartObject {
+        let pose = part_pose(self.machine, &solved.posture.pose, table, self.tool_length);
+        match solved.requested {
+            // The angles from the table may differ from the requested ones by whole turns.
             Some([phi1, phi2]) => PartPose { phi1, phi2, ..pose }.into(),
             None => pose.into(),
         }
     }
 
-    fn why_nothing(
+    /// Why there is no solution, and the constraint that prevents it.
+    fn reason(
         &self,
         violated: Option<Margin>,
         refusal: Option<KinematicsError>,
@@ -153,7 +137,9 @@ impl Presentation<'_> {
         let (reason, margin) = match (violated, refusal) {
             (Some(margin), _) => (Reason::Infeasible, margin),
             (None, Some(KinematicsError::Unreachable(margin))) => (Reason::Unreachable, margin),
-            (None, Some(KinematicsError::SelfMotion)) => (Reason::SelfMotion, unheld(self.machine())),
+            (None, Some(KinematicsError::SelfMotion)) => {
+                (Reason::SelfMotion, self_motion_margin(self.machine))
+            }
             (None, Some(KinematicsError::OutOfDomain)) => {
                 return Err(OperationError::Fields(vec![FieldError::new(
                     "",
@@ -161,7 +147,7 @@ impl Presentation<'_> {
                 )]));
             }
             (None, Some(KinematicsError::OutOfProportion)) => {
-                let detail = format!("pose, tool and table together {}", too_far(self.machine()));
+                let detail = format!("pose, tool and table together {}", too_far(self.machine));
                 return Err(OperationError::Fields(vec![FieldError::new("", detail)]));
             }
             (None, None) => return Err(OperationError::Internal),
@@ -170,15 +156,15 @@ impl Presentation<'_> {
     }
 }
 
-/// The margin of a platform that the sliders do not hold: its conditioning is zero.
-pub(crate) fn unheld(machine: &Machine) -> Margin {
+/// The margin of a platform that can move while all sliders are locked: its conditioning is zero.
+pub(crate) fn self_motion_margin(machine: &Machine) -> Margin {
     let value = -machine.data().limits.parallel_margin;
     Margin { constraint: Constraint::ParallelSingularity, element: Element::Platform, value }
 }
 
-/// Working first, then by alpha, then by rho. Indices count in this order, so the working
-/// solution's is the same whichever solutions are asked for.
-fn order(a: &Found, b: &Found) -> Ordering {
+/// Working postures first, then by alpha, then by rho. The index of a label counts in this order, so a working solution
+/// has the same index whichever solutions are requested.
+fn order(a: &SolvedPosture, b: &SolvedPosture) -> Ordering {
     let (a, b) = (&a.posture, &b.posture);
     let by_rho = || a.rho.iter().zip(&b.rho).map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne());
     b.working
@@ -187,6 +173,6 @@ fn order(a: &Found, b: &Found) -> Ordering {
         .then_with(|| by_rho().unwrap_or(Ordering::Equal))
 }
 
-fn same_label(a: &Found, b: &Found) -> bool {
+fn same_label(a: &SolvedPosture, b: &SolvedPosture) -> bool {
     a.posture.mode == b.posture.mode
 }

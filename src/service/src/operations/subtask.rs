@@ -1,127 +1,111 @@
-//! Pieces of large questions: jobs of their own, whose results the answer is merged from.
+//! Subtasks of large questions: jobs of their own, from whose results the answer is merged.
+
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::family_question::FamilyQuestion;
-use crate::operations::registry::Published;
+use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::dexterity::CanonicalDexterity;
 use crate::wire::result_id::ResultId;
-use crate::wire::workspace::CanonicalRequest;
+use crate::wire::workspace::CanonicalWorkspace;
 
-/// Changes when the bytes do that a piece is kept as.
-const LAYOUT: &[u8] = b"verne piece 1";
+/// Begins the hash of every subtask. It changes when the bytes of a subtask's result change their layout.
+const HASH_PREFIX: &[u8] = b"verne piece 1";
 
-/// Seconds of one core that a slab is cut to, and the most slabs of a map.
+/// Seconds of one core that a slab should take.
 const SLAB_COST: f64 = 2.0;
-const SLABS: f64 = 64.0;
 
-/// Part of a map's work that its volumes are, about.
-const VOLUMES_SHARE: f64 = 0.2;
+/// Most slabs of a map.
+const MAX_SLABS: f64 = 64.0;
 
-/// Part of the slabs' work up to `cut` of the way through the map, about: a layer has much to compute where the machine
-/// reaches far, so in the middle, and nothing at the ends. As a parabola.
-fn share(cut: f64) -> f64 {
-    cut * cut * (3.0 - 2.0 * cut)
+/// The volumes' fraction of a map's work, about.
+const VOLUMES_FRACTION: f64 = 0.2;
+
+/// A subtask of a family or of a dexterity map.
+#[derive(Clone, Debug)]
+pub(crate) struct Subtask {
+    /// The machine.
+    pub machine: Arc<IdentifiedMachine>,
+    /// The work.
+    pub request: SubtaskRequest,
 }
 
-/// A piece of a question.
-#[derive(Clone, Debug)]
-pub(crate) enum Piece {
-    /// A member of a family: unlike the workspace itself, one that cannot be computed is a result as well.
-    Member(WorkspaceQuestion),
+/// The work of a subtask.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum SubtaskRequest {
+    /// A member of a family. Unlike the workspace itself, a member that cannot be computed is a result as well.
+    Member(CanonicalWorkspace),
     /// One of `count` slabs of a dexterity map.
     Slab {
         /// The map.
-        of: DexterityQuestion,
-        /// Which slab, from 0.
+        map: CanonicalDexterity,
+        /// The slab's number, from 0.
         number: u32,
-        /// How many there are.
+        /// How many slabs the map has.
         count: u32,
     },
     /// The volumes of a dexterity map.
-    Volumes(DexterityQuestion),
-}
-
-/// A piece as text, without its machine.
-#[derive(Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum WrittenPiece {
-    Member(CanonicalRequest),
-    Slab { of: CanonicalDexterity, number: u32, count: u32 },
     Volumes(CanonicalDexterity),
 }
 
-impl Piece {
+impl Subtask {
+    /// The subtask that computes a member of a family.
+    pub(crate) fn of_member(member: &WorkspaceQuestion) -> Self {
+        Self { machine: Arc::clone(&member.machine), request: SubtaskRequest::Member(member.request) }
+    }
+
     /// The members of a family.
     pub(crate) fn of_family(family: &FamilyQuestion) -> Vec<Self> {
-        family.members.iter().cloned().map(Self::Member).collect()
+        family.members.iter().map(Self::of_member).collect()
     }
 
-    /// The slabs of a map, and its volumes.
-    pub(crate) fn of_map(map: &DexterityQuestion) -> Vec<Self> {
+    /// The slabs of a map, then its volumes.
+    pub(crate) fn of_map(question: &DexterityQuestion) -> Vec<Self> {
+        let map = question.request;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 64")]
-        let count = (map.cost() / SLAB_COST).clamp(1.0, SLABS) as u32;
-        let slabs = (0..count).map(|number| Self::Slab { of: map.clone(), number, count });
-        slabs.chain([Self::Volumes(map.clone())]).collect()
+        let count = (question.cost() / SLAB_COST).clamp(1.0, MAX_SLABS) as u32;
+        let slabs = (0..count).map(|number| SubtaskRequest::Slab { map, number, count });
+        slabs
+            .chain([SubtaskRequest::Volumes(map)])
+            .map(|request| Self { machine: Arc::clone(&question.machine), request })
+            .collect()
     }
 
-    /// The name under which its result is kept.
+    /// The id under which its result is stored.
     pub(crate) fn id(&self) -> ResultId {
-        let (kind, id, [number, count]) = match self {
-            Self::Member(workspace) => (b"m", workspace.id, [0, 0]),
-            Self::Slab { of, number, count } => (b"s", of.id, [*number, *count]),
-            Self::Volumes(map) => (b"v", map.id, [0, 0]),
+        let machine = Arc::clone(&self.machine);
+        let (kind, id, [number, count]) = match self.request {
+            SubtaskRequest::Member(member) => (b"m", WorkspaceQuestion::of(machine, member).id, [0, 0]),
+            SubtaskRequest::Slab { map, number, count } => {
+                (b"s", DexterityQuestion::of(machine, map).id, [number, count])
+            }
+            SubtaskRequest::Volumes(map) => (b"v", DexterityQuestion::of(machine, map).id, [0, 0]),
         };
         let mut hasher = blake3::Hasher::new();
-        hasher.update(LAYOUT).update(kind).update(id.job().as_bytes());
+        hasher.update(HASH_PREFIX).update(kind).update(id.job().as_bytes());
         hasher.update(&number.to_le_bytes()).update(&count.to_le_bytes());
         hasher.finalize().into()
     }
 
-    /// Its machine.
-    pub(crate) fn published(&self) -> &std::sync::Arc<Published> {
-        match self {
-            Self::Member(workspace) => &workspace.published,
-            Self::Slab { of, .. } => &of.published,
-            Self::Volumes(map) => &map.published,
-        }
-    }
-
-    /// Estimated work, seconds of one core, of a whole that is estimated at `whole` and has so many pieces.
-    pub(crate) fn cost(&self, whole: f64, pieces: u32) -> f64 {
-        match self {
-            Self::Member(_) => whole / f64::from(pieces.max(1)),
-            Self::Slab { number, count, .. } => {
-                let [from, to] = [*number, number + 1].map(|cut| f64::from(cut) / f64::from(*count));
-                whole * (1.0 - VOLUMES_SHARE) * (share(to) - share(from))
+    /// Estimated work, seconds of one core, of one of `count` subtasks of a question whose work is `total`.
+    pub(crate) fn cost(&self, total: f64, count: u32) -> f64 {
+        match self.request {
+            SubtaskRequest::Member(_) => total / f64::from(count.max(1)),
+            SubtaskRequest::Slab { number, count, .. } => {
+                let [from, to] = [number, number + 1].map(|cut| f64::from(cut) / f64::from(count));
+                total * (1.0 - VOLUMES_FRACTION) * (work_below(to) - work_below(from))
             }
-            Self::Volumes(_) => whole * VOLUMES_SHARE,
-        }
-    }
-
-    /// The piece as text.
-    pub(crate) fn written(&self) -> WrittenPiece {
-        match self {
-            Self::Member(workspace) => WrittenPiece::Member(workspace.request),
-            Self::Slab { of, number, count } => {
-                WrittenPiece::Slab { of: of.request, number: *number, count: *count }
-            }
-            Self::Volumes(map) => WrittenPiece::Volumes(map.request),
+            SubtaskRequest::Volumes(_) => total * VOLUMES_FRACTION,
         }
     }
 }
 
-impl WrittenPiece {
-    /// The piece of a machine's question.
-    pub(crate) fn read(self, published: std::sync::Arc<Published>) -> Piece {
-        match self {
-            Self::Member(request) => Piece::Member(WorkspaceQuestion::of(published, request)),
-            Self::Slab { of, number, count } => {
-                Piece::Slab { of: DexterityQuestion::of(published, of), number, count }
-            }
-            Self::Volumes(request) => Piece::Volumes(DexterityQuestion::of(published, request)),
-        }
-    }
+/// The fraction of the slabs' work below `cut`, which runs from 0 to 1 through the map. A layer has much to compute in
+/// the middle, where the machine reaches far, and nothing at the ends: the work per layer is taken as a parabola.
+fn work_below(cut: f64) -> f64 {
+    cut * cut * (3.0 - 2.0 * cut)
 }

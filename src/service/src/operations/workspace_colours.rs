@@ -1,4 +1,4 @@
-//! Colours for what limits a workspace.
+//! Colours of the constraints that bound a workspace.
 
 use std::collections::BTreeMap;
 
@@ -6,13 +6,14 @@ use verne_mesh::Swatch;
 use verne_solver::Constraint;
 use verne_solver::workspace::Binding;
 
-use crate::wire::limit::{ConstraintName, ElementName};
+use crate::wire::constraint::{ConstraintName, ElementName};
 
 /// The share of white in the colour of a constraint's last element; the first has none.
 const LIGHTEST: f64 = 0.7;
 
-/// A tag for each triangle, and what the tags mean: `stroke slider1.max`. Only what occurs has one, in a fixed order.
-pub(crate) fn coloured(bindings: &[Binding]) -> (Vec<u8>, Vec<Swatch>) {
+/// A tag for each triangle, and the names and colours of the tags, such as `stroke slider1.max`. Only constraints that
+/// occur have a tag; their order is fixed.
+pub(crate) fn tags_and_palette(bindings: &[Binding]) -> (Vec<u8>, Vec<Swatch>) {
     let mut names = BTreeMap::new();
     // A surface has long runs of one binding.
     for run in bindings.chunk_by(|a, b| a == b) {
@@ -30,7 +31,7 @@ pub(crate) fn coloured(bindings: &[Binding]) -> (Vec<u8>, Vec<Swatch>) {
         let steps = elements.get(constraint).map_or(1, |count| count.saturating_sub(1).max(1));
         let white = LIGHTEST * f64::from(*step) / f64::from(steps);
         *step += 1;
-        let name = format!("{} {element}", ConstraintName::from(*constraint));
+        let name = format!("{} {element}", ConstraintName(*constraint));
         palette.push(Swatch { name, rgb: lighter(colour(*constraint), white) });
     }
     let mut last = None;
@@ -49,7 +50,8 @@ fn key(binding: Binding) -> (Constraint, String) {
     (binding.constraint, ElementName::from(binding).to_string())
 }
 
-/// Hues that colour-blind people can tell apart (Okabe and Ito's, nearly), darker ones for what seldom limits.
+/// The colour of a constraint. Colour-blind people can tell the hues apart (nearly those of Okabe and Ito); constraints
+/// that seldom bound a workspace have darker ones.
 fn colour(constraint: Constraint) -> [u8; 3] {
     match constraint {
         Constraint::Stroke => [0, 90, 158],

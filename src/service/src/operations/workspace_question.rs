@@ -1,61 +1,120 @@
-//! A checked question about a workspace, and the id of its answer.
+//! A checked question about a workspace, and the checks of the requests for workspaces.
 
 use std::sync::Arc;
 
-use verne_solver::MachineData;
-use verne_solver::workspace::{Observer, Request, WorkspaceError, expected_triangles};
+use verne_solver::workspace::{Observer, Request, expected_triangles};
 
-use crate::operations::dexterity::too_many_points;
-use crate::operations::registry::{Published, Registry};
+use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
+use crate::operations::solver_errors::workspace_error;
 use crate::wire::error::{FieldError, OperationError};
-use crate::wire::field_errors::FieldErrors;
+use crate::wire::family::CanonicalFamily;
+use crate::wire::field_errors::{FieldErrors, is_angle, is_tool_length};
 use crate::wire::result_id::ResultId;
-use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest};
+use crate::wire::sweep::Sweep;
+use crate::wire::workspace::{CanonicalWorkspace, KindName, WorkspaceRequest};
 
-/// Finest and coarsest tolerance, mm: at the finest the reference machine's mesh has some 350,000 triangles.
+/// Finest and coarsest tolerance, mm. At the finest, the reference machine's mesh has some 350,000 triangles.
 const TOLERANCES: [f64; 2] = [0.01, 1000.0];
 
-/// Finest tolerance as a part of the machine's longest dimension: it keeps any machine's mesh to a few million
+/// Finest tolerance as a fraction of the machine's longest dimension. It limits any machine's mesh to a few million
 /// triangles.
-const FINEST: f64 = 1e-6;
+const FINEST_FRACTION: f64 = 1e-6;
 
-/// About the seconds that a volume takes, and a triangle.
+/// Most workspaces in a family.
+const MAX_MEMBERS: usize = 1000;
+
+/// About the seconds of one core that a volume takes.
 const VOLUME_COST: f64 = 0.015;
+
+/// About the seconds of one core that a triangle takes.
 const TRIANGLE_COST: f64 = 4e-6;
 
-/// Changes when the bytes do that the same question is answered with.
-const LAYOUT: &[u8] = b"verne workspace 3";
+/// Begins the hash of every workspace. It changes when the bytes of the answer to the same question change.
+const HASH_PREFIX: &[u8] = b"verne workspace 3";
 
-/// A question that has an answer.
+/// A question about a workspace that has an answer.
 #[derive(Clone, Debug)]
 pub(crate) struct WorkspaceQuestion {
     /// The machine.
-    pub published: Arc<Published>,
-    /// What is asked.
-    pub request: CanonicalRequest,
-    /// The answer's id.
+    pub machine: Arc<IdentifiedMachine>,
+    /// The request with its default values.
+    pub request: CanonicalWorkspace,
+    /// The id of the answer.
     pub id: ResultId,
 }
 
+/// Checks a request for one workspace or a family.
+///
+/// # Errors
+///
+/// All fields that cannot be used.
+pub(crate) fn check_workspaces(
+    request: &WorkspaceRequest,
+    machines: &MachineRegistry,
+) -> Result<(Arc<IdentifiedMachine>, CanonicalFamily), OperationError> {
+    let kind = request.kind;
+    let (tool, part) = (kind != KindName::Platform, kind == KindName::Part);
+    let mut faults = FieldErrors::default();
+    let mut numbers = |pointer, sweep, effective| sweep_numbers(pointer, sweep, effective, kind, &mut faults);
+    let tool_length = numbers("/tool_length", &request.tool_length, tool);
+    let phi1 = numbers("/phi1", &request.phi1, part);
+    let phi2 = numbers("/phi2", &request.phi2, part);
+    if let Some(&length) = tool_length.iter().find(|length| !is_tool_length(**length)) {
+        faults.tool_length(length);
+    }
+    faults.clearance(request.table_clearance, request.tool_radius, kind.without_tilt());
+    for (pointer, angles) in [("/phi1", &phi1), ("/phi2", &phi2)] {
+        faults.angle(pointer, angles.iter().copied().find(|angle| !is_angle(*angle)));
+    }
+    let machine = machines.resolve(&request.machine);
+    check_tolerance(request.tolerance, machine.as_deref().ok(), &mut faults);
+    let count = tool_length.len().saturating_mul(phi1.len()).saturating_mul(phi2.len());
+    if count > MAX_MEMBERS {
+        faults.add("", format!("makes {count} workspaces; the limit is {MAX_MEMBERS}"));
+    }
+    faults.into_result()?;
+    let machine = machine?;
+    let [table_clearance, tool_radius] = if part {
+        machine.canonical_clearance(request.table_clearance, request.tool_radius)
+    } else {
+        [None, None]
+    };
+    let tolerance = request.tolerance;
+    let family = CanonicalFamily { kind, tool_length, table_clearance, tool_radius, phi1, phi2, tolerance };
+    Ok((machine, family))
+}
+
+/// The numbers of a sweep, without -0. A sweep that has no effect on the kind must be one number.
+fn sweep_numbers(
+    pointer: &str,
+    sweep: &Sweep,
+    effective: bool,
+    kind: KindName,
+    faults: &mut FieldErrors,
+) -> Vec<f64> {
+    let numbers = sweep.numbers(MAX_MEMBERS).unwrap_or_else(|fault| {
+        faults.add(pointer, fault);
+        Vec::new()
+    });
+    if !effective && numbers.len() > 1 {
+        faults.add(pointer, format!("has no effect on {}: give one number", kind.name()));
+    }
+    numbers.into_iter().map(|number| number + 0.0).collect()
+}
+
 impl WorkspaceQuestion {
-    /// Checks a request.
-    pub(crate) fn new(asked: &WorkspaceRequest, machines: &Registry) -> Result<Self, OperationError> {
-        let mut faults = FieldErrors::default();
-        faults.tool_length(asked.tool_length);
-        faults.clearance(asked.table_clearance, asked.tool_radius, asked.kind.without_tilt());
-        faults.angle("/phi1", Some(asked.phi1));
-        faults.angle("/phi2", Some(asked.phi2));
-        let resolved = machines.resolve(&asked.machine);
-        check_tolerance(asked.tolerance, resolved.as_deref().ok(), &mut faults);
-        faults.into_result()?;
-        let published = resolved?;
-        let table_clearance = asked.table_clearance.or(published.machine.data().limits.table_clearance);
-        let request = CanonicalRequest::from(&WorkspaceRequest { table_clearance, ..asked.clone() });
-        Ok(Self::of(published, request))
+    /// Checks a request for one workspace.
+    pub(crate) fn new(
+        request: &WorkspaceRequest,
+        machines: &MachineRegistry,
+    ) -> Result<Self, OperationError> {
+        let (machine, family) = check_workspaces(request, machines)?;
+        // A request for a family has no answer here; the caller tells them apart.
+        family.members().next().map(|member| Self::of(machine, member)).ok_or(OperationError::Internal)
     }
 
-    /// A question that was checked before.
-    pub(crate) fn of(published: Arc<Published>, request: CanonicalRequest) -> Self {
+    /// The question of a checked request.
+    pub(crate) fn of(machine: Arc<IdentifiedMachine>, request: CanonicalWorkspace) -> Self {
         let kind = match request.kind {
             KindName::Platform => 0.0,
             KindName::Tool => 1.0,
@@ -63,21 +122,20 @@ impl WorkspaceQuestion {
         };
         let numbers = [Some(kind), request.tool_length, request.phi1, request.phi2, Some(request.tolerance)];
         let numbers = numbers.into_iter().map(Option::unwrap_or_default);
-        // Questions without them keep the ids that they had before there were such fields.
         let numbers = numbers.chain(request.table_clearance).chain(request.tool_radius);
-        Self { id: published.result_id(LAYOUT, numbers), published, request }
+        Self { id: machine.result_id(HASH_PREFIX, numbers), machine, request }
     }
 
-    /// About how many triangles the mesh will have. It takes some milliseconds: to be called on the worker threads.
+    /// Estimates the triangles of the mesh. It takes some milliseconds: call it on the compute pool.
     pub(crate) fn triangles(&self, observer: &dyn Observer) -> Result<f64, OperationError> {
-        expected_triangles(&self.published.machine, &Request::from(&self.request), observer)
-            .map_err(workspace_error)
+        expected_triangles(&self.machine, &Request::from(&self.request), observer).map_err(workspace_error)
     }
 }
 
-/// Refuses a mesh of so many triangles if they are more than this.
+/// Refuses a mesh that is estimated at more than `most` triangles.
 pub(crate) fn check_triangles(triangles: f64, most: u64) -> Result<(), OperationError> {
-    let most = count(most);
+    #[expect(clippy::cast_precision_loss, reason = "the estimate is less precise")]
+    let most = most as f64;
     if triangles <= most {
         return Ok(());
     }
@@ -85,121 +143,71 @@ pub(crate) fn check_triangles(triangles: f64, most: u64) -> Result<(), Operation
     Err(OperationError::Fields(vec![FieldError::new("/tolerance", detail)]))
 }
 
-/// Estimated work, seconds of one core, of a workspace with so many triangles.
-pub(crate) fn cost(triangles: f64) -> f64 {
+/// Estimated work, seconds of one core, of a workspace with this number of triangles.
+pub(crate) fn workspace_cost(triangles: f64) -> f64 {
     VOLUME_COST + TRIANGLE_COST * triangles
 }
 
-/// Refuses a tolerance that is too fine for the machine, or no tolerance.
-pub(crate) fn check_tolerance(tolerance: f64, published: Option<&Published>, faults: &mut FieldErrors) {
+/// Refuses a tolerance that is too fine for the machine, or out of range.
+fn check_tolerance(tolerance: f64, machine: Option<&IdentifiedMachine>, faults: &mut FieldErrors) {
     let [mut finest, coarsest] = TOLERANCES;
-    if let Some(published) = published {
-        finest = finest.max(FINEST * longest(published.machine.data()));
+    if let Some(machine) = machine {
+        finest = finest.max(FINEST_FRACTION * machine.longest());
     }
     if !(finest..=coarsest).contains(&tolerance) {
         faults.add("/tolerance", format!("must be a number from {finest} to {coarsest} mm"));
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "an estimate is compared with it")]
-fn count(n: u64) -> f64 {
-    n as f64
-}
-
-/// A number as people say it: two digits of it, in millions where it has any.
+/// A number with two significant digits, in millions if it is large enough.
 fn rounded(number: f64) -> String {
     let unit = 10_f64.powf(number.log10().floor() - 1.0).max(1.0);
     let number = (number / unit).round() * unit;
     if number < 1e6 { format!("{number}") } else { format!("{} million", number / 1e6) }
 }
 
-/// A machine's longest dimension, mm.
-pub(crate) fn longest(machine: &MachineData) -> f64 {
-    let g = &machine.geometry;
-    [g.L1, g.L2, g.L3, g.R1, g.R2, g.r1, g.r4].into_iter().fold(0.0, f64::max)
-}
-
-/// What the solver refuses, in the words of the request.
-pub(crate) fn workspace_error(error: WorkspaceError) -> OperationError {
-    match error {
-        WorkspaceError::OutOfDomain { field } => {
-            OperationError::Fields(vec![FieldError::new(format!("/{field}"), "is out of range")])
-        }
-        WorkspaceError::TooFine => OperationError::Fields(vec![FieldError::new(
-            "/tolerance",
-            "would need more vertices than a mesh can index",
-        )]),
-        WorkspaceError::TooManyTriangles { most } => {
-            let detail = format!("makes more triangles than the limit of {most}");
-            OperationError::Fields(vec![FieldError::new("/tolerance", detail)])
-        }
-        WorkspaceError::TooManyNodes { nodes } => too_many_points(nodes),
-        WorkspaceError::Open => OperationError::Fields(vec![FieldError::new(
-            "/tolerance",
-            "gives a surface that the service cannot close for this machine; try a finer or coarser tolerance",
-        )]),
-        WorkspaceError::Disagreement => OperationError::Internal,
-        WorkspaceError::Cancelled => OperationError::Cancelled,
-    }
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
+    use serde_json::json;
     use verne_solver::workspace::Unobserved;
 
     use super::{WorkspaceQuestion, rounded};
-    use crate::operations::registry::Registry;
+    use crate::operations::machine_registry::MachineRegistry;
     use crate::operations::workspace::compute_workspace;
     use crate::wire::error::{FieldError, OperationError};
-    use crate::wire::machine_ref::MachineRef;
-    use crate::wire::workspace::{KindName, WorkspaceRequest};
+    use crate::wire::workspace::KindName;
+
+    fn question(kind: KindName, tool_length: f64, tolerance: f64) -> WorkspaceQuestion {
+        let request = json!({"kind": kind, "tool_length": tool_length, "tolerance": tolerance});
+        let request = serde_json::from_value(request).unwrap();
+        WorkspaceQuestion::new(&request, &MachineRegistry::default()).unwrap()
+    }
 
     #[test]
-    fn the_estimate_is_near_what_is_made() {
+    fn the_estimated_triangles_are_near_the_computed_ones() {
         for kind in [KindName::Platform, KindName::Tool, KindName::Part] {
             for tolerance in [1.0, 0.3, 0.1] {
-                let request = WorkspaceRequest {
-                    machine: MachineRef::default(),
-                    kind,
-                    tool_length: 300.0,
-                    table_clearance: None,
-                    tool_radius: 0.0,
-                    phi1: 0.0,
-                    phi2: 0.0,
-                    tolerance,
-                };
-                let question = WorkspaceQuestion::new(&request, &Registry::default()).unwrap();
-                let made =
-                    compute_workspace(&question, usize::MAX, &Unobserved).unwrap().mesh.triangles().len();
-                let estimate =
-                    question.triangles(&Unobserved).unwrap() / f64::from(u32::try_from(made).unwrap());
-                assert!((0.8..1.5).contains(&estimate), "{kind:?} {tolerance}: {made}, {estimate} of them");
+                let question = question(kind, 300.0, tolerance);
+                let mesh = compute_workspace(&question, usize::MAX, &Unobserved).unwrap().mesh;
+                let computed = u32::try_from(mesh.triangles().len()).unwrap();
+                let ratio = question.triangles(&Unobserved).unwrap() / f64::from(computed);
+                assert!((0.8..1.5).contains(&ratio), "{kind:?} {tolerance}: {computed}, {ratio} of them");
             }
         }
     }
 
     #[test]
-    fn a_mesh_that_turns_out_too_large_is_refused() {
-        let request = WorkspaceRequest {
-            machine: MachineRef::default(),
-            kind: KindName::Platform,
-            tool_length: 0.0,
-            table_clearance: None,
-            tool_radius: 0.0,
-            phi1: 0.0,
-            phi2: 0.0,
-            tolerance: 1.0,
-        };
-        let question = WorkspaceQuestion::new(&request, &Registry::default()).unwrap();
+    fn a_mesh_with_more_triangles_than_the_limit_is_refused() {
+        let question = question(KindName::Platform, 0.0, 1.0);
         let refused = compute_workspace(&question, 1_000, &Unobserved).map(drop).unwrap_err();
         let detail = "makes more triangles than the limit of 1000";
         assert_eq!(refused, OperationError::Fields(vec![FieldError::new("/tolerance", detail)]));
     }
 
     #[test]
-    fn numbers_are_said_with_two_digits() {
-        for (number, said) in [
+    fn numbers_are_rounded_to_two_digits() {
+        for (number, rounded_to) in [
             (41_234_567.0, "41 million"),
             (1_260_000.0, "1.3 million"),
             (5e6, "5 million"),
@@ -207,7 +215,7 @@ mod tests {
             (350_400.0, "350000"),
             (7.0, "7"),
         ] {
-            assert_eq!(rounded(number), said);
+            assert_eq!(rounded(number), rounded_to);
         }
     }
 }

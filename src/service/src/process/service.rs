@@ -16,13 +16,13 @@ use crate::http::gate::Gate;
 use crate::http::handlers::service;
 use crate::http::readiness::Readiness;
 use crate::http::security_headers::Browsers;
-use crate::http::state::{Shared, State, TERMS};
+use crate::http::state::{ESTIMATES, Shared, State};
 use crate::http::{base_path, middleware, router, security_headers, viewer};
 use crate::limits::admission::Admission;
 use crate::limits::keys_file::BadKeys;
 use crate::limits::rate::Rate;
-use crate::operations::compute_pool::spare_a_core;
-use crate::operations::registry::{BadFile, Registry};
+use crate::operations::compute_pool::leave_one_core_free;
+use crate::operations::machine_registry::{MachineFileError, MachineRegistry};
 use crate::process::config::ServeConfig;
 use crate::process::config::listen::Listen;
 use crate::process::server::Server;
@@ -36,7 +36,7 @@ use crate::telemetry::metrics::Metrics;
 #[derive(Debug)]
 pub enum StartError {
     /// A machine's file.
-    Machine(BadFile),
+    Machine(MachineFileError),
     /// The file of keys.
     Keys(BadKeys),
     /// Where jobs and results are kept.
@@ -74,7 +74,7 @@ pub struct Service {
 impl Service {
     /// Opens what the settings name.
     pub async fn open(config: &ServeConfig) -> Result<Self, StartError> {
-        let mut machines = Registry::default();
+        let mut machines = MachineRegistry::default();
         if let Some(directory) = &config.machines {
             machines.publish_directory(directory).map_err(StartError::Machine)?;
         }
@@ -99,14 +99,14 @@ impl Service {
         }
         let (requests, base) = (Arc::clone(&metrics.requests), &config.base_path);
         let limits = config.limits();
-        let terms = Cache::new(TERMS);
+        let costs = Cache::new(ESTIMATES);
         let state = Arc::new(State {
             machines,
             limits,
             admission,
             results,
             jobs,
-            terms,
+            costs,
             readiness,
             metrics,
             base: base.clone(),
@@ -157,7 +157,7 @@ pub async fn serve_on(
 ) -> Result<(), StartError> {
     let mut told = pin!(told);
     let hangups = pin!(outlive_hangups(config.keys.is_some()));
-    spare_a_core();
+    leave_one_core_free();
     let server = Server::new(listeners, &Terms::from(config)).map_err(StartError::Tls)?;
     let service = tokio::select! {
         service = Service::open(config) => service?,

@@ -12,7 +12,7 @@ use verne_jobs::jetstream::ConnectError;
 use verne_jobs::{Backend, Embedded, embedded};
 use verne_store::Store;
 
-use crate::operations::job_executor::Tasks;
+use crate::operations::job_executor::JobExecutor;
 use crate::operations::results::Results;
 use crate::process::config::ServeConfig;
 use crate::telemetry::metrics::computations::Computations;
@@ -128,7 +128,7 @@ impl Storage {
             Results::new(Store::open(&kept).await.map_err(StorageError::Results)?)
         };
         let computations = Computations::default();
-        let tasks = Tasks::new(results.clone(), computations.clone(), Handle::current());
+        let tasks = JobExecutor::new(results.clone(), computations.clone(), Handle::current());
         let jobs = open_jobs(config, below("jobs"), tasks).await?;
         if let Some(damaged) = jobs.damaged_database() {
             tracing::error!(
@@ -151,7 +151,7 @@ impl Storage {
 async fn open_jobs(
     config: &ServeConfig,
     directory: Option<PathBuf>,
-    tasks: Tasks,
+    tasks: JobExecutor,
 ) -> Result<Embedded, StorageError> {
     let jobs = embedded::Config {
         directory,

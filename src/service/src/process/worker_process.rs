@@ -19,7 +19,7 @@ use crate::http::handlers::service;
 use crate::http::middleware;
 use crate::http::readiness::Readiness;
 use crate::http::security_headers::Browsers;
-use crate::operations::job_executor::Tasks;
+use crate::operations::job_executor::JobExecutor;
 use crate::process::config::listen::Listen;
 use crate::process::config::worker::WorkerConfig;
 use crate::process::server::Server;
@@ -52,7 +52,7 @@ pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
         () = &mut told => return Ok(()),
     };
     let computations = Computations::default();
-    let tasks = Arc::new(Tasks::new(results.clone(), computations.clone(), Handle::current()));
+    let tasks = Arc::new(JobExecutor::new(results.clone(), computations.clone(), Handle::current()));
     let (threads, slots) = config.threads_and_slots();
     let worker = Worker::start(&jobs, Threads { threads, slots }, tasks)
         .map_err(|error| StartError::Storage(StorageError::Broker(error)))?;

@@ -1,4 +1,4 @@
-//! Which lines of constant alpha a slice shows.
+//! The lines of constant alpha in a slice.
 
 use std::borrow::Cow;
 use std::str::FromStr;
@@ -10,7 +10,7 @@ use utoipa::openapi::{RefOr, Schema};
 use utoipa::{PartialSchema, ToSchema};
 
 /// Most lines in one slice.
-const MOST: usize = 100;
+const MAX_LINES: usize = 100;
 
 /// `false`, `true` (every five degrees), or the angles in degrees, separated by commas.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,10 +18,10 @@ pub(crate) enum Alphas {
     /// None.
     #[default]
     None,
-    /// Every five degrees that the workspace has.
-    Usual,
-    /// These, in degrees.
-    These(Vec<f64>),
+    /// Every five degrees within the workspace.
+    EqualSteps,
+    /// List, in degrees.
+    List(Vec<f64>),
 }
 
 impl FromStr for Alphas {
@@ -30,17 +30,23 @@ impl FromStr for Alphas {
     fn from_str(text: &str) -> Result<Self, String> {
         match text {
             "false" => return Ok(Self::None),
-            "true" => return Ok(Self::Usual),
+            "true" => return Ok(Self::EqualSteps),
             _ => {}
         }
         let angle = |item: &str| {
             let angle = item.trim().parse::<f64>().ok().filter(|angle| angle.abs() <= 180.0);
             angle.ok_or_else(|| {
-                format!("{item:?} is not an angle within ±180 degrees; expected true, false or angles separated by commas")
+                format!(
+                    "{item:?} is not an angle within ±180 degrees; expected true, false or angles separated by commas"
+                )
             })
         };
         let angles = text.split(',').map(angle).collect::<Result<Vec<f64>, _>>()?;
-        if angles.len() <= MOST { Ok(Self::These(angles)) } else { Err(format!("at most {MOST} angles")) }
+        if angles.len() <= MAX_LINES {
+            Ok(Self::List(angles))
+        } else {
+            Err(format!("at most {MAX_LINES} angles"))
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 use verne_solver::{PartPose, PlatformPose, Point, Posture, Side, axis};
 
 use crate::wire::degrees::to_degrees;
-use crate::wire::fixed_array::{Exactly, Triple};
+use crate::wire::fixed_array::{FixedArray, Triple};
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::margins::{ConditioningObject, MarginsObject};
 use crate::wire::request::Joints;
@@ -183,7 +183,7 @@ impl From<Point> for PointObject {
 
 impl From<PartPose> for PartObject {
     fn from(pose: PartPose) -> Self {
-        let axis = Exactly(axis::tool_axis(pose.phi1, pose.phi2).map(|cosine| cosine + 0.0));
+        let axis = FixedArray(axis::tool_axis(pose.phi1, pose.phi2).map(|cosine| cosine + 0.0));
         let (phi1, phi2) = (to_degrees(pose.phi1), to_degrees(pose.phi2));
         Self { x: pose.x, y: pose.y, z: pose.z, phi1, phi2, axis }
     }

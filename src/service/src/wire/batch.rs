@@ -2,21 +2,25 @@
 
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
-use serde_json::value::RawValue;
 use utoipa::ToSchema;
 
 use crate::wire::answer::MachineId;
-use crate::wire::bounded_list::Capped;
-use crate::wire::limit::{ConstraintName, ElementName, Unchecked};
+use crate::wire::bounded_list::BoundedList;
+use crate::wire::constraint::{ConstraintName, ElementName};
+use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::request::Frame;
+use crate::wire::tool::has_tool;
 
 /// The working solution for many poses.
 ///
 /// The service reads the rows one by one, so a malformed row does not affect the others.
+// `R` is a row: `Row` if every row is an array of numbers, which is several times as fast to parse; otherwise the text
+// of the row.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct IkBatchRequest<'a> {
+#[schema(bound = "")]
+pub(crate) struct IkBatchRequest<R> {
     /// The machine: the name of a published machine, or a machine object.
     #[serde(default)]
     pub machine: MachineRef,
@@ -39,15 +43,15 @@ pub(crate) struct IkBatchRequest<'a> {
     pub tool_radius: f64,
     /// Rows `[x, y, z, phi1, phi2]` in frame `part`, `[x, y, z]` in the other frames. A malformed row has the status
     /// `invalid`.
-    #[serde(borrow)]
     #[schema(value_type = Vec<Option<Vec<Option<f64>>>>)]
-    pub poses: Capped<&'a RawValue>,
+    pub poses: BoundedList<R>,
 }
 
 /// The working solution for many joint positions.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct FkBatchRequest<'a> {
+#[schema(bound = "")]
+pub(crate) struct FkBatchRequest<R> {
     /// The machine: the name of a published machine, or a machine object.
     #[serde(default)]
     pub machine: MachineRef,
@@ -66,65 +70,21 @@ pub(crate) struct FkBatchRequest<'a> {
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
     /// Rows `[rho1, rho2, rho3]` or `[rho1, rho2, rho3, theta1, theta2]`. A malformed row has the status `invalid`.
-    #[serde(borrow)]
     #[schema(value_type = Vec<Option<Vec<Option<f64>>>>)]
-    pub joints: Capped<&'a RawValue>,
+    pub joints: BoundedList<R>,
 }
 
 /// Numbers of one row.
 pub(crate) type Row = ArrayVec<f64, 5>;
 
-/// An [`IkBatchRequest`] all of whose rows are numbers, as nearly always: they are read with the rest of the body,
-/// which is several times as fast as finding their ends first.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct IkBatchNumbers {
-    #[serde(default)]
-    pub machine: MachineRef,
-    #[serde(default)]
-    pub frame: Frame,
-    #[serde(default)]
-    pub tool_length: f64,
-    #[serde(default)]
-    pub table_clearance: Option<f64>,
-    #[serde(default)]
-    pub tool_radius: f64,
-    pub poses: Capped<Row>,
-}
+/// An [`IkBatchRequest`] whose rows are arrays of numbers.
+pub(crate) type IkBatchNumbers = IkBatchRequest<Row>;
 
-/// An [`FkBatchRequest`] all of whose rows are numbers.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct FkBatchNumbers {
-    #[serde(default)]
-    pub machine: MachineRef,
-    #[serde(default)]
-    pub tool_length: f64,
-    #[serde(default)]
-    pub table_clearance: Option<f64>,
-    #[serde(default)]
-    pub tool_radius: f64,
-    pub joints: Capped<Row>,
-}
+/// An [`FkBatchRequest`] whose rows are arrays of numbers.
+pub(crate) type FkBatchNumbers = FkBatchRequest<Row>;
 
-/// The rows of a batch.
-#[derive(Debug)]
-pub(crate) enum Rows<'a> {
-    /// Every one was read.
-    Read(Capped<Row>),
-    /// At least one cannot be read; each is still text.
-    Text(Capped<&'a RawValue>),
-}
-
-impl Rows<'_> {
-    /// How many there are.
-    pub(crate) fn len(&self) -> usize {
-        match self {
-            Self::Read(rows) => rows.len(),
-            Self::Text(rows) => rows.len(),
-        }
-    }
-}
+has_tool!(IkBatchRequest<R>);
+has_tool!(FkBatchRequest<R>);
 
 /// Joints for every pose, in order.
 #[derive(Debug, Serialize, ToSchema)]

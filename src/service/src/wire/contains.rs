@@ -6,10 +6,15 @@ use utoipa::ToSchema;
 
 use crate::wire::answer::MachineId;
 use crate::wire::batch::RowError;
-use crate::wire::bounded_list::Capped;
-use crate::wire::limit::{ConstraintName, ElementName, Unchecked, Unit};
+use crate::wire::bounded_list::BoundedList;
+use crate::wire::constraint::{ConstraintName, ElementName, Unit};
+use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
-use crate::wire::workspace::KindName;
+use crate::wire::sweep::Sweep;
+use crate::wire::workspace::{KindName, WorkspaceRequest};
+
+/// A tolerance that every machine accepts, mm. Membership does not depend on it.
+const ANY_TOLERANCE: f64 = 1000.0;
 
 /// Points to test against a workspace.
 ///
@@ -48,7 +53,23 @@ pub(crate) struct ContainsRequest<'a> {
     /// Points `[x, y, z]` in the frame of the kind, mm. The answer has null for a malformed point.
     #[serde(borrow)]
     #[schema(value_type = Vec<Option<Vec<Option<f64>>>>)]
-    pub points: Capped<&'a RawValue>,
+    pub points: BoundedList<&'a RawValue>,
+}
+
+impl ContainsRequest<'_> {
+    /// The request for the workspace.
+    pub(crate) fn workspace(&self) -> WorkspaceRequest {
+        WorkspaceRequest {
+            machine: self.machine.clone(),
+            kind: self.kind,
+            tool_length: Sweep::One(self.tool_length),
+            table_clearance: self.table_clearance,
+            tool_radius: self.tool_radius,
+            phi1: Sweep::One(self.phi1),
+            phi2: Sweep::One(self.phi2),
+            tolerance: ANY_TOLERANCE,
+        }
+    }
 }
 
 /// Position of each point relative to the workspace, as columns in the order of the points.

@@ -1,4 +1,4 @@
-//! `POST /workspace/dexterity`: with which inclinations the points of the part are reached.
+//! `POST /workspace/dexterity`: the inclinations that reach the points of a grid in the part frame.
 
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
@@ -7,11 +7,12 @@ use verne_solver::workspace::dexterity::Grid;
 
 use crate::wire::answer::MachineId;
 use crate::wire::degrees::to_degrees;
-use crate::wire::fixed_array::{Counts, Exactly, Triple};
+use crate::wire::fixed_array::{Counts, FixedArray, Triple};
 use crate::wire::format::MeshFormat;
 use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
-use crate::wire::strict_object::object;
+use crate::wire::result_id::ResultId;
+use crate::wire::strict_object::strict_object;
 use crate::wire::workspace_summary::BoundsObject;
 
 /// A request for the inclinations that reach each point of the part.
@@ -36,7 +37,7 @@ pub(crate) struct DexterityBody {
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
     /// The range of inclinations.
-    #[serde(deserialize_with = "object")]
+    #[serde(deserialize_with = "strict_object")]
     #[schema(inline)]
     pub phi1: Inclinations,
     /// Azimuth of the tool in the part frame, degrees.
@@ -113,7 +114,7 @@ impl SetName {
 #[derive(Debug, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
-pub(crate) struct KeptMeshQuery {
+pub(crate) struct StoredMeshQuery {
     /// Return the mesh in this format. It overrides Accept.
     #[param(inline, nullable = false)]
     pub format: Option<MeshFormat>,
@@ -126,7 +127,8 @@ pub(crate) struct KeptMeshQuery {
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct DexteritySummary {
     /// BLAKE3 hash of the request, the machine and the solver's version.
-    pub id: String,
+    #[schema(value_type = String)]
+    pub id: ResultId,
     /// The request with its default values.
     pub request: CanonicalDexterity,
     /// The machine.
@@ -196,9 +198,9 @@ pub(crate) struct GridObject {
 impl From<&Grid> for GridObject {
     fn from(grid: &Grid) -> Self {
         Self {
-            origin: Exactly(grid.origin),
+            origin: FixedArray(grid.origin),
             step: grid.step,
-            counts: Exactly(grid.counts),
+            counts: FixedArray(grid.counts),
             turn: to_degrees(grid.turn),
         }
     }
@@ -209,7 +211,8 @@ impl From<&Grid> for GridObject {
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct DexterityCells {
     /// Id of the map.
-    pub id: String,
+    #[schema(value_type = String)]
+    pub id: ResultId,
     /// The points.
     pub grid: GridObject,
     /// Point n's intervals are those from `offsets[n]` up to `offsets[n + 1]`.

@@ -37,8 +37,9 @@ impl FieldError {
     }
 }
 
-/// Why an operation has no answer.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+/// Why an operation has no answer. The record of a failed job states it as JSON.
+#[derive(Clone, Debug, PartialEq, Eq, Error, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub(crate) enum OperationError {
     /// The body is not JSON. The parser gives the reason.
     #[error("The body is not JSON: {0}.")]

@@ -1,78 +1,18 @@
-//! `POST /workspace` with lists: a family of workspaces, and its table.
+//! The table of a family of workspaces.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use crate::wire::answer::MachineId;
 use crate::wire::limit::Unchecked;
-use crate::wire::machine_ref::MachineRef;
-use crate::wire::sweep::Span;
-use crate::wire::workspace::{CanonicalRequest, KindName, WorkspaceRequest, default_tolerance};
+use crate::wire::result_id::ResultId;
+use crate::wire::workspace::{CanonicalWorkspace, KindName};
 use crate::wire::workspace_summary::BoundsObject;
-
-/// A request for a workspace. With lists it is a request for a family: one workspace for each combination of the
-/// values.
-#[derive(Clone, Debug, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields)]
-#[schema(as = WorkspaceRequest)]
-pub(crate) struct WorkspaceBody {
-    /// The machine: the name of a published machine, or a machine object.
-    #[serde(default)]
-    pub machine: MachineRef,
-    /// Point and frame of the positions.
-    #[serde(default)]
-    pub kind: KindName,
-    /// Distance from P to the tool end, mm, from 0 to 1e7. Kind `platform` ignores it.
-    #[serde(default)]
-    pub tool_length: Span,
-    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
-    /// part frame), mm. Only kind `part` has it. The default is the limit of the machine; if the machine has none, the
-    /// service does not check the table.
-    #[serde(default)]
-    #[schema(minimum = 0, maximum = 1e7)]
-    pub table_clearance: Option<f64>,
-    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
-    #[serde(default)]
-    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
-    pub tool_radius: f64,
-    /// Inclination of the tool in the part frame, degrees. Only kind `part` uses it.
-    #[serde(default)]
-    pub phi1: Span,
-    /// Azimuth of the tool in the part frame, degrees. Only kind `part` uses it.
-    #[serde(default)]
-    pub phi2: Span,
-    /// Greatest distance between the mesh and the true surface, in both directions, mm. It must be at least a millionth
-    /// of the machine's longest dimension.
-    #[serde(default = "default_tolerance")]
-    #[schema(minimum = 0.01, maximum = 1000, default = 1.0)]
-    pub tolerance: f64,
-}
-
-impl WorkspaceBody {
-    /// The one workspace that is asked for; nothing where it is a family.
-    pub(crate) fn single(&self) -> Option<WorkspaceRequest> {
-        let (&Span::One(tool_length), &Span::One(phi1), &Span::One(phi2)) =
-            (&self.tool_length, &self.phi1, &self.phi2)
-        else {
-            return None;
-        };
-        let Self { machine, kind, table_clearance, tool_radius, tolerance, .. } = self.clone();
-        Some(WorkspaceRequest {
-            machine,
-            kind,
-            tool_length,
-            table_clearance,
-            tool_radius,
-            phi1,
-            phi2,
-            tolerance,
-        })
-    }
-}
 
 /// The request of a family with its lists in full.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub(crate) struct FamilyRequest {
+#[schema(as = FamilyRequest)]
+pub(crate) struct CanonicalFamily {
     /// Point and frame of the positions.
     pub kind: KindName,
     /// Distance from P to the tool end, mm.
@@ -93,13 +33,34 @@ pub(crate) struct FamilyRequest {
     pub tolerance: f64,
 }
 
+impl CanonicalFamily {
+    /// The request of every combination; phi2 varies fastest, then phi1. They have no fields without effect.
+    pub(crate) fn members(&self) -> impl Iterator<Item = CanonicalWorkspace> {
+        let (tool, part) = (self.kind != KindName::Platform, self.kind == KindName::Part);
+        self.tool_length.iter().flat_map(move |&tool_length| {
+            self.phi1.iter().flat_map(move |&phi1| {
+                self.phi2.iter().map(move |&phi2| CanonicalWorkspace {
+                    kind: self.kind,
+                    tool_length: tool.then_some(tool_length),
+                    table_clearance: self.table_clearance,
+                    tool_radius: self.tool_radius,
+                    phi1: part.then_some(phi1),
+                    phi2: part.then_some(phi2),
+                    tolerance: self.tolerance,
+                })
+            })
+        })
+    }
+}
+
 /// Summary of a family of workspaces.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct FamilySummary {
     /// BLAKE3 hash of the lists and of the members' ids.
-    pub id: String,
+    #[schema(value_type = String)]
+    pub id: ResultId,
     /// The request with its lists in full.
-    pub request: FamilyRequest,
+    pub request: CanonicalFamily,
     /// The machine.
     pub machine: MachineId,
     /// The workspaces in order; phi2 varies fastest, then phi1. Each workspace has a result of its own.
@@ -123,9 +84,10 @@ pub(crate) struct FamilyLinks {
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct FamilyMember {
     /// Id of the workspace: `/workspace/{id}` has its summary, mesh and slices.
-    pub id: String,
+    #[schema(value_type = String)]
+    pub id: ResultId,
     /// Request of the workspace.
-    pub request: CanonicalRequest,
+    pub request: CanonicalWorkspace,
     /// Figures of the workspace. They are missing if the computation failed.
     #[serde(flatten)]
     #[schema(inline)]

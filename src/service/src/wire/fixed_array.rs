@@ -1,4 +1,4 @@
-//! Groups of numbers of a fixed size in JSON, and comma-separated ones in queries and on the command line.
+//! JSON arrays of a fixed length, and comma-separated numbers in queries and on the command line.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -11,40 +11,40 @@ use utoipa::openapi::schema::{ArrayBuilder, ArrayItems};
 use utoipa::openapi::{RefOr, Schema};
 use utoipa::{PartialSchema, ToSchema};
 
-/// A JSON array of exactly N items. The parser's own arrays take one item too many for a syntax
-/// error, and the schema's own arrays do not say how many items they hold.
+/// A JSON array of exactly N items. Rust's arrays would not do: serde reports an item too many as a syntax error, and
+/// their schema does not state the length.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Exactly<T, const N: usize>(pub [T; N]);
+pub struct FixedArray<T, const N: usize>(pub [T; N]);
 
 /// `[min, max]`, or two margins.
-pub(crate) type Pair = Exactly<f64, 2>;
+pub(crate) type Pair = FixedArray<f64, 2>;
 /// One number for each slider, or x, y, z.
-pub(crate) type Triple = Exactly<f64, 3>;
+pub(crate) type Triple = FixedArray<f64, 3>;
 /// One number for each rod: 11, 12, 21, 22, 31, 32.
-pub(crate) type PerRod = Exactly<f64, 6>;
+pub(crate) type PerRod = FixedArray<f64, 6>;
 /// Points along x, y, z.
-pub(crate) type Counts = Exactly<u32, 3>;
+pub(crate) type Counts = FixedArray<u32, 3>;
 /// A pair for each slider.
-pub(crate) type PairPerSlider = Exactly<Pair, 3>;
+pub(crate) type PairPerSlider = FixedArray<Pair, 3>;
 /// Four directions: rod 11, rod 12, the rods of leg II, the rods of leg III.
-pub(crate) type Axes = Exactly<Triple, 4>;
+pub(crate) type Axes = FixedArray<Triple, 4>;
 
-impl<T: Serialize, const N: usize> Serialize for Exactly<T, N> {
+impl<T: Serialize, const N: usize> Serialize for FixedArray<T, N> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(&self.0)
     }
 }
 
-impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for FixedArray<T, N> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_seq(Items(PhantomData))
+        deserializer.deserialize_seq(ArrayVisitor(PhantomData))
     }
 }
 
-struct Items<T, const N: usize>(PhantomData<T>);
+struct ArrayVisitor<T, const N: usize>(PhantomData<T>);
 
-impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Items<T, N> {
-    type Value = Exactly<T, N>;
+impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for ArrayVisitor<T, N> {
+    type Value = FixedArray<T, N>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "an array of {N} items")
@@ -55,17 +55,17 @@ impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Items<T, N> {
         while let Some(item) = items.next_element()? {
             array.try_push(item).map_err(|_| A::Error::invalid_length(N + 1, &self))?;
         }
-        array.into_inner().map(Exactly).map_err(|short| A::Error::invalid_length(short.len(), &self))
+        array.into_inner().map(FixedArray).map_err(|short| A::Error::invalid_length(short.len(), &self))
     }
 }
 
-impl<T: PartialSchema, const N: usize> PartialSchema for Exactly<T, N> {
+impl<T: PartialSchema, const N: usize> PartialSchema for FixedArray<T, N> {
     fn schema() -> RefOr<Schema> {
         array_of(T::schema(), N, N)
     }
 }
 
-impl<T: ToSchema, const N: usize> ToSchema for Exactly<T, N> {}
+impl<T: ToSchema, const N: usize> ToSchema for FixedArray<T, N> {}
 
 fn array_of(item: RefOr<Schema>, least: usize, most: usize) -> RefOr<Schema> {
     ArrayBuilder::new()
@@ -75,30 +75,33 @@ fn array_of(item: RefOr<Schema>, least: usize, most: usize) -> RefOr<Schema> {
         .into()
 }
 
-/// LEAST to MOST numbers separated by commas, as a query or a command line writes them.
+/// Three numbers and at most `OPTIONAL` more, separated by commas, in a query or on a command line.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Listed<const LEAST: usize, const MOST: usize>(pub Vec<f64>);
-
-/// Three numbers: sliders or a direction.
-pub(crate) type ListedTriple = Listed<3, 3>;
-/// Sliders, perhaps with the table's angles.
-pub(crate) type ListedJoints = Listed<3, 5>;
-/// A position, perhaps with alpha.
-pub(crate) type ListedPose = Listed<3, 4>;
-
-impl<const LEAST: usize, const MOST: usize> Listed<LEAST, MOST> {
+pub(crate) struct NumberList<const OPTIONAL: usize> {
     /// The first three numbers.
-    pub(crate) fn first_three(&self) -> Triple {
-        Exactly(std::array::from_fn(|i| self.get(i).unwrap_or(f64::NAN)))
-    }
+    pub first: Triple,
+    /// The numbers after them.
+    pub optional: Vec<f64>,
+}
 
-    /// One of the numbers.
-    pub(crate) fn get(&self, i: usize) -> Option<f64> {
-        self.0.get(i).copied()
+/// The number of required numbers.
+const REQUIRED: usize = 3;
+
+/// Sliders, or a direction.
+pub(crate) type TripleList = NumberList<0>;
+/// A position, and perhaps alpha.
+pub(crate) type PoseList = NumberList<1>;
+/// Sliders, and perhaps the table's angles.
+pub(crate) type JointList = NumberList<2>;
+
+impl<const OPTIONAL: usize> NumberList<OPTIONAL> {
+    /// One of the optional numbers, from 0.
+    pub(crate) fn optional(&self, i: usize) -> Option<f64> {
+        self.optional.get(i).copied()
     }
 }
 
-impl<const LEAST: usize, const MOST: usize> FromStr for Listed<LEAST, MOST> {
+impl<const OPTIONAL: usize> FromStr for NumberList<OPTIONAL> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -106,25 +109,30 @@ impl<const LEAST: usize, const MOST: usize> FromStr for Listed<LEAST, MOST> {
             .split(',')
             .map(|item| item.trim().parse().map_err(|_| format!("{item:?} is not a number")))
             .collect::<Result<Vec<f64>, _>>()?;
-        if (LEAST..=MOST).contains(&numbers.len()) {
-            return Ok(Self(numbers));
+        match numbers.split_first_chunk::<REQUIRED>() {
+            Some((first, optional)) if optional.len() <= OPTIONAL => {
+                Ok(Self { first: FixedArray(*first), optional: optional.to_vec() })
+            }
+            _ => {
+                let most = REQUIRED + OPTIONAL;
+                let accepted = if OPTIONAL == 0 { most.to_string() } else { format!("{REQUIRED} to {most}") };
+                Err(format!("expected {accepted} numbers separated by commas, found {}", numbers.len()))
+            }
         }
-        let wanted = if LEAST == MOST { LEAST.to_string() } else { format!("{LEAST} to {MOST}") };
-        Err(format!("expected {wanted} numbers separated by commas, found {}", numbers.len()))
     }
 }
 
-impl<'de, const LEAST: usize, const MOST: usize> Deserialize<'de> for Listed<LEAST, MOST> {
+impl<'de, const OPTIONAL: usize> Deserialize<'de> for NumberList<OPTIONAL> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = std::borrow::Cow::<'de, str>::deserialize(deserializer)?;
         text.parse().map_err(D::Error::custom)
     }
 }
 
-impl<const LEAST: usize, const MOST: usize> PartialSchema for Listed<LEAST, MOST> {
+impl<const OPTIONAL: usize> PartialSchema for NumberList<OPTIONAL> {
     fn schema() -> RefOr<Schema> {
-        array_of(f64::schema(), LEAST, MOST)
+        array_of(f64::schema(), REQUIRED, REQUIRED + OPTIONAL)
     }
 }
 
-impl<const LEAST: usize, const MOST: usize> ToSchema for Listed<LEAST, MOST> {}
+impl<const OPTIONAL: usize> ToSchema for NumberList<OPTIONAL> {}

@@ -1,14 +1,14 @@
 //! The formats of meshes and slices: their names in queries, as file extensions and as media types.
 
 use clap::ValueEnum;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 /// Format of a mesh: `glb`, binary glTF 2.0 (metres, Y up, the frame in `extras`, one primitive and one material for
 /// each active constraint), for viewers; `stl`, binary (mm), for slicers and CAD; `ply`, binary (mm, double precision,
 /// with the active constraint of each vertex; the faces are sorted by active constraint, and comments list the
 /// constraints); `json` (mm, flat `positions` and `indices`), for scripts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, ToSchema, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum MeshFormat {
     /// Binary glTF 2.0.

@@ -6,8 +6,8 @@ use verne_solver::MachineData;
 use verne_solver::machine::{Geometry, Limits, Table};
 
 use crate::wire::degrees::{from_degrees, to_degrees};
-use crate::wire::fixed_array::{Axes, Exactly, Pair, PairPerSlider};
-use crate::wire::strict_object::object;
+use crate::wire::fixed_array::{Axes, FixedArray, Pair, PairPerSlider};
+use crate::wire::strict_object::strict_object;
 
 /// A machine of the VERNE architecture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -21,15 +21,15 @@ pub struct MachineObject {
     #[serde(default)]
     pub description: String,
     /// The parallel module.
-    #[serde(deserialize_with = "object")]
+    #[serde(deserialize_with = "strict_object")]
     #[schema(inline)]
     pub geometry: GeometryObject,
     /// The tilting table.
-    #[serde(deserialize_with = "object")]
+    #[serde(deserialize_with = "strict_object")]
     #[schema(inline)]
     pub table: TableObject,
     /// Limits of joints and of singularities.
-    #[serde(deserialize_with = "object")]
+    #[serde(deserialize_with = "strict_object")]
     #[schema(inline)]
     pub limits: LimitsObject,
 }
@@ -167,23 +167,23 @@ impl From<&MachineData> for MachineObject {
             geometry: (&data.geometry).into(),
             table: TableObject { da: data.table.da, dt: data.table.dt },
             limits: LimitsObject {
-                stroke: Exactly(l.stroke.map(Exactly)),
+                stroke: FixedArray(l.stroke.map(FixedArray)),
                 slider_cone: to_degrees(l.slider_cone),
                 platform_cone: to_degrees(l.platform_cone),
                 serial_margin: l.serial_margin,
                 parallel_margin: l.parallel_margin,
-                tilt: Exactly(l.tilt.map(to_degrees)),
-                rotary: Exactly(l.rotary.map(to_degrees)),
+                tilt: FixedArray(l.tilt.map(to_degrees)),
+                rotary: FixedArray(l.rotary.map(to_degrees)),
                 table_clearance: l.table_clearance,
-                slider_axes: l.slider_axes.map(|axes| Exactly(axes.map(Exactly))),
-                platform_axes: l.platform_axes.map(|axes| Exactly(axes.map(Exactly))),
+                slider_axes: l.slider_axes.map(|axes| FixedArray(axes.map(FixedArray))),
+                platform_axes: l.platform_axes.map(|axes| FixedArray(axes.map(FixedArray))),
             },
         }
     }
 }
 
-/// The same dimensions under the same names, on the wire and in the solver.
-macro_rules! same_dimensions {
+/// Converts dimensions, whose fields have the same names in requests and in the solver.
+macro_rules! convert_dimensions {
     ($($name:ident),*) => {
         impl From<&GeometryObject> for Geometry {
             fn from(g: &GeometryObject) -> Self {
@@ -199,4 +199,4 @@ macro_rules! same_dimensions {
     };
 }
 
-same_dimensions!(D1, d1, D2, d2, R1, r1, R2, r4, L1, L2, L3, parallelogram_half_width, rod_radius);
+convert_dimensions!(D1, d1, D2, d2, R1, r1, R2, r4, L1, L2, L3, parallelogram_half_width, rod_radius);

@@ -1,4 +1,4 @@
-//! The machine of a request: a name, or the whole object.
+//! The machine of a request: a name, or a machine object.
 
 use std::fmt;
 
@@ -9,8 +9,13 @@ use utoipa::ToSchema;
 
 use crate::wire::machine::MachineObject;
 
-/// Name of the built-in reference machine, which a request means when it names none.
+/// Name of the built-in reference machine: the default machine of every request.
 pub(crate) const REFERENCE: &str = "verne";
+
+/// The default of a parameter `machine`.
+pub(crate) fn reference_name() -> String {
+    REFERENCE.to_owned()
+}
 
 /// The machine of a request.
 #[derive(Clone, Debug, ToSchema)]
@@ -19,12 +24,12 @@ pub(crate) enum MachineRef {
     /// The name of a published machine; GET /machines lists them.
     Name(String),
     /// A custom machine.
-    Whole(Box<MachineObject>),
+    Object(Box<MachineObject>),
 }
 
 impl Default for MachineRef {
     fn default() -> Self {
-        Self::Name(REFERENCE.to_owned())
+        Self::Name(reference_name())
     }
 }
 
@@ -34,7 +39,7 @@ impl<'de> Deserialize<'de> for MachineRef {
     }
 }
 
-/// Decides by the JSON type, so that what is wrong inside an object keeps its pointer.
+/// Decides by the JSON type: an error inside an object then has its pointer.
 struct NameOrObject;
 
 impl<'de> Visitor<'de> for NameOrObject {
@@ -49,6 +54,6 @@ impl<'de> Visitor<'de> for NameOrObject {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, fields: A) -> Result<MachineRef, A::Error> {
-        MachineObject::deserialize(MapAccessDeserializer::new(fields)).map(Box::new).map(MachineRef::Whole)
+        MachineObject::deserialize(MapAccessDeserializer::new(fields)).map(Box::new).map(MachineRef::Object)
     }
 }

@@ -5,7 +5,7 @@ use utoipa::ToSchema;
 use verne_solver::{Machine, Margins, jacobian};
 
 use crate::wire::degrees::to_degrees;
-use crate::wire::fixed_array::{Exactly, Pair, PairPerSlider, PerRod, Triple};
+use crate::wire::fixed_array::{FixedArray, Pair, PairPerSlider, PerRod, Triple};
 use crate::wire::limit::Limit;
 
 /// Margins of every constraint: positive inside, zero on the limit, negative outside. Arrays of six are the rods
@@ -55,10 +55,10 @@ pub(crate) struct MarginsObject {
 impl MarginsObject {
     /// The margins in the wire's units.
     pub(crate) fn new(machine: &Machine, margins: &Margins) -> Self {
-        let range = |margins: [f64; 2]| Exactly(margins.map(to_degrees));
+        let range = |margins: [f64; 2]| FixedArray(margins.map(to_degrees));
         Self {
-            stroke: Exactly(margins.stroke.map(Exactly)),
-            leg_length: Exactly(margins.leg_length),
+            stroke: FixedArray(margins.stroke.map(FixedArray)),
+            leg_length: FixedArray(margins.leg_length),
             serial_singularity: per_rod(margins.serial_singularity),
             parallel_singularity: margins.parallel_singularity,
             slider_joint: per_rod(margins.slider_joint.map(to_degrees)),
@@ -95,5 +95,5 @@ impl From<jacobian::Conditioning> for ConditioningObject {
 
 /// The two rods of a parallelogram are parallel: what holds for one holds for the other.
 fn per_rod([r11, r12, leg2, leg3]: [f64; 4]) -> PerRod {
-    Exactly([r11, r12, leg2, leg2, leg3, leg3])
+    FixedArray([r11, r12, leg2, leg2, leg3, leg3])
 }

@@ -1,4 +1,4 @@
-//! Which required fields a JSON body lacks, by the schema that documents it. The parser stops at the first.
+//! Finds all missing fields of a JSON body by its schema. The parser stops at the first.
 
 use std::collections::BTreeMap;
 
@@ -8,9 +8,9 @@ use utoipa::openapi::schema::Object;
 use utoipa::openapi::{RefOr, Schema};
 
 use crate::wire::error::FieldError;
-use crate::wire::parse::push;
+use crate::wire::json_pointer::push_segment;
 
-/// The missing fields of a body that should be a `T`, the outer ones first.
+/// The missing fields of a body for the type `T`, the outer ones first.
 pub(crate) fn missing_fields<T: ToSchema>(body: &[u8]) -> Vec<FieldError> {
     let Ok(body) = serde_json::from_slice::<Value>(body) else { return Vec::new() };
     let mut named = Vec::new();
@@ -39,7 +39,7 @@ impl Search {
         }
     }
 
-    /// The one kind of object that a schema allows. Of several kinds nobody knows which is meant.
+    /// The only kind of object that a schema allows; none if it allows several.
     fn object<'a>(&'a self, schema: &'a RefOr<Schema>) -> Option<&'a Object> {
         let items = match schema {
             RefOr::Ref(reference) => {
@@ -58,6 +58,6 @@ impl Search {
 
 fn pointer_to(pointer: &str, name: &str) -> String {
     let mut pointer = pointer.to_owned();
-    push(&mut pointer, name);
+    push_segment(&mut pointer, name);
     pointer
 }

@@ -1,4 +1,4 @@
-//! From bytes to typed requests, with the pointer of what does not fit.
+//! Parses JSON bodies into requests. An error has the pointer of the wrong field.
 
 use serde::Deserialize;
 use serde_json::error::Category;
@@ -6,34 +6,35 @@ use serde_path_to_error::{Path, Segment};
 use utoipa::ToSchema;
 
 use crate::wire::error::{FieldError, OperationError};
+use crate::wire::json_pointer::push_segment;
 use crate::wire::missing::missing_fields;
-use crate::wire::strict_object::Object;
+use crate::wire::strict_object::StrictObject;
 
-/// The UTF-8 byte order mark, which Windows writes before a text.
-const MARK: &[u8] = b"\xEF\xBB\xBF";
+/// The UTF-8 byte order mark, which programs for Windows write before a text.
+const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// How many bytes of a body that is not JSON are shown.
+/// How many bytes of a body that is not JSON the error shows.
 const SHOWN: usize = 64;
 
 /// Parses a JSON body that holds an object.
 pub(crate) fn parse_body<'de, T: Deserialize<'de> + ToSchema>(body: &'de [u8]) -> Result<T, OperationError> {
-    let body = without_mark(body);
+    let body = without_byte_order_mark(body);
     // Tracking the path costs time on every field: only a body that failed is read again with it.
-    serde_json::from_slice(body).map(|Object(request)| request).map_err(|_| explain_body::<T>(body))
+    serde_json::from_slice(body).map(|StrictObject(request)| request).map_err(|_| explain_body::<T>(body))
 }
 
-/// Parses a JSON body that holds an object, if it is as expected; [`parse_body`] says what else it is.
-pub(crate) fn parse_usual<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Option<T> {
-    serde_json::from_slice(without_mark(body)).map(|Object(request)| request).ok()
+/// Parses a JSON body that holds an object; nothing if it does not fit. [`parse_body`] explains why.
+pub(crate) fn parse_expected<'de, T: Deserialize<'de>>(body: &'de [u8]) -> Option<T> {
+    serde_json::from_slice(without_byte_order_mark(body)).map(|StrictObject(request)| request).ok()
 }
 
-fn without_mark(body: &[u8]) -> &[u8] {
-    body.strip_prefix(MARK).unwrap_or(body)
+fn without_byte_order_mark(body: &[u8]) -> &[u8] {
+    body.strip_prefix(BYTE_ORDER_MARK).unwrap_or(body)
 }
 
 fn explain_body<'de, T: Deserialize<'de> + ToSchema>(body: &'de [u8]) -> OperationError {
     let mut json = serde_json::Deserializer::from_slice(body);
-    let Err(error) = serde_path_to_error::deserialize::<_, Object<T>>(&mut json) else {
+    let Err(error) = serde_path_to_error::deserialize::<_, StrictObject<T>>(&mut json) else {
         let rest = json.end().err();
         return not_json(body, &rest.map_or("trailing characters".to_owned(), |error| error.to_string()));
     };
@@ -65,8 +66,7 @@ fn not_json(body: &[u8], reason: &str) -> OperationError {
     OperationError::Syntax(format!("{reason}; it begins with \"{escaped}\"{more}"))
 }
 
-/// Whether the parser stumbled over one of the words that other languages write for numbers that
-/// JSON does not have.
+/// Whether the error is at one of the words that other languages write for numbers that JSON does not have.
 fn is_not_a_number(body: &[u8], error: &serde_json::Error) -> bool {
     let Some(line) = body.split(|&byte| byte == b'\n').nth(error.line().saturating_sub(1)) else {
         return false;
@@ -85,13 +85,13 @@ pub(crate) fn pointer(path: &Path, message: &str) -> String {
     let mut pointer = String::new();
     for segment in path {
         match segment {
-            Segment::Seq { index } => push(&mut pointer, &index.to_string()),
-            Segment::Map { key } => push(&mut pointer, key),
+            Segment::Seq { index } => push_segment(&mut pointer, &index.to_string()),
+            Segment::Map { key } => push_segment(&mut pointer, key),
             Segment::Enum { .. } | Segment::Unknown => {}
         }
     }
     if let Some(name) = missing_name(message).or_else(|| quoted(message, "duplicate field `")) {
-        push(&mut pointer, name);
+        push_segment(&mut pointer, name);
     }
     pointer
 }
@@ -103,10 +103,4 @@ fn missing_name(message: &str) -> Option<&str> {
 
 fn quoted<'a>(message: &'a str, words: &str) -> Option<&'a str> {
     message.strip_prefix(words)?.split('`').next()
-}
-
-/// Adds a part to a JSON Pointer.
-pub(crate) fn push(pointer: &mut String, part: &str) {
-    pointer.push('/');
-    pointer.push_str(&part.replace('~', "~0").replace('/', "~1"));
 }

@@ -1,17 +1,13 @@
-//! The same questions in a query string and on the command line: one list of parameters for both.
+//! Parameters of /fk and /ik, in query strings and on the command line.
 
 use clap::Args;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::wire::error::{FieldError, OperationError};
-use crate::wire::fixed_array::{ListedJoints, ListedPose, ListedTriple};
-use crate::wire::machine_ref::{MachineRef, REFERENCE};
-use crate::wire::request::{FkRequest, Frame, IkRequest, Joints, Near, NearPose, TargetPose, Wanted};
-
-fn reference() -> String {
-    REFERENCE.to_owned()
-}
+use crate::wire::fixed_array::{JointList, PoseList, TripleList};
+use crate::wire::machine_ref::{MachineRef, REFERENCE, reference_name};
+use crate::wire::request::{FkRequest, Frame, IkRequest, Joints, Near, NearPose, SolutionFilter, TargetPose};
 
 /// Parameters of GET /fk.
 #[derive(Debug, Deserialize, IntoParams, Args)]
@@ -19,14 +15,14 @@ fn reference() -> String {
 #[into_params(parameter_in = Query)]
 pub(crate) struct FkQuery {
     /// Name of the machine. On the command line it may also be the path of a machine file.
-    #[serde(default = "reference")]
+    #[serde(default = "reference_name")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
     pub machine: String,
     /// Positions of the three sliders, mm.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false)]
-    pub rho: ListedTriple,
+    pub rho: TripleList,
     /// Tilting angle of the table, degrees. Needs theta2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = -36000, maximum = 36000, nullable = false)]
@@ -54,15 +50,15 @@ pub(crate) struct FkQuery {
     /// Solutions to return.
     #[serde(default)]
     #[arg(long, default_value = "working")]
-    pub solutions: Wanted,
+    pub solutions: SolutionFilter,
     /// Sort the solutions by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
-    pub near_joints: Option<ListedJoints>,
+    pub near_joints: Option<JointList>,
     /// Sort the solutions by distance from this platform pose: x,y,z or x,y,z,alpha.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
-    pub near_pose: Option<ListedPose>,
+    pub near_pose: Option<PoseList>,
 }
 
 /// Parameters of GET /ik.
@@ -71,7 +67,7 @@ pub(crate) struct FkQuery {
 #[into_params(parameter_in = Query)]
 pub(crate) struct IkQuery {
     /// Name of the machine. On the command line it may also be the path of a machine file.
-    #[serde(default = "reference")]
+    #[serde(default = "reference_name")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
     pub machine: String,
@@ -105,7 +101,7 @@ pub(crate) struct IkQuery {
     /// and phi2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
-    pub axis: Option<ListedTriple>,
+    pub axis: Option<TripleList>,
     /// Distance from P to the tool end, mm.
     #[serde(default)]
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
@@ -125,25 +121,25 @@ pub(crate) struct IkQuery {
     /// Solutions to return.
     #[serde(default)]
     #[arg(long, default_value = "working")]
-    pub solutions: Wanted,
+    pub solutions: SolutionFilter,
     /// Sort the solutions by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2. theta1 and
     /// theta2 of the solutions are on the windings within their ranges that are nearest to these.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
-    pub near_joints: Option<ListedJoints>,
+    pub near_joints: Option<JointList>,
     /// Sort the solutions by distance from this platform pose: x,y,z or x,y,z,alpha.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
-    pub near_pose: Option<ListedPose>,
+    pub near_pose: Option<PoseList>,
 }
 
 impl FkQuery {
-    /// The question as POST would put it.
+    /// The request as the body of POST.
     pub(crate) fn into_request(self) -> Result<FkRequest, OperationError> {
         Ok(FkRequest {
             near: near(self.near_joints, self.near_pose)?,
             machine: MachineRef::Name(self.machine),
-            joints: Joints { rho: self.rho.first_three(), theta1: self.theta1, theta2: self.theta2 },
+            joints: Joints { rho: self.rho.first, theta1: self.theta1, theta2: self.theta2 },
             tool_length: self.tool_length,
             table_clearance: self.table_clearance,
             tool_radius: self.tool_radius,
@@ -153,9 +149,9 @@ impl FkQuery {
 }
 
 impl IkQuery {
-    /// The question as POST would put it.
+    /// The request as the body of POST.
     pub(crate) fn into_request(self) -> Result<IkRequest, OperationError> {
-        let axis = self.axis.map(|axis| axis.first_three());
+        let axis = self.axis.map(|axis| axis.first);
         Ok(IkRequest {
             near: near(self.near_joints, self.near_pose)?,
             machine: MachineRef::Name(self.machine),
@@ -169,16 +165,15 @@ impl IkQuery {
     }
 }
 
-fn near(joints: Option<ListedJoints>, pose: Option<ListedPose>) -> Result<Option<Near>, OperationError> {
+fn near(joints: Option<JointList>, pose: Option<PoseList>) -> Result<Option<Near>, OperationError> {
     match (joints, pose) {
         (None, None) => Ok(None),
         (Some(joints), None) => {
-            let (rho, theta1, theta2) = (joints.first_three(), joints.get(3), joints.get(4));
+            let (rho, theta1, theta2) = (joints.first, joints.optional(0), joints.optional(1));
             Ok(Some(Near::Joints(Joints { rho, theta1, theta2 })))
         }
         (None, Some(pose)) => {
-            let (position, alpha) = (pose.first_three(), pose.get(3));
-            let [x, y, z] = position.0;
+            let ([x, y, z], alpha) = (pose.first.0, pose.optional(0));
             Ok(Some(Near::Pose(NearPose { x, y, z, alpha })))
         }
         (Some(_), Some(_)) => Err(OperationError::Fields(vec![FieldError::new(
@@ -188,7 +183,7 @@ fn near(joints: Option<ListedJoints>, pose: Option<ListedPose>) -> Result<Option
     }
 }
 
-/// Turns the pointers of a question's body into those of its query.
+/// Turns the pointers into the body of a request into pointers to the parameters of its query.
 pub(crate) fn point_into_query(error: OperationError) -> OperationError {
     let OperationError::Fields(faults) = error else { return error };
     let moved = faults.into_iter().map(|fault| {

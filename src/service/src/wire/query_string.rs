@@ -1,4 +1,4 @@
-//! From a query string to a typed request.
+//! Parses query strings into requests.
 
 use form_urlencoded::Serializer;
 use serde::de::DeserializeOwned;
@@ -11,7 +11,7 @@ use crate::wire::parse::pointer;
 
 /// Parses a query string. A list is `name=1,2`, `name=1&name=2` or `name=[1,2]`.
 pub(crate) fn parse_query<T: DeserializeOwned + IntoParams>(query: &str) -> Result<T, OperationError> {
-    // Nearly every query can be read as it is: only another one is compared with the parameters.
+    // Nearly every query parses at once. Only another one is compared with the parameters.
     read(query).or_else(|_| {
         let parameters = T::into_params(|| None);
         let missing = missing(query, &parameters);
@@ -41,7 +41,7 @@ fn missing(query: &str, parameters: &[Parameter]) -> Vec<FieldError> {
         .collect()
 }
 
-/// The query with each list at its first place, its items separated by commas.
+/// The query with the items of each list joined by commas, where the list begins.
 fn with_plain_lists(query: &str, parameters: &[Parameter]) -> String {
     let mut pairs: Vec<(String, String)> = Vec::new();
     for (name, value) in form_urlencoded::parse(query.as_bytes()) {
@@ -59,7 +59,7 @@ fn with_plain_lists(query: &str, parameters: &[Parameter]) -> String {
     Serializer::new(String::new()).extend_pairs(pairs).finish()
 }
 
-/// Whether the document says that commas separate items.
+/// Whether the OpenAPI document states that commas separate items.
 fn is_list(parameter: &Parameter) -> bool {
     parameter.explode == Some(false)
 }

@@ -1,4 +1,4 @@
-//! The questions `/fk` and `/ik`, as JSON.
+//! The requests of `/fk` and `/ik`.
 
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,8 @@ use utoipa::ToSchema;
 
 use crate::wire::fixed_array::Triple;
 use crate::wire::machine_ref::MachineRef;
-use crate::wire::strict_object::{object, optional_object};
+use crate::wire::strict_object::{optional_strict_object, strict_object};
+use crate::wire::tool::has_tool;
 
 /// A request for the poses at given joints.
 #[derive(Clone, Debug, Deserialize, ToSchema)]
@@ -16,7 +17,7 @@ pub(crate) struct FkRequest {
     #[serde(default)]
     pub machine: MachineRef,
     /// The sliders, and the table if the answer should have poses in the part frame.
-    #[serde(deserialize_with = "object")]
+    #[serde(deserialize_with = "strict_object")]
     pub joints: Joints,
     /// Distance from P to the tool end, mm.
     #[serde(default)]
@@ -34,9 +35,9 @@ pub(crate) struct FkRequest {
     pub tool_radius: f64,
     /// Solutions to return.
     #[serde(default)]
-    pub solutions: Wanted,
+    pub solutions: SolutionFilter,
     /// Sort the solutions by distance from these joints or this pose.
-    #[serde(default, deserialize_with = "optional_object")]
+    #[serde(default, deserialize_with = "optional_strict_object")]
     pub near: Option<Near>,
 }
 
@@ -51,7 +52,7 @@ pub(crate) struct IkRequest {
     #[serde(default)]
     pub frame: Frame,
     /// The pose.
-    #[serde(deserialize_with = "object")]
+    #[serde(deserialize_with = "strict_object")]
     pub pose: TargetPose,
     /// Distance from P to the tool end, mm.
     #[serde(default)]
@@ -69,11 +70,14 @@ pub(crate) struct IkRequest {
     pub tool_radius: f64,
     /// Solutions to return.
     #[serde(default)]
-    pub solutions: Wanted,
+    pub solutions: SolutionFilter,
     /// Sort the solutions by distance from these joints or this pose.
-    #[serde(default, deserialize_with = "optional_object")]
+    #[serde(default, deserialize_with = "optional_strict_object")]
     pub near: Option<Near>,
 }
+
+has_tool!(FkRequest);
+has_tool!(IkRequest);
 
 /// Positions of the joints: sliders in mm, table in degrees.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
@@ -135,7 +139,7 @@ pub(crate) enum Frame {
 }
 
 impl Frame {
-    /// Why there is no theta1, where there is none.
+    /// The reason why theta1 is unknown, if it is.
     pub(crate) fn without_tilt(self) -> Option<&'static str> {
         (self != Self::Part).then_some("is allowed only in frame part")
     }
@@ -146,7 +150,8 @@ impl Frame {
 /// solution of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
-pub(crate) enum Wanted {
+#[schema(as = Wanted)]
+pub(crate) enum SolutionFilter {
     /// Solutions in the working mode, feasible or not.
     #[default]
     Working,
@@ -183,7 +188,7 @@ pub(crate) struct NearPose {
     pub alpha: Option<f64>,
 }
 
-/// Both kinds of `near` at once: an untagged enum would lose what is wrong with the one meant.
+/// The fields of both kinds of `near`: the errors of an untagged enum would not name the field.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct NearFields {

@@ -1,9 +1,11 @@
+//! The roles of API keys.
+
 use std::fmt;
 
 use clap::ValueEnum;
 use serde::Deserialize;
 
-/// What a key is good for; each also for what the ones before it are.
+/// The role of a key. Each role includes the ones before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Role {

@@ -5,17 +5,18 @@ use utoipa::ToSchema;
 use verne_solver::workspace::{Contour, Polygon, Slice};
 
 use crate::wire::degrees::to_degrees;
-use crate::wire::fixed_array::{Exactly, Pair};
+use crate::wire::fixed_array::{FixedArray, Pair};
 use crate::wire::limit::Unchecked;
 use crate::wire::result_id::ResultId;
-use crate::wire::workspace::{CanonicalRequest, FrameName};
+use crate::wire::workspace::{CanonicalWorkspace, FrameName};
 
 /// Slice of a workspace at one height.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = Slice)]
 pub(crate) struct SliceObject {
     /// Id of the workspace.
-    pub id: String,
+    #[schema(value_type = String)]
+    pub id: ResultId,
     /// The frame of z and of the points.
     pub frame: FrameName,
     /// Height of the cut, mm.
@@ -61,9 +62,9 @@ pub(crate) struct ContourObject {
 
 impl SliceObject {
     /// The solver's slice in the wire's units.
-    pub(crate) fn new(id: ResultId, request: &CanonicalRequest, z: f64, slice: Slice) -> Self {
+    pub(crate) fn new(id: ResultId, request: &CanonicalWorkspace, z: f64, slice: Slice) -> Self {
         Self {
-            id: id.to_string(),
+            id,
             frame: request.kind.frame(),
             z,
             tolerance: request.tolerance,
@@ -93,10 +94,11 @@ impl From<Contour> for ContourObject {
 }
 
 fn pairs(points: Vec<[f64; 2]>) -> Vec<Pair> {
-    points.into_iter().map(Exactly).collect()
+    points.into_iter().map(FixedArray).collect()
 }
 
-/// Positive for a counter-clockwise ring. Taken about its first corner: far from the origin digits would be lost.
+/// The area of a ring, positive if it is counter-clockwise. The first corner is the reference: coordinates far from the
+/// origin would lose digits.
 fn signed_area(ring: &[[f64; 2]]) -> f64 {
     let Some(&[x, y]) = ring.first() else { return 0.0 };
     ring.windows(2)

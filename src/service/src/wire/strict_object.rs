@@ -1,5 +1,5 @@
-//! Structs from JSON objects only. The derived code would also take an array with the fields in the
-//! order of their declaration, which nobody documents.
+//! Structs that accept JSON objects only. The derived code would also accept an array with the fields in the order of
+//! their declaration, which no document describes.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -8,10 +8,10 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-/// A struct that was an object.
-pub(crate) struct Object<T>(pub(crate) T);
+/// A struct that was a JSON object.
+pub(crate) struct StrictObject<T>(pub(crate) T);
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for StrictObject<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_map(Fields(PhantomData)).map(Self)
     }
@@ -31,14 +31,16 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
     }
 }
 
-/// A field that holds an object.
-pub(crate) fn object<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<T, D::Error> {
-    Object::deserialize(deserializer).map(|object| object.0)
+/// Reads a field that must be an object.
+pub(crate) fn strict_object<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    deserializer: D,
+) -> Result<T, D::Error> {
+    StrictObject::deserialize(deserializer).map(|object| object.0)
 }
 
-/// A field that holds an object or null, and may be left out.
-pub(crate) fn optional_object<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+/// Reads a field that must be an object or null.
+pub(crate) fn optional_strict_object<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     deserializer: D,
 ) -> Result<Option<T>, D::Error> {
-    Option::deserialize(deserializer).map(|field| field.map(|object: Object<T>| object.0))
+    Option::deserialize(deserializer).map(|field| field.map(|object: StrictObject<T>| object.0))
 }

@@ -1,5 +1,6 @@
-//! One number, a list of numbers, or equal steps.
+//! The values of a parameter: one number, a list of numbers, or equal steps.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use serde::de::value::MapAccessDeserializer;
@@ -11,7 +12,7 @@ use utoipa::{PartialSchema, ToSchema};
 
 /// A number, a list of numbers, or equal steps from one number to another.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Span {
+pub(crate) enum Sweep {
     /// One number.
     One(f64),
     /// These numbers.
@@ -33,7 +34,7 @@ pub(crate) struct Steps {
     pub step: f64,
 }
 
-impl PartialSchema for Span {
+impl PartialSchema for Sweep {
     fn schema() -> RefOr<Schema> {
         let list =
             ArrayBuilder::new().items(ArrayItems::RefOrSchema(Box::new(f64::schema()))).min_items(Some(1));
@@ -44,20 +45,24 @@ impl PartialSchema for Span {
     }
 }
 
-impl ToSchema for Span {
+impl ToSchema for Sweep {
+    fn name() -> Cow<'static, str> {
+        Cow::Borrowed("Span")
+    }
+
     fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
         schemas.push(("Steps".to_owned(), Steps::schema()));
     }
 }
 
-impl Default for Span {
+impl Default for Sweep {
     fn default() -> Self {
         Self::One(0.0)
     }
 }
 
-impl Span {
-    /// Its numbers, if they are at least one and at most so many.
+impl Sweep {
+    /// The numbers, at least one and at most `most`.
     pub(crate) fn numbers(&self, most: usize) -> Result<Vec<f64>, String> {
         match self {
             Self::One(number) => Ok(vec![*number]),
@@ -86,61 +91,61 @@ impl Steps {
     }
 }
 
-impl<'de> Deserialize<'de> for Span {
+impl<'de> Deserialize<'de> for Sweep {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(OneOrMany)
     }
 }
 
-/// Decides by the JSON type, so that what is wrong inside keeps its pointer.
+/// Decides by the JSON type: an error inside a list or an object then has its pointer.
 struct OneOrMany;
 
 impl<'de> Visitor<'de> for OneOrMany {
-    type Value = Span;
+    type Value = Sweep;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a number, a list of numbers or {from, to, step}")
     }
 
-    fn visit_f64<E: Error>(self, number: f64) -> Result<Span, E> {
-        Ok(Span::One(number))
+    fn visit_f64<E: Error>(self, number: f64) -> Result<Sweep, E> {
+        Ok(Sweep::One(number))
     }
 
-    #[expect(clippy::cast_precision_loss, reason = "as every number of JSON is read where a double is meant")]
-    fn visit_u64<E: Error>(self, number: u64) -> Result<Span, E> {
-        Ok(Span::One(number as f64))
+    #[expect(clippy::cast_precision_loss, reason = "serde rounds integers to doubles as well")]
+    fn visit_u64<E: Error>(self, number: u64) -> Result<Sweep, E> {
+        Ok(Sweep::One(number as f64))
     }
 
-    #[expect(clippy::cast_precision_loss, reason = "as every number of JSON is read where a double is meant")]
-    fn visit_i64<E: Error>(self, number: i64) -> Result<Span, E> {
-        Ok(Span::One(number as f64))
+    #[expect(clippy::cast_precision_loss, reason = "serde rounds integers to doubles as well")]
+    fn visit_i64<E: Error>(self, number: i64) -> Result<Sweep, E> {
+        Ok(Sweep::One(number as f64))
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Span, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Sweep, A::Error> {
         let mut numbers = Vec::new();
         while let Some(number) = items.next_element()? {
             numbers.push(number);
         }
-        Ok(Span::List(numbers))
+        Ok(Sweep::List(numbers))
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, fields: A) -> Result<Span, A::Error> {
-        Steps::deserialize(MapAccessDeserializer::new(fields)).map(Span::Steps)
+    fn visit_map<A: MapAccess<'de>>(self, fields: A) -> Result<Sweep, A::Error> {
+        Steps::deserialize(MapAccessDeserializer::new(fields)).map(Sweep::Steps)
     }
 }
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
-    use super::Span;
+    use super::Sweep;
 
     fn numbers(json: &str) -> Result<Vec<f64>, String> {
-        serde_json::from_str::<Span>(json).map_err(|error| error.to_string())?.numbers(30)
+        serde_json::from_str::<Sweep>(json).map_err(|error| error.to_string())?.numbers(30)
     }
 
     #[test]
-    fn spans_are_written_out() {
-        for (json, wanted) in [
+    fn sweeps_become_lists_of_numbers() {
+        for (json, expected) in [
             ("5", vec![5.0]),
             ("-0.5", vec![-0.5]),
             ("[50, 1e2]", vec![50.0, 100.0]),
@@ -148,14 +153,14 @@ mod tests {
             (r#"{"from": 0, "to": 1, "step": 0.3}"#, vec![0.0, 0.3, 0.6, 0.3 * 3.0]),
             (r#"{"from": 7, "to": 7, "step": 1}"#, vec![7.0]),
         ] {
-            assert_eq!(numbers(json), Ok(wanted), "{json}");
+            assert_eq!(numbers(json), Ok(expected), "{json}");
         }
         let tenths = numbers(r#"{"from": 0, "to": 0.7, "step": 0.1}"#).map(|tenths| tenths.len());
-        assert_eq!(tenths, Ok(8), "the last is not lost to rounding");
+        assert_eq!(tenths, Ok(8), "rounding does not lose the last number");
     }
 
     #[test]
-    fn what_is_no_span_is_refused() {
+    fn malformed_sweeps_are_refused() {
         for json in [
             "[]",
             r#"{"from": 0, "to": 1, "step": 0}"#,

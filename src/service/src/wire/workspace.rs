@@ -1,4 +1,4 @@
-//! The question `/workspace`, as JSON and as it is kept.
+//! The request for a workspace or a family of workspaces: as a client sends it, and with its default values.
 
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
@@ -8,29 +8,53 @@ use verne_solver::workspace::{Kind, Request};
 use crate::wire::degrees::from_degrees_of_turn;
 use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
+use crate::wire::sweep::Sweep;
 
-/// A request for a workspace.
-#[derive(Clone, Debug)]
+/// A request for a workspace. With lists it is a request for a family: one workspace for each combination of the
+/// values.
+#[derive(Clone, Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct WorkspaceRequest {
     /// The machine: the name of a published machine, or a machine object.
+    #[serde(default)]
     pub machine: MachineRef,
     /// Point and frame of the positions.
+    #[serde(default)]
     pub kind: KindName,
-    /// Distance from P to the tool end, mm. Kind `platform` ignores it.
-    pub tool_length: f64,
-    /// Least height of the tool's end and of the platform's joints over the table, mm; only kind `part` has it.
+    /// Distance from P to the tool end, mm, from 0 to 1e7. Kind `platform` ignores it.
+    #[serde(default)]
+    pub tool_length: Sweep,
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Only kind `part` has it. The default is the limit of the machine; if the machine has none, the
+    /// service does not check the table.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7)]
     pub table_clearance: Option<f64>,
-    /// Radius of the tool's end, mm; counts for `table_clearance` alone.
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only `table_clearance` uses it.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
     /// Inclination of the tool in the part frame, degrees. Only kind `part` uses it.
-    pub phi1: f64,
+    #[serde(default)]
+    pub phi1: Sweep,
     /// Azimuth of the tool in the part frame, degrees. Only kind `part` uses it.
-    pub phi2: f64,
-    /// Greatest distance between the mesh and the true surface, in both directions, mm.
+    #[serde(default)]
+    pub phi2: Sweep,
+    /// Greatest distance between the mesh and the true surface, in both directions, mm. It must be at least a millionth
+    /// of the machine's longest dimension.
+    #[serde(default = "default_tolerance")]
+    #[schema(minimum = 0.01, maximum = 1000, default = 1.0)]
     pub tolerance: f64,
 }
 
-/// Tolerance of a question that names none, mm.
+impl WorkspaceRequest {
+    /// Whether the request is for a family: a parameter has a list or steps.
+    pub(crate) fn is_family(&self) -> bool {
+        [&self.tool_length, &self.phi1, &self.phi2].iter().any(|sweep| !matches!(sweep, Sweep::One(_)))
+    }
+}
+
+/// Tolerance of a request that has none, mm.
 pub(crate) fn default_tolerance() -> f64 {
     1.0
 }
@@ -61,7 +85,7 @@ impl KindName {
         }
     }
 
-    /// Why there is no theta1, where there is none.
+    /// The reason why theta1 is unknown, if it is.
     pub(crate) fn without_tilt(self) -> Option<&'static str> {
         (self != Self::Part).then_some("is allowed only for kind part")
     }
@@ -88,7 +112,8 @@ pub(crate) enum FrameName {
 
 /// The request with its default values, without the fields that have no effect.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
-pub(crate) struct CanonicalRequest {
+#[schema(as = CanonicalRequest)]
+pub(crate) struct CanonicalWorkspace {
     /// Point and frame of the positions.
     pub kind: KindName,
     /// Distance from P to the tool end, mm. Only kinds `tool` and `part` have it.
@@ -115,50 +140,27 @@ pub(crate) struct CanonicalRequest {
     pub tolerance: f64,
 }
 
-/// A clearance over the table and a tool's radius as they are kept: the radius counts beside a clearance alone. -0 is 0.
-pub(crate) fn over_table(clearance: Option<f64>, tool_radius: f64) -> [Option<f64>; 2] {
-    [clearance, clearance.map(|_| tool_radius)].map(|length| length.map(|length| length + 0.0))
-}
-
-impl From<&WorkspaceRequest> for CanonicalRequest {
-    fn from(asked: &WorkspaceRequest) -> Self {
-        // -0 is 0.
-        let (tool, part) = (asked.kind != KindName::Platform, asked.kind == KindName::Part);
-        let clearance = asked.table_clearance.filter(|_| part);
-        let [table_clearance, tool_radius] = over_table(clearance, asked.tool_radius);
-        Self {
-            kind: asked.kind,
-            tool_length: tool.then_some(asked.tool_length + 0.0),
-            table_clearance,
-            tool_radius,
-            phi1: part.then_some(asked.phi1 + 0.0),
-            phi2: part.then_some(asked.phi2 + 0.0),
-            tolerance: asked.tolerance,
-        }
-    }
-}
-
-impl CanonicalRequest {
-    /// What is not checked.
+impl CanonicalWorkspace {
+    /// The conditions that the answer does not cover.
     pub(crate) fn not_checked(&self) -> &'static [Unchecked] {
         Unchecked::beside(self.table_clearance.is_some())
     }
 }
 
-impl From<&CanonicalRequest> for Request {
-    fn from(asked: &CanonicalRequest) -> Self {
+impl From<&CanonicalWorkspace> for Request {
+    fn from(request: &CanonicalWorkspace) -> Self {
         Self {
-            kind: match asked.kind {
+            kind: match request.kind {
                 KindName::Platform => Kind::Platform,
                 KindName::Tool => Kind::Tool,
                 KindName::Part => Kind::Part,
             },
-            tool_length: asked.tool_length.unwrap_or_default(),
-            table_clearance: asked.table_clearance,
-            tool_radius: asked.tool_radius.unwrap_or_default(),
-            phi1: from_degrees_of_turn(asked.phi1.unwrap_or_default()),
-            phi2: from_degrees_of_turn(asked.phi2.unwrap_or_default()),
-            tolerance: asked.tolerance,
+            tool_length: request.tool_length.unwrap_or_default(),
+            table_clearance: request.table_clearance,
+            tool_radius: request.tool_radius.unwrap_or_default(),
+            phi1: from_degrees_of_turn(request.phi1.unwrap_or_default()),
+            phi2: from_degrees_of_turn(request.phi2.unwrap_or_default()),
+            tolerance: request.tolerance,
         }
     }
 }

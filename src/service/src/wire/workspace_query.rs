@@ -1,4 +1,4 @@
-//! Workspaces in query strings and on the command line: one list of parameters for both.
+//! Parameters of /workspace, in query strings and on the command line.
 
 use clap::Args;
 use serde::Deserialize;
@@ -6,12 +6,9 @@ use utoipa::IntoParams;
 
 use crate::wire::alphas::Alphas;
 use crate::wire::format::{MeshFormat, SliceFormat};
-use crate::wire::machine_ref::{MachineRef, REFERENCE};
+use crate::wire::machine_ref::{MachineRef, REFERENCE, reference_name};
+use crate::wire::sweep::Sweep;
 use crate::wire::workspace::{KindName, WorkspaceRequest, default_tolerance};
-
-fn reference() -> String {
-    REFERENCE.to_owned()
-}
 
 /// Parameters of GET /workspace.
 #[derive(Debug, Deserialize, IntoParams, Args)]
@@ -19,7 +16,7 @@ fn reference() -> String {
 #[into_params(parameter_in = Query)]
 pub(crate) struct WorkspaceQuery {
     /// Name of the machine. On the command line it may also be the path of a machine file.
-    #[serde(default = "reference")]
+    #[serde(default = "reference_name")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
     pub machine: String,
@@ -65,21 +62,18 @@ pub(crate) struct WorkspaceQuery {
 }
 
 impl WorkspaceQuery {
-    /// The question as POST would put it.
+    /// The request as the body of POST /workspace.
     pub(crate) fn into_request(self) -> WorkspaceRequest {
-        let Self {
-            machine,
-            kind,
-            tool_length,
-            table_clearance,
-            tool_radius,
-            phi1,
-            phi2,
-            tolerance,
-            format: _,
-        } = self;
-        let machine = MachineRef::Name(machine);
-        WorkspaceRequest { machine, kind, tool_length, table_clearance, tool_radius, phi1, phi2, tolerance }
+        WorkspaceRequest {
+            machine: MachineRef::Name(self.machine),
+            kind: self.kind,
+            tool_length: Sweep::One(self.tool_length),
+            table_clearance: self.table_clearance,
+            tool_radius: self.tool_radius,
+            phi1: Sweep::One(self.phi1),
+            phi2: Sweep::One(self.phi2),
+            tolerance: self.tolerance,
+        }
     }
 }
 

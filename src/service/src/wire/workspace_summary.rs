@@ -2,24 +2,27 @@
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
+use verne_mesh::Bounds;
+use verne_solver::workspace::Volume;
 
 use crate::wire::answer::MachineId;
-use crate::wire::fixed_array::Triple;
+use crate::wire::fixed_array::{FixedArray, Triple};
 use crate::wire::limit::Unchecked;
 use crate::wire::result_id::ResultId;
-use crate::wire::workspace::{CanonicalRequest, FrameName, KindName};
+use crate::wire::workspace::{CanonicalWorkspace, FrameName, KindName};
 
 /// Summary of a workspace.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct WorkspaceSummary {
     /// BLAKE3 hash of the request, the machine and the solver's version. Equal requests have equal ids.
-    pub id: String,
+    #[schema(value_type = String)]
+    pub id: ResultId,
     /// Point and frame of the positions.
     pub kind: KindName,
     /// The frame of bounds, mesh and slices.
     pub frame: FrameName,
     /// The request with its default values, without the fields that have no effect on this kind.
-    pub request: CanonicalRequest,
+    pub request: CanonicalWorkspace,
     /// The machine.
     pub machine: MachineId,
     /// Volume, mm³; null if the workspace folds. The service integrates it and does not use the mesh.
@@ -65,6 +68,20 @@ pub(crate) struct BoundsObject {
     /// Greatest x, y, z.
     #[schema(inline)]
     pub max: Triple,
+}
+
+impl From<Bounds> for BoundsObject {
+    fn from(bounds: Bounds) -> Self {
+        Self { min: FixedArray(bounds.min), max: FixedArray(bounds.max) }
+    }
+}
+
+/// The fields `volume` and `volume_error`; null if the workspace folds.
+pub(crate) fn value_and_error(volume: Volume) -> [Option<f64>; 2] {
+    match volume {
+        Volume::Value { value, error } => [Some(value), Some(error)],
+        Volume::Folded => [None, None],
+    }
 }
 
 /// Paths of the results.

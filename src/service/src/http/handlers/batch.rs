@@ -10,7 +10,7 @@ use crate::http::openapi::problems::BatchProblems;
 use crate::http::state::Shared;
 use crate::operations::forward_batch::answer_fk_batch;
 use crate::operations::inverse_batch::answer_ik_batch;
-use crate::wire::batch::{FkBatchAnswer, FkBatchRequest, IkBatchAnswer, IkBatchRequest};
+use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, IkBatchAnswer, IkBatchNumbers};
 
 type JsonBytes = ([(HeaderName, &'static str); 1], Bytes);
 
@@ -24,7 +24,7 @@ fn json(body: Bytes) -> JsonBytes {
 /// answer states this at the index of the row. The other rows are not affected.
 #[utoipa::path(
     post, path = "/fk/batch", operation_id = "fk_batch", tag = "kinematics",
-    request_body(content = FkBatchRequest, description = "The rows of joints."),
+    request_body(content = FkBatchNumbers, description = "The rows of joints."),
     responses((status = 200, description = "One entry for each row.", body = FkBatchAnswer), BatchProblems)
 )]
 pub(crate) async fn fk_batch(State(state): State<Shared>, batch: Batch) -> Result<JsonBytes, HttpError> {
@@ -38,7 +38,7 @@ pub(crate) async fn fk_batch(State(state): State<Shared>, batch: Batch) -> Resul
 /// answer states this at the index of the row. The other rows are not affected.
 #[utoipa::path(
     post, path = "/ik/batch", operation_id = "ik_batch", tag = "kinematics",
-    request_body(content = IkBatchRequest, description = "The rows of poses."),
+    request_body(content = IkBatchNumbers, description = "The rows of poses."),
     responses((status = 200, description = "One entry for each row.", body = IkBatchAnswer), BatchProblems)
 )]
 pub(crate) async fn ik_batch(State(state): State<Shared>, batch: Batch) -> Result<JsonBytes, HttpError> {

@@ -1,5 +1,7 @@
 //! `/workspace/dexterity` and the points of its map.
 
+use std::sync::Arc;
+
 use axum::extract::State;
 use axum::response::Response;
 
@@ -16,6 +18,7 @@ use crate::http::result_response::{figures, respond};
 use crate::http::state::Shared;
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::question::Question;
+use crate::operations::question_text::QuestionKind;
 use crate::operations::results::CELLS;
 use crate::wire::dexterity::{DexterityBody, DexterityCells, DexteritySummary};
 
@@ -43,7 +46,7 @@ pub(crate) async fn post_dexterity(
     Single(body): Single<DexterityBody>,
 ) -> Result<Response, HttpError> {
     accept.choose([("application/json", ())])?;
-    let question = Question::Dexterity(DexterityQuestion::new(&body, &state.machines)?);
+    let question = Arc::new(Question::Dexterity(DexterityQuestion::new(&body, &state.machines)?));
     let obtained = figures(&state, &question, &prefer.patience).await?;
     respond(&state, obtained, |delivery| delivery, prefer, &conditions)
 }
@@ -71,12 +74,13 @@ pub(crate) async fn get_cells(
 ) -> Result<Response, HttpError> {
     let record = kept(&state, id.map_err(|_| HttpError::UnknownPath)?).await?;
     accept.choose([("application/json", ())])?;
-    let (id, question) = (record.question.id(), record.question);
-    if !matches!(question, Question::Dexterity(_)) {
+    let id = record.id;
+    if record.kind != QuestionKind::Dexterity {
         return Err(LookupError::Grid(id.to_string()).into());
     }
-    let cells = || state.results.found(id, CELLS);
-    let obtained = match state.part(&question, &prefer.patience, cells).await? {
+    let cells = || state.results.find_blob(id, CELLS);
+    let question = state.results.questions.get_or_read(id, &record.question)?;
+    let obtained = match state.blob(&question, None, &prefer.patience, cells).await? {
         Obtained::Pending(job) => Obtained::Pending(job),
         Obtained::Ready(content) => Obtained::Ready(Delivery {
             content,

@@ -9,24 +9,24 @@ use crate::http::error::{HttpError, LookupError};
 use crate::http::openapi::machine_schema::machine_schema;
 use crate::http::openapi::problems::{MachineProblems, ServiceProblems};
 use crate::http::state::Shared;
-use crate::operations::registry::{Published, Registry};
-use crate::wire::catalogue::{MachineAnswer, MachineEntry, MachineList};
+use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::wire::machine::MachineObject;
+use crate::wire::machine_list::{MachineAnswer, MachineEntry, MachineList};
 
-/// The published machines, with what is said of each.
-pub(crate) fn list(machines: &Registry) -> MachineList {
-    let entry = |published: &Published| MachineEntry {
-        id: published.id.clone(),
-        description: published.machine.data().description.clone(),
+/// The published machines with their descriptions.
+pub(crate) fn list(machines: &MachineRegistry) -> MachineList {
+    let entry = |machine: &IdentifiedMachine| MachineEntry {
+        id: machine.id.clone(),
+        description: machine.data().description.clone(),
     };
     MachineList { machines: machines.iter().map(entry).collect() }
 }
 
 /// One published machine with its numbers.
-pub(crate) fn show(machines: &Registry, name: &str) -> Result<MachineAnswer, LookupError> {
-    let published = machines.get(name).ok_or_else(|| LookupError::Machine(name.to_owned()))?;
-    let definition = MachineObject::from(published.machine.data());
-    Ok(MachineAnswer { machine: published.id.clone(), definition })
+pub(crate) fn show(machines: &MachineRegistry, name: &str) -> Result<MachineAnswer, LookupError> {
+    let machine = machines.get(name).ok_or_else(|| LookupError::Machine(name.to_owned()))?;
+    let definition = MachineObject::from(machine.data());
+    Ok(MachineAnswer { machine: machine.id.clone(), definition })
 }
 
 /// Published machines

@@ -15,7 +15,7 @@ use crate::http::request_head::Unreadable;
 use crate::http::state::Shared;
 use crate::http::static_content::Fixed;
 use crate::limits::error::LimitError;
-use crate::wire::catalogue::{Health, Status};
+use crate::wire::health::{Health, HealthStatus};
 
 /// The OpenAPI document as it is sent: the committed copy. The tests hold it equal to the generated one; its examples
 /// are the solver's answers, which take too long to compute at every start.
@@ -56,7 +56,7 @@ pub(crate) async fn get_openapi(
     responses((status = 200, description = "The process is running.", body = Health), ServiceProblems)
 )]
 pub(crate) async fn get_livez() -> Json<Health> {
-    Json(Health { status: Status::Ok, failing: Vec::new() })
+    Json(Health { status: HealthStatus::Ok, failing: Vec::new() })
 }
 
 /// Readiness

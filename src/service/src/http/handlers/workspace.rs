@@ -1,5 +1,7 @@
 //! `/workspace`.
 
+use std::sync::Arc;
+
 use axum::extract::State as Extracted;
 use axum::response::Response;
 
@@ -12,14 +14,14 @@ use crate::http::openapi::binary::{Binary, SummaryOrMesh};
 use crate::http::openapi::problems::{WorkspaceBodyProblems, WorkspaceQueryProblems};
 use crate::http::prefer::Prefer;
 use crate::http::result_or_job::{Obtained, Patience};
-use crate::http::result_response::{figures, mesh, respond};
+use crate::http::result_response::{Surface, figures, mesh, respond};
 use crate::http::state::{Shared, State};
 use crate::operations::family_question::FamilyQuestion;
 use crate::operations::question::Question;
 use crate::operations::workspace_question::WorkspaceQuestion;
-use crate::wire::family::WorkspaceBody;
 use crate::wire::format::MeshFormat;
 use crate::wire::query::point_into_query;
+use crate::wire::workspace::WorkspaceRequest;
 use crate::wire::workspace_query::{MeshQuery, WorkspaceQuery};
 
 /// The answer depends on the published machines, which change only with a restart.
@@ -66,7 +68,7 @@ pub(crate) async fn get_workspace(
 /// answer is a table of all combinations, and each combination has an id of its own.
 #[utoipa::path(
     post, path = "/workspace", operation_id = "workspace_post", tag = "workspace", params(MeshQuery),
-    request_body(content = WorkspaceBody, description = "The workspace or workspaces, and the tolerance."),
+    request_body(content = WorkspaceRequest, description = "The workspace or workspaces, and the tolerance."),
     responses(
         (status = 200, description = "The summary, the table or the mesh.", content(
             (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
@@ -83,19 +85,19 @@ pub(crate) async fn post_workspace(
     accept: Accept,
     prefer: Prefer,
     conditions: Conditions,
-    Single(body): Single<WorkspaceBody>,
+    Single(body): Single<WorkspaceRequest>,
 ) -> Result<Response, HttpError> {
-    let obtained = if let Some(single) = body.single() {
-        let wanted = wanted(query.format, &accept)?;
-        let question = WorkspaceQuestion::new(&single, &state.machines)?;
-        answer(&state, question, wanted, &prefer.patience).await?
-    } else {
+    let obtained = if body.is_family() {
         let question = FamilyQuestion::new(&body, &state.machines)?;
         match query.format {
             Some(_) => return Err(LookupError::Mesh(question.id.to_string()).into()),
             None => accept.choose([("application/json", ())])?,
         }
-        figures(&state, &Question::Family(question), &prefer.patience).await?
+        figures(&state, &Arc::new(Question::Family(question)), &prefer.patience).await?
+    } else {
+        let wanted = wanted(query.format, &accept)?;
+        let question = WorkspaceQuestion::new(&body, &state.machines)?;
+        answer(&state, question, wanted, &prefer.patience).await?
     };
     respond(&state, obtained, |delivery| delivery, prefer, &conditions)
 }
@@ -116,9 +118,12 @@ async fn answer(
     wanted: Option<MeshFormat>,
     patience: &Patience,
 ) -> Result<Obtained<Delivery>, HttpError> {
-    let question = Question::Workspace(question);
+    let question = Arc::new(Question::Workspace(question));
     match wanted {
         None => figures(state, &question, patience).await,
-        Some(format) => mesh(state, question, None, format, patience).await,
+        Some(format) => {
+            let surface = Surface::of(question.id(), question.kind(), None)?;
+            mesh(state, &surface, format, patience, || Ok(question)).await
+        }
     }
 }

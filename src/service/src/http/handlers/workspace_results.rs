@@ -12,14 +12,15 @@ use crate::http::negotiation::Accept;
 use crate::http::openapi::binary::{Binary, Summary, Text};
 use crate::http::openapi::problems::{KeptProblems, MeshProblems, SliceProblems};
 use crate::http::prefer::Prefer;
-use crate::http::result_response::{mesh, respond, summary};
+use crate::http::result_response::{Surface, mesh, respond, summary};
 use crate::http::state::Shared;
-use crate::operations::compute_pool::on_workers_while_waited_for;
+use crate::operations::compute_pool::run_on_pool;
 use crate::operations::question::Question;
-use crate::operations::results::{Record, content};
+use crate::operations::question_text::QuestionKind;
+use crate::operations::results::{Record, hashed};
 use crate::operations::slice::answer_slice;
-use crate::operations::workspace_question::WorkspaceQuestion;
-use crate::wire::dexterity::KeptMeshQuery;
+use crate::wire::dexterity::StoredMeshQuery;
+use crate::wire::error::OperationError;
 use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::query::point_into_query;
 use crate::wire::slice::SliceObject;
@@ -60,7 +61,7 @@ pub(crate) async fn get_summary(
 /// requests and byte ranges.
 #[utoipa::path(
     get, path = "/workspace/{id}/mesh", operation_id = "workspace_mesh", tag = "workspace",
-    params(("id" = String, Path, description = "The id from an answer of /workspace."), KeptMeshQuery),
+    params(("id" = String, Path, description = "The id from an answer of /workspace."), StoredMeshQuery),
     responses(
         (status = 200, description = "The mesh.", content(
             (Binary = "model/gltf-binary"), (Binary = "model/stl"), (Binary = "model/ply"),
@@ -74,7 +75,7 @@ pub(crate) async fn get_summary(
 pub(crate) async fn get_mesh(
     State(state): State<Shared>,
     id: Id,
-    Params(query): Params<KeptMeshQuery>,
+    Params(query): Params<StoredMeshQuery>,
     accept: Accept,
     prefer: Prefer,
     conditions: Conditions,
@@ -84,8 +85,10 @@ pub(crate) async fn get_mesh(
         Some(format) => format,
         None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format)))?,
     };
-    let question = kept(&state, id).await?.question;
-    let obtained = mesh(&state, question, query.set, format, &prefer.patience).await?;
+    let record = kept(&state, id).await?;
+    let surface = Surface::of(record.id, record.kind, query.set)?;
+    let question = || state.results.questions.get_or_read(record.id, &record.question);
+    let obtained = mesh(&state, &surface, format, &prefer.patience, question).await?;
     let kept = |delivery| Delivery { cache_control: Some(FOR_EVER), ..delivery };
     respond(&state, obtained, kept, prefer, &conditions)
 }
@@ -123,10 +126,16 @@ pub(crate) async fn get_slice(
                 .flat_map(|format| format.media().iter().map(move |&media| (media, (format, media)))),
         )?,
     };
-    let (question, inclination) = workspace(kept(&state, id).await?)?;
-    let id = question.id;
-    let cut = on_workers_while_waited_for(move |observer| {
-        answer_slice(&question, inclination, z, &alpha, format, observer).map(content)
+    let Record { id, kind, question, inclination, .. } = kept(&state, id).await?;
+    if kind != QuestionKind::Workspace {
+        return Err(LookupError::Slice(id.to_string()).into());
+    }
+    let question = state.results.questions.get_or_read(id, &question)?;
+    let cut = run_on_pool(move |observer| match &*question {
+        Question::Workspace(question) => {
+            answer_slice(question, inclination, z, &alpha, format, observer).map(hashed)
+        }
+        _ => Err(OperationError::Internal),
     });
     let delivery = Delivery {
         content: cut.await.map_err(point_into_query)?.into(),
@@ -147,13 +156,5 @@ pub(crate) async fn kept(
     match id.parse() {
         Ok(known) => state.results.record(known).await.ok_or(LookupError::Result(id)),
         Err(_) => Err(LookupError::Result(id)),
-    }
-}
-
-/// The one workspace that a record is of, and its greatest |alpha|.
-fn workspace(record: Record) -> Result<(WorkspaceQuestion, Option<f64>), LookupError> {
-    match record.question {
-        Question::Workspace(question) => Ok((question, record.inclination)),
-        _ => Err(LookupError::Slice(record.question.id().to_string())),
     }
 }

@@ -13,15 +13,14 @@ use crate::operations::forward::answer_fk;
 use crate::operations::forward_batch::answer_fk_batch;
 use crate::operations::inverse::answer_ik;
 use crate::operations::inverse_batch::answer_ik_batch;
-use crate::operations::registry::Registry;
+use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::slice::answer_slice;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::alphas::Alphas;
-use crate::wire::catalogue::{Health, Status};
 use crate::wire::error::OperationError;
-use crate::wire::family::WorkspaceBody;
 use crate::wire::format::SliceFormat;
+use crate::wire::health::{Health, HealthStatus};
 use crate::wire::parse::parse_body;
 use crate::wire::query::{FkQuery, IkQuery};
 use crate::wire::query_string::parse_query;
@@ -69,7 +68,7 @@ impl Example {
 
 /// An example of each operation but the document's own.
 pub(crate) fn examples() -> Vec<Example> {
-    let machines = Registry::default();
+    let machines = MachineRegistry::default();
     let mut examples = of_the_service(&machines);
     examples.extend(of_queries(&machines));
     examples.extend(of_bodies(&machines));
@@ -77,14 +76,14 @@ pub(crate) fn examples() -> Vec<Example> {
     examples
 }
 
-fn of_the_service(registry: &Registry) -> Vec<Example> {
+fn of_the_service(registry: &MachineRegistry) -> Vec<Example> {
     let get = |path, asked, answer| Example {
         method: "get",
         path,
         asked: Asked::Parameters(asked),
         answer: Some(answer),
     };
-    let health = json!(Health { status: Status::Ok, failing: Vec::new() });
+    let health = json!(Health { status: HealthStatus::Ok, failing: Vec::new() });
     vec![
         Example { method: "get", path: "/metrics", asked: Asked::Parameters(json!({})), answer: None },
         get("/livez", json!({}), health.clone()),
@@ -95,7 +94,7 @@ fn of_the_service(registry: &Registry) -> Vec<Example> {
     ]
 }
 
-fn of_queries(registry: &Registry) -> Vec<Example> {
+fn of_queries(registry: &MachineRegistry) -> Vec<Example> {
     let get = |path, asked, answer| Example {
         method: "get",
         path,
@@ -118,7 +117,7 @@ fn of_queries(registry: &Registry) -> Vec<Example> {
     ]
 }
 
-fn of_bodies(registry: &Registry) -> Vec<Example> {
+fn of_bodies(registry: &MachineRegistry) -> Vec<Example> {
     vec![
         post(
             "/fk",
@@ -151,17 +150,16 @@ fn of_bodies(registry: &Registry) -> Vec<Example> {
     ]
 }
 
-fn of_workspaces(machines: &Registry) -> Vec<Example> {
+fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {
     let asked = json!({"machine": "verne", "kind": "part", "tool_length": 50, "table_clearance": 0, "phi1": 30, "tolerance": 10});
     let question = parse_body(asked.to_string().as_bytes())
-        .and_then(|body: WorkspaceBody| body.single().ok_or(OperationError::Internal))
         .and_then(|request| WorkspaceQuestion::new(&request, machines));
     let computed = question.clone().and_then(|question| {
         compute_workspace(&question, usize::MAX, &Unobserved).map(|computed| (question, computed))
     });
     let summary = computed.as_ref().map_err(Clone::clone).and_then(|(_, found)| parse_body(&found.summary));
     let slice = computed.as_ref().map_err(Clone::clone).and_then(|(question, found)| {
-        let alphas = Alphas::These(vec![0.0]);
+        let alphas = Alphas::List(vec![0.0]);
         answer_slice(question, found.inclination, 300.0, &alphas, SliceFormat::Json, &Unobserved)
             .and_then(|text| parse_body(&text))
     });

@@ -1,8 +1,8 @@
-//! What a slice covers.
+//! The extent of a drawing, and the sizes that follow from it.
 
 use crate::wire::slice::SliceObject;
 
-/// Height of letters, as a part of the drawing's larger side.
+/// Height of letters as a fraction of the drawing's larger side.
 const LETTERS: f64 = 0.022;
 
 /// The smallest rectangle along the axes that holds the polygons, mm.
@@ -12,11 +12,11 @@ pub(crate) struct Extent {
     pub(crate) max: [f64; 2],
 }
 
-/// What is shown of an empty slice, mm.
-pub(crate) const NOTHING: Extent = Extent { min: [-100.0; 2], max: [100.0; 2] };
+/// The extent that a drawing of an empty slice shows, mm.
+pub(crate) const EMPTY_SLICE: Extent = Extent { min: [-100.0; 2], max: [100.0; 2] };
 
 impl Extent {
-    /// None if the slice is empty.
+    /// The extent of the polygons; none if the slice is empty.
     pub(crate) fn of(slice: &SliceObject) -> Option<Self> {
         let mut points = slice.polygons.iter().flat_map(|polygon| &polygon.outer).map(|point| point.0);
         let first = points.next()?;
@@ -32,12 +32,12 @@ impl Extent {
     }
 
     /// Height of letters, mm.
-    pub(crate) fn letters(&self) -> f64 {
+    pub(crate) fn letter_height(&self) -> f64 {
         LETTERS * self.size()
     }
 }
 
-/// Degrees of a line of constant alpha. Angles come back from radians: the last digits are rounding.
-pub(crate) fn shown(degrees: f64) -> f64 {
+/// The value of a line of constant alpha, degrees, without the last digits: they are rounding errors of radians.
+pub(crate) fn displayed(degrees: f64) -> f64 {
     (degrees * 1e6).round() / 1e6
 }

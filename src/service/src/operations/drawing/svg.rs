@@ -1,16 +1,19 @@
-//! SVG, one unit of the view for each mm.
+//! Slices as SVG. One unit of the view is 1 mm.
 
 use std::fmt::Write;
 
-use crate::operations::drawing::extent::{Extent, NOTHING, shown};
+use crate::operations::drawing::extent::{EMPTY_SLICE, Extent, displayed};
 use crate::wire::fixed_array::Pair;
 use crate::wire::slice::SliceObject;
 use crate::wire::workspace::FrameName;
 
-/// Room around the drawing, as a part of its larger side.
+/// Margin around the drawing as a fraction of its larger side.
 const MARGIN: f64 = 0.12;
 
-/// Lines between two ticks of an axis, about.
+/// The colour of a tick.
+const TICK: &str = r##"stroke="#333333""##;
+
+/// About how many ticks an axis has.
 const TICKS: f64 = 8.0;
 
 /// Draws a slice.
@@ -32,7 +35,7 @@ pub(crate) fn write(slice: &SliceObject, title: &str) -> String {
     for line in &slice.contours {
         let mut along = String::new();
         path(&mut along, &line.points);
-        let alpha = shown(line.alpha);
+        let alpha = displayed(line.alpha);
         let _ = writeln!(
             svg,
             r##"<path d="{along}" fill="none" stroke="#d55e00"><title>alpha = {alpha}°</title></path>"##
@@ -54,11 +57,11 @@ fn path(text: &mut String, points: &[Pair]) {
     }
 }
 
-/// What the drawing covers, in mm, y up.
+/// The page of the drawing, mm, y up.
 struct Page {
     min: [f64; 2],
     max: [f64; 2],
-    /// The size that lines and letters are measured by.
+    /// The drawing's larger side. Lines are as wide as a fraction of it.
     size: f64,
     /// Height of letters.
     letters: f64,
@@ -66,9 +69,8 @@ struct Page {
 
 impl Page {
     fn around(slice: &SliceObject) -> Self {
-        // An empty slice is a page about the origin.
-        let extent = Extent::of(slice).unwrap_or(NOTHING);
-        let (size, letters) = (extent.size(), extent.letters());
+        let extent = Extent::of(slice).unwrap_or(EMPTY_SLICE);
+        let (size, letters) = (extent.size(), extent.letter_height());
         let margin = MARGIN * size;
         let [min, max] =
             [extent.min.map(|least| least - margin), extent.max.map(|greatest| greatest + margin)];
@@ -83,7 +85,7 @@ impl Page {
         };
         let title = escaped(title);
         let letters = self.letters;
-        // The page and the view must agree to the last digit: else a unit of the view is not a millimetre.
+        // Page and view agree to the last digit. Otherwise a unit of the view would not be 1 mm.
         let [width, height] = [width, height].map(|side| format!("{side:.4}"));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
@@ -119,7 +121,7 @@ impl Page {
         for x in ticks(left, self.max[0] - 2.0 * letters, step) {
             let _ = writeln!(
                 svg,
-                r##"<path d="M{x} {:.3}v{tick:.3}" stroke="#333333"/><text x="{x}" y="{:.3}" text-anchor="middle">{x}</text>"##,
+                r#"<path d="M{x} {:.3}v{tick:.3}" {TICK}/><text x="{x}" y="{:.3}" text-anchor="middle">{x}</text>"#,
                 -bottom,
                 tick + letters - bottom
             );
@@ -127,7 +129,7 @@ impl Page {
         for y in ticks(bottom, self.max[1] - 5.0 * letters, step) {
             let _ = writeln!(
                 svg,
-                r##"<path d="M{left:.3} {0}h{1:.3}" stroke="#333333"/><text x="{2:.3}" y="{3:.3}" text-anchor="end">{y}</text>"##,
+                r#"<path d="M{left:.3} {0}h{1:.3}" {TICK}/><text x="{2:.3}" y="{3:.3}" text-anchor="end">{y}</text>"#,
                 0.0 - y,
                 -tick,
                 left - 1.3 * tick,
@@ -145,7 +147,7 @@ impl Page {
     }
 }
 
-/// Text as XML may hold it. What XML has no room for, control characters among it, becomes U+FFFD.
+/// The text with XML's escapes. Characters that XML does not allow become U+FFFD.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::http::router::document;
 use crate::operations::forward::answer_fk;
 use crate::operations::inverse::answer_ik;
-use crate::operations::registry::Registry;
+use crate::operations::machine_registry::MachineRegistry;
 use crate::wire::answer::Answer;
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::machine_ref::MachineRef;
@@ -52,7 +52,7 @@ fn fk(query: FkQuery) -> Result<Answer, String> {
     let answer = query
         .into_request()
         .map(|request| FkRequest { machine, ..request })
-        .and_then(|request| answer_fk(&request, &Registry::default()));
+        .and_then(|request| answer_fk(&request, &MachineRegistry::default()));
     answer.map_err(in_flags)
 }
 
@@ -61,7 +61,7 @@ fn ik(query: IkQuery) -> Result<Answer, String> {
     let answer = query
         .into_request()
         .map(|request| IkRequest { machine, ..request })
-        .and_then(|request| answer_ik(&request, &Registry::default()));
+        .and_then(|request| answer_ik(&request, &MachineRegistry::default()));
     answer.map_err(in_flags)
 }
 
@@ -73,7 +73,7 @@ pub(crate) fn machine(name: &str) -> Result<MachineRef, String> {
     }
     let text = std::fs::read(path).map_err(|error| format!("--machine {name}: {error}"))?;
     parse_body(&text)
-        .map(|object| MachineRef::Whole(Box::new(object)))
+        .map(|object| MachineRef::Object(Box::new(object)))
         .map_err(|error| format!("--machine {name} is not a machine{}", listed(error)))
 }
 

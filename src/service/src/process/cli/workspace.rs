@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::Value;
 
-use crate::operations::mesh_files::{Described, write_mesh};
-use crate::operations::registry::Registry;
+use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::mesh_files::{MeshDescription, write_mesh};
 use crate::operations::slice::answer_slice;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
@@ -53,7 +53,7 @@ impl WorkspaceCommand {
         let machine = machine(&self.query.machine)?;
         let request = WorkspaceRequest { machine, ..self.query.into_request() };
         let bar = Bar::new();
-        let question = WorkspaceQuestion::new(&request, &Registry::default()).map_err(in_flags)?;
+        let question = WorkspaceQuestion::new(&request, &MachineRegistry::default()).map_err(in_flags)?;
         let workspace = compute_workspace(&question, usize::MAX, &bar).map_err(in_flags)?;
         let slice = |format| {
             let z = self.slice.unwrap_or_default();
@@ -62,7 +62,8 @@ impl WorkspaceCommand {
         };
         let bytes = match &wanted {
             Some(Wanted::Mesh(format)) => {
-                write_mesh(&Described::workspace(&question), &workspace.mesh, *format).map_err(in_flags)?
+                write_mesh(&MeshDescription::of_workspace(&question), &workspace.mesh, *format)
+                    .map_err(in_flags)?
             }
             Some(Wanted::Slice(format)) => slice(*format)?,
             None if self.slice.is_some() => slice(SliceFormat::Json)?,

@@ -1,4 +1,4 @@
-//! The orientations (phi1, phi2) that a pose in the part frame asks for.
+//! The orientations (phi1, phi2) that a pose in the part frame requests.
 
 use arrayvec::ArrayVec;
 use verne_solver::axis::{Preimages, preimages};
@@ -7,21 +7,21 @@ use crate::wire::degrees::from_degrees;
 use crate::wire::field_errors::FieldErrors;
 use crate::wire::request::{Near, TargetPose};
 
-/// One orientation, or the two that share a tool axis; radians.
+/// The requested orientations: one, or the two that have the same tool axis.
 #[derive(Debug, Default)]
-pub(crate) struct Orientations {
-    /// `[phi1, phi2]`.
+pub(crate) struct RequestedOrientations {
+    /// `[phi1, phi2]`, rad.
     pub(crate) each: ArrayVec<[f64; 2], 2>,
-    /// Whether phi2 is only one choice of many.
+    /// Whether the axis leaves phi2 free. The orientation is then one of a family.
     pub(crate) free: bool,
 }
 
-impl Orientations {
+impl RequestedOrientations {
     fn one(phi1: f64, phi2: f64) -> Self {
         Self { each: [[phi1, phi2]].into_iter().collect(), free: false }
     }
 
-    /// The member of the family that keeps the table where it is, or at zero.
+    /// The member of the family with theta2 of `near`, or with theta2 = 0.
     fn family(phi1: f64, near: Option<&Near>) -> Self {
         let theta2 = match near {
             Some(Near::Joints(joints)) => joints.theta2.unwrap_or(0.0),
@@ -31,21 +31,25 @@ impl Orientations {
     }
 }
 
-/// Reads the orientation of a pose; faults where it says too little or too much.
-pub(crate) fn orientations(pose: &TargetPose, near: Option<&Near>, faults: &mut FieldErrors) -> Orientations {
+/// The orientations of a pose in frame `part`. Adds a fault if the pose determines none, or contradicts itself.
+pub(crate) fn requested_orientations(
+    pose: &TargetPose,
+    near: Option<&Near>,
+    faults: &mut FieldErrors,
+) -> RequestedOrientations {
     faults.angle("/pose/phi1", pose.phi1);
     faults.angle("/pose/phi2", pose.phi2);
     match (pose.phi1, pose.phi2, pose.axis) {
         (phi1, None, None) if phi1.unwrap_or(0.0) % 180.0 == 0.0 => {
-            Orientations::family(from_degrees(phi1.unwrap_or(0.0)), near)
+            RequestedOrientations::family(from_degrees(phi1.unwrap_or(0.0)), near)
         }
         (phi1, phi2, None) => {
-            Orientations::one(from_degrees(phi1.unwrap_or(0.0)), from_degrees(phi2.unwrap_or(0.0)))
+            RequestedOrientations::one(from_degrees(phi1.unwrap_or(0.0)), from_degrees(phi2.unwrap_or(0.0)))
         }
         (None, phi2, Some(axis)) => along_axis(axis.0, phi2, near, faults),
         (Some(_), _, Some(_)) => {
             faults.add("/pose/axis", "replaces phi1 and phi2: give either axis, or phi1 and phi2");
-            Orientations::default()
+            RequestedOrientations::default()
         }
     }
 }
@@ -55,27 +59,27 @@ fn along_axis(
     phi2: Option<f64>,
     near: Option<&Near>,
     faults: &mut FieldErrors,
-) -> Orientations {
+) -> RequestedOrientations {
     match (preimages(axis), phi2) {
         (None, _) => {
             faults.add("/pose/axis", "must be a direction: three finite numbers, not all zero");
-            Orientations::default()
+            RequestedOrientations::default()
         }
-        (Some(Preimages::Two(both)), None) => Orientations { each: both.into(), free: false },
+        (Some(Preimages::Two(both)), None) => RequestedOrientations { each: both.into(), free: false },
         (Some(Preimages::Two(_)), Some(_)) => {
             faults.add(
                 "/pose/phi2",
                 "is determined by this axis: give phi2 with axis only for the table's own axis",
             );
-            Orientations::default()
+            RequestedOrientations::default()
         }
-        (Some(Preimages::Free { phi1 }), Some(phi2)) => Orientations::one(phi1, from_degrees(phi2)),
-        (Some(Preimages::Free { phi1 }), None) => Orientations::family(phi1, near),
+        (Some(Preimages::Free { phi1 }), Some(phi2)) => RequestedOrientations::one(phi1, from_degrees(phi2)),
+        (Some(Preimages::Free { phi1 }), None) => RequestedOrientations::family(phi1, near),
     }
 }
 
-/// Adds errors for an orientation where the frame has none.
-pub(crate) fn no_orientation(pose: &TargetPose, faults: &mut FieldErrors) {
+/// Adds a fault for each field of the orientation, in a frame that has none.
+pub(crate) fn check_no_orientation(pose: &TargetPose, faults: &mut FieldErrors) {
     let given = [
         ("/pose/phi1", pose.phi1.is_some()),
         ("/pose/phi2", pose.phi2.is_some()),

@@ -1,7 +1,8 @@
-//! The published machines: the built-in one and those of a directory, each ready to answer.
+//! The published machines: the built-in one and those of a directory.
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -15,49 +16,63 @@ use crate::wire::machine_ref::MachineRef;
 use crate::wire::parse::parse_body;
 use crate::wire::result_id::ResultId;
 
-/// A checked machine with what answers say about it.
+/// A checked machine with the name and the hash that answers state.
 #[derive(Debug)]
-pub(crate) struct Published {
-    /// The machine.
-    pub machine: Machine,
+pub(crate) struct IdentifiedMachine {
+    machine: Machine,
     /// Its name and hash.
     pub id: MachineId,
 }
 
-impl Published {
-    /// Prepares a machine for answering.
+impl Deref for IdentifiedMachine {
+    type Target = Machine;
+
+    fn deref(&self) -> &Machine {
+        &self.machine
+    }
+}
+
+impl IdentifiedMachine {
+    /// Computes the hash of a machine.
     pub(crate) fn new(machine: Machine) -> Self {
         let id = MachineId { name: machine.name().into(), hash: machine_hash(machine.data()).into() };
         Self { machine, id }
     }
 
-    /// The id of a question's answer about this machine; see [`ResultId::of`].
-    pub(crate) fn result_id(&self, layout: &[u8], numbers: impl IntoIterator<Item = f64>) -> ResultId {
-        ResultId::of(layout, &self.id, &self.machine.data().description, numbers)
-    }
-
-    /// Checks a machine.
+    /// Checks a machine object.
     pub(crate) fn from_object(object: &MachineObject) -> Result<Self, Vec<MachineError>> {
         Machine::new(MachineData::from(object)).map(Self::new)
     }
 
     /// Reads a machine from a JSON file.
-    pub(crate) fn from_file(path: &Path) -> Result<Self, BadFile> {
-        let bad = |faults| BadFile { path: path.to_owned(), faults };
+    pub(crate) fn from_file(path: &Path) -> Result<Self, MachineFileError> {
+        let bad = |faults| MachineFileError { path: path.to_owned(), faults };
         let text = std::fs::read(path).map_err(|error| bad(vec![FieldError::new("", error.to_string())]))?;
         let object = parse_body::<MachineObject>(&text).map_err(|error| bad(faults_of(error)))?;
         Self::from_object(&object).map_err(|faults| bad(below("", faults)))
+    }
+
+    /// The id of the answer to a question about this machine; see [`ResultId::of`].
+    pub(crate) fn result_id(&self, prefix: &[u8], numbers: impl IntoIterator<Item = f64>) -> ResultId {
+        ResultId::of(prefix, &self.id, &self.data().description, numbers)
+    }
+
+    /// Table clearance and tool radius of a request with their default values, without -0. The machine's own clearance
+    /// is the default. Only a request with a clearance has a radius.
+    pub(crate) fn canonical_clearance(&self, clearance: Option<f64>, tool_radius: f64) -> [Option<f64>; 2] {
+        let clearance = clearance.or(self.data().limits.table_clearance);
+        [clearance, clearance.map(|_| tool_radius)].map(|length| length.map(|length| length + 0.0))
     }
 }
 
 /// A machine file that cannot be used.
 #[derive(Debug)]
-pub struct BadFile {
+pub struct MachineFileError {
     path: PathBuf,
     faults: Vec<FieldError>,
 }
 
-impl fmt::Display for BadFile {
+impl fmt::Display for MachineFileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} is not a machine", self.path.display())?;
         for FieldError { pointer, detail } in &self.faults {
@@ -67,23 +82,23 @@ impl fmt::Display for BadFile {
     }
 }
 
-impl std::error::Error for BadFile {}
+impl std::error::Error for MachineFileError {}
 
-/// The published machines by name.
+/// The published machines, by name.
 #[derive(Debug)]
-pub(crate) struct Registry(BTreeMap<String, Arc<Published>>);
+pub(crate) struct MachineRegistry(BTreeMap<String, Arc<IdentifiedMachine>>);
 
-impl Default for Registry {
+impl Default for MachineRegistry {
     fn default() -> Self {
-        let verne = Published::new(Machine::verne());
-        Self(BTreeMap::from([(verne.machine.name().to_owned(), Arc::new(verne))]))
+        let verne = IdentifiedMachine::new(Machine::verne());
+        Self(BTreeMap::from([(verne.name().to_owned(), Arc::new(verne))]))
     }
 }
 
-impl Registry {
-    /// Publishes every `*.json` of a directory beside the machines already here.
-    pub(crate) fn publish_directory(&mut self, directory: &Path) -> Result<(), BadFile> {
-        let bad = |error: std::io::Error| BadFile {
+impl MachineRegistry {
+    /// Publishes the machine of every `*.json` file in a directory.
+    pub(crate) fn publish_directory(&mut self, directory: &Path) -> Result<(), MachineFileError> {
+        let bad = |error: std::io::Error| MachineFileError {
             path: directory.to_owned(),
             faults: vec![FieldError::new("", error.to_string())],
         };
@@ -96,42 +111,42 @@ impl Registry {
         Ok(())
     }
 
-    fn publish_file(&mut self, path: &Path) -> Result<(), BadFile> {
-        let published = Published::from_file(path)?;
-        let name = published.machine.name().to_owned();
+    fn publish_file(&mut self, path: &Path) -> Result<(), MachineFileError> {
+        let machine = IdentifiedMachine::from_file(path)?;
+        let name = machine.name().to_owned();
         let refused = |detail: String| {
-            Err(BadFile { path: path.to_owned(), faults: vec![FieldError::new("/name", detail)] })
+            Err(MachineFileError { path: path.to_owned(), faults: vec![FieldError::new("/name", detail)] })
         };
-        // GET /machines/schema is the schema, so no machine can be had there.
+        // GET /machines/schema returns the schema, and a name is one segment of a path.
         if name == "schema" || name.contains('/') {
             return refused(format!("a machine cannot be published as {name:?}"));
         }
         if self.0.contains_key(&name) {
             return refused(format!("another machine is already published as {name:?}"));
         }
-        self.0.insert(name, Arc::new(published));
+        self.0.insert(name, Arc::new(machine));
         Ok(())
     }
 
     /// The machine published under a name.
-    pub(crate) fn get(&self, name: &str) -> Option<&Arc<Published>> {
+    pub(crate) fn get(&self, name: &str) -> Option<&Arc<IdentifiedMachine>> {
         self.0.get(name)
     }
 
-    /// All of them, by name.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = &Published> {
+    /// All machines, in the order of their names.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &IdentifiedMachine> {
         self.0.values().map(AsRef::as_ref)
     }
 
-    /// The machine that a request names or carries.
-    pub(crate) fn resolve(&self, wanted: &MachineRef) -> Result<Arc<Published>, OperationError> {
-        let faults = match wanted {
+    /// The machine that a request names or contains.
+    pub(crate) fn resolve(&self, machine: &MachineRef) -> Result<Arc<IdentifiedMachine>, OperationError> {
+        let faults = match machine {
             MachineRef::Name(name) => match self.get(name) {
-                Some(published) => return Ok(Arc::clone(published)),
+                Some(machine) => return Ok(Arc::clone(machine)),
                 None => vec![FieldError::new("/machine", format!("no machine is published as {name:?}"))],
             },
-            MachineRef::Whole(object) => match Published::from_object(object) {
-                Ok(published) => return Ok(Arc::new(published)),
+            MachineRef::Object(object) => match IdentifiedMachine::from_object(object) {
+                Ok(machine) => return Ok(Arc::new(machine)),
                 Err(faults) => below("/machine", faults),
             },
         };
