@@ -130,6 +130,7 @@ mod posture;
 mod residual;
 mod rods;
 mod table;
+pub mod toolpath;
 pub mod workspace;
 
 pub use clearance::Clearance;

@@ -65,7 +65,7 @@ fn corrected(machine: &Machine, pose: PlatformPose, rho: [f64; 3]) -> Checked {
 
 /// The rods' length errors in Eqs (3)-(6), mm.
 #[inline]
-fn errors(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> [f64; 4] {
+pub(crate) fn errors(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> [f64; 4] {
     let g = machine.geometry();
     let (s, c) = sin_cos(pose.alpha);
     let vectors = vectors_of(machine, pose, rho, [c, s]);
@@ -77,7 +77,7 @@ fn errors(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> [f64; 4] {
 }
 
 #[inline]
-fn worst(errors: &[f64; 4]) -> f64 {
+pub(crate) fn worst(errors: &[f64; 4]) -> f64 {
     let [a, b, c, d] = errors.map(f64::abs);
     greater(greater(a, b), greater(c, d))
 }

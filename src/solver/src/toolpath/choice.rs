@@ -1,0 +1,333 @@
+//! The choice of preimage, winding and working solution for a whole program, by dynamic programming.
+//!
+//! A state at a place is h (half turns of phi2 in addition to the continued meridian) with a working solution. A feed
+//! motion keeps h; a bounded stretch around the pole and a rapid may change it. The best sequence of states has the
+//! fewest failing places, then the least turning, then the greatest least margin of the rotary axis, then the least
+//! |theta2| at the start, then phi1 >= 0 there.
+
+use std::cmp::Ordering;
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+
+use super::meridian::{Cap, Meridian, Place, Span};
+use super::motion::{Motion, MotionKind, Motions, ToolPosition};
+use super::node::{Node, Setting};
+use super::path::Path;
+
+/// Angle of the axis or of an arc between two places that are examined, rad.
+const ANGLE: f64 = 0.1;
+/// Fraction of the machine's longest dimension between two places that are examined.
+const LENGTH: f64 = 1.0 / 16.0;
+/// Turning that counts as equal, rad.
+const EQUAL: f64 = 1e-9;
+/// Greatest number of states at a place.
+const MOST_STATES: usize = 64;
+
+/// The cost of a sequence of states.
+#[derive(Clone, Copy, Debug)]
+struct Cost {
+    failing: f64,
+    turning: f64,
+    rotary_margin: f64,
+    start: f64,
+    is_turned: bool,
+}
+
+impl Cost {
+    /// The cost of a sequence with one more place, which is `turning` away.
+    fn and(&self, place: &Self, turning: f64) -> Self {
+        Self {
+            failing: self.failing + place.failing,
+            turning: self.turning + turning,
+            rotary_margin: self.rotary_margin.min(place.rotary_margin),
+            ..*self
+        }
+    }
+
+    fn compare(&self, other: &Self) -> Ordering {
+        let by_turning = if (self.turning - other.turning).abs() <= EQUAL {
+            Ordering::Equal
+        } else {
+            self.turning.total_cmp(&other.turning)
+        };
+        self.failing
+            .total_cmp(&other.failing)
+            .then(by_turning)
+            .then(other.rotary_margin.total_cmp(&self.rotary_margin))
+            .then(self.start.total_cmp(&other.start))
+            .then(self.is_turned.cmp(&other.is_turned))
+    }
+}
+
+/// A state: h now and, inside a stretch, at its end.
+#[derive(Clone, Copy, Debug)]
+struct State {
+    h: [i32; 2],
+    node: Option<Node>,
+    cost: Cost,
+    parent: u32,
+}
+
+/// The chosen state at a place where it may change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Chosen {
+    pub(super) h: [i32; 2],
+    /// alpha of the working solution; `None` if the place has no solution.
+    pub(super) alpha: Option<f64>,
+}
+
+/// The chosen states: one for each arrival, rapid, and beginning and end of a bounded stretch, in order.
+pub(super) type Choice = Vec<Chosen>;
+
+struct Stage {
+    states: Vec<(Chosen, u32)>,
+}
+
+/// Chooses the states of a program.
+pub(super) struct Chooser<'a> {
+    setting: Setting<'a>,
+    weights: [f64; 2],
+    states: Vec<State>,
+    stages: Vec<Stage>,
+    start: Option<[f64; 2]>,
+}
+
+impl<'a> Chooser<'a> {
+    /// `weights` are those of turning of theta1 and theta2; `start` is where the table stands before the program.
+    pub(super) fn new(setting: Setting<'a>, weights: [f64; 2], start: Option<[f64; 2]>) -> Self {
+        Self { setting, weights, states: Vec::new(), stages: Vec::new(), start }
+    }
+
+    /// Examines the program; `go_on` is asked from time to time and ends the examination by `false`.
+    pub(super) fn choose<M: Motions + ?Sized>(
+        mut self,
+        motions: &M,
+        cap: Cap,
+        mut go_on: impl FnMut(usize) -> bool,
+    ) -> Option<Choice> {
+        let mut meridian = Meridian::new(cap, self.setting.stretches);
+        let mut position: Option<ToolPosition> = None;
+        for index in 0..motions.count() {
+            if !go_on(index) {
+                return None;
+            }
+            let motion = motions.motion(index);
+            match position {
+                Some(start) if motion.kind != MotionKind::Arrive => {
+                    let path = Path::new(start, &motion);
+                    meridian.pass(motion.kind, &path);
+                    if motion.kind == MotionKind::Rapid {
+                        self.jump(&motion, meridian.spans.last());
+                    } else {
+                        self.feed(index, &motion, &path, &meridian.spans);
+                    }
+                }
+                _ => {
+                    meridian.arrive(&motion);
+                    self.jump(&motion, meridian.spans.last());
+                }
+            }
+            position = Some(motion.end);
+        }
+        Some(self.traced())
+    }
+
+    /// The states at the end of a motion whose joints are free.
+    fn jump(&mut self, motion: &Motion, span: Option<&Span>) {
+        let Some(span) = span else { return };
+        let before = std::mem::take(&mut self.states);
+        let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
+        for h in self.half_turns(phi2) {
+            let target = self.setting.target(span, 1.0, &motion.end, [h, h]);
+            match self.setting.nodes(&target, motion.tool_length) {
+                Ok(nodes) => {
+                    for node in nodes {
+                        let state = self.entered(&before, [h, h], Some(node), motion);
+                        self.states.push(state);
+                    }
+                }
+                Err(_) => {
+                    let state = self.entered(&before, [h, h], None, motion);
+                    self.states.push(state);
+                }
+            }
+            if self.states.len() >= MOST_STATES {
+                break;
+            }
+        }
+        self.stage();
+    }
+
+    /// h for which theta2 is within its range, or nearest to it.
+    fn half_turns(&self, phi2: f64) -> RangeInclusive<i32> {
+        let [low, high] = self.setting.machine.limits().rotary;
+        let turns = |theta2: f64| (-theta2 - phi2) / PI;
+        let (first, last) = ((turns(high) - 1e-12).ceil(), (turns(low) + 1e-12).floor());
+        let middle = turns(0.5 * (low + high)).round();
+        let most = f64::from(MOST_STATES as u32 / 4);
+        let [first, last] = if first <= last {
+            [first.max(middle - most), last.min(middle + most)]
+        } else {
+            [middle, middle]
+        };
+        first as i32..=last as i32
+    }
+
+    fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, motion: &Motion) -> State {
+        let own = self.place_cost(node.as_ref(), motion.tool_length);
+        if before.is_empty() {
+            let turning = node.zip(self.start).map_or(0.0, |(node, [theta1, theta2])| {
+                self.weights[0] * (node.table.theta1 - theta1).abs()
+                    + self.weights[1] * (node.table.theta2 - theta2).abs()
+            });
+            let start = node.map_or(f64::INFINITY, |node| node.table.theta2.abs());
+            let cost = Cost { turning, start, is_turned: h[1].rem_euclid(2) == 1, ..own };
+            return State { h, node, cost, parent: 0 };
+        }
+        let mut best: Option<(Cost, usize)> = None;
+        for (parent, state) in before.iter().enumerate() {
+            let turning =
+                node.zip(state.node).map_or(0.0, |(node, from)| node.turning_from(&from, self.weights));
+            let cost = state.cost.and(&own, turning);
+            if best.is_none_or(|(least, _)| cost.compare(&least) == Ordering::Less) {
+                best = Some((cost, parent));
+            }
+        }
+        let (cost, parent) = best.map_or((own, 0), |best| best);
+        State { h, node, cost, parent: parent as u32 }
+    }
+
+    /// The cost of one place.
+    fn place_cost(&self, node: Option<&Node>, tool_length: f64) -> Cost {
+        let mut cost = Cost {
+            failing: 1.0,
+            turning: 0.0,
+            rotary_margin: f64::NEG_INFINITY,
+            start: 0.0,
+            is_turned: false,
+        };
+        if let Some(node) = node {
+            let [low, high] = self.setting.machine.limits().rotary;
+            cost.rotary_margin = (node.table.theta2 - low).min(high - node.table.theta2);
+            if self.setting.worst(node, tool_length).0.value >= 0.0 {
+                cost.failing = 0.0;
+            }
+        }
+        cost
+    }
+
+    fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
+        for span in spans {
+            let stretch = span.stretch().map(|number| self.setting.stretches[number]);
+            let bounded = stretch.filter(|stretch| stretch.is_bounded && !stretch.has_rapid);
+            if let Some(stretch) =
+                bounded.filter(|stretch| stretch.start == Place { motion: index, s: span.from })
+            {
+                self.spread(stretch.phi2[1]);
+            }
+            let count = places(self.setting.machine.longest(), path, span.to - span.from);
+            for place in 1..=count {
+                let part = f64::from(place) / f64::from(count);
+                let s = if place == count { span.to } else { span.from + (span.to - span.from) * part };
+                self.advance(motion, span, s, &path.at(s));
+            }
+            if bounded.is_some_and(|stretch| stretch.end == Place { motion: index, s: span.to }) {
+                self.gather();
+            }
+        }
+    }
+
+    /// Gives every state at the beginning of a stretch all its ends.
+    fn spread(&mut self, phi2: f64) {
+        let ends = self.half_turns(phi2);
+        let before = std::mem::take(&mut self.states);
+        for (parent, state) in before.iter().enumerate() {
+            for h in ends.clone().chain([state.h[1]]) {
+                let h = [state.h[1], h];
+                if self.states.iter().all(|other| other.h != h || other.parent as usize != parent) {
+                    self.states.push(State { h, parent: parent as u32, ..*state });
+                }
+            }
+        }
+        self.stage();
+    }
+
+    /// Keeps the best of the states with the same end of a stretch.
+    fn gather(&mut self) {
+        let before = std::mem::take(&mut self.states);
+        for (parent, state) in before.iter().enumerate() {
+            let state = State { h: [state.h[1]; 2], parent: parent as u32, ..*state };
+            let same = |other: &State| {
+                let near = match (other.node, state.node) {
+                    (Some(a), Some(b)) => (a.pose.alpha - b.pose.alpha).abs() < 1e-6,
+                    (None, None) => true,
+                    _ => false,
+                };
+                other.h == state.h && near
+            };
+            match self.states.iter_mut().find(|other| same(other)) {
+                Some(other) if state.cost.compare(&other.cost) == Ordering::Less => *other = state,
+                Some(_) => {}
+                None => self.states.push(state),
+            }
+        }
+        self.stage();
+    }
+
+    /// Moves every state to a place.
+    fn advance(&mut self, motion: &Motion, span: &Span, s: f64, at: &ToolPosition) {
+        let before = std::mem::take(&mut self.states);
+        for (i, state) in before.iter().enumerate() {
+            let target = self.setting.target(span, s, at, state.h);
+            // Whole turns change theta2 alone.
+            let twin = (0..i).find(|&j| is_wound(&before[j], state));
+            let node = match twin.and_then(|j| self.states[j].node) {
+                Some(node) => Some(node.wound_to(target.phi2)),
+                None if twin.is_some() => None,
+                None => {
+                    let alpha = state.node.map(|node| node.pose.alpha);
+                    self.setting.node(&target, motion.tool_length, alpha).ok()
+                }
+            };
+            let own = self.place_cost(node.as_ref(), motion.tool_length);
+            let turning =
+                node.zip(state.node).map_or(0.0, |(node, from)| node.turning_from(&from, self.weights));
+            self.states.push(State { node, cost: state.cost.and(&own, turning), ..*state });
+        }
+    }
+
+    /// Notes the states, so that the chosen ones can be traced back.
+    fn stage(&mut self) {
+        let states = self.states.iter().map(|state| {
+            let alpha = state.node.map(|node| node.pose.alpha);
+            (Chosen { h: state.h, alpha }, state.parent)
+        });
+        self.stages.push(Stage { states: states.collect() });
+    }
+
+    fn traced(self) -> Choice {
+        let best = self.states.iter().enumerate().min_by(|(_, a), (_, b)| a.cost.compare(&b.cost));
+        let mut index = best.map_or(0, |(index, _)| index);
+        let mut choice: Choice = Vec::with_capacity(self.stages.len());
+        for stage in self.stages.iter().rev() {
+            let Some(&(chosen, parent)) = stage.states.get(index) else { break };
+            choice.push(chosen);
+            index = parent as usize;
+        }
+        choice.reverse();
+        choice
+    }
+}
+
+/// Whether two states differ by whole turns of theta2 only.
+fn is_wound(a: &State, b: &State) -> bool {
+    let turns = [0, 1].map(|end| a.h[end] - b.h[end]);
+    let alpha = |state: &State| state.node.map(|node| node.pose.alpha.to_bits());
+    turns[0] == turns[1] && turns[0] % 2 == 0 && alpha(a) == alpha(b)
+}
+
+/// Number of places that are examined on a part of a path.
+pub(super) fn places(longest: f64, path: &Path, part: f64) -> u32 {
+    let count = (path.length() / (LENGTH * longest)).max((path.turn() + path.sweep()) / ANGLE) * part;
+    count.ceil().clamp(1.0, 1e6) as u32
+}

@@ -1,0 +1,15 @@
+//! Plans of tool paths against independent checks.
+//!
+//! - `lines`: numbers of rows and deviations of single motions.
+//! - `choices`: preimages and windings of whole programs.
+//! - `pole`: paths along, through and to the pole.
+//! - `support`: programs, and the check of rows by the forward problem.
+
+#[path = "toolpath/choices.rs"]
+mod choices;
+#[path = "toolpath/lines.rs"]
+mod lines;
+#[path = "toolpath/pole.rs"]
+mod pole;
+#[path = "toolpath/support.rs"]
+mod support;

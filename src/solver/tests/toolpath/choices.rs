@@ -1,0 +1,1 @@
+//! Preimages and windings of whole programs.

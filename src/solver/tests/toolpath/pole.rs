@@ -1,0 +1,1 @@
+//! Paths along, through and to the pole.
