@@ -15,6 +15,8 @@ use super::path::Path;
 
 /// Width of the strip beside an azimuth of half a turn whose sign is rounding, rad.
 const SEAM: f64 = 1e-9;
+/// Sine of the inclination below which an axis has no azimuth.
+const LEAST_SINE: f64 = 1e-9;
 /// Greatest angle that linear phi1 and phi2 move through in a step, rad.
 const STEP: f64 = 0.25;
 /// Halvings that locate where a path enters a cap.
@@ -62,8 +64,8 @@ pub(super) struct Span {
 
 #[derive(Clone, Copy, Debug)]
 enum Rule {
-    /// phi2 follows the axis, from this value at this azimuth.
-    Follow { azimuth: f64, phi2: f64 },
+    /// phi2 follows the axis' azimuth, from this value; the azimuth at both ends.
+    Follow { azimuth: [f64; 2], phi2: f64 },
     /// phi2 is linear in the path; `share` is the fraction of the stretch's measure at both ends.
     Linear { stretch: usize, share: [f64; 2] },
 }
@@ -89,8 +91,14 @@ impl Span {
     /// phi2 at a parameter, for h half turns at the beginning and at the end of a stretch.
     pub(super) fn phi2(&self, stretches: &[Stretch], s: f64, axis: [f64; 3], h: [i32; 2]) -> f64 {
         match self.rule {
-            Rule::Follow { azimuth: start, phi2 } => {
-                phi2 + to_nearest(azimuth(axis) - start, TAU) + PI * f64::from(h[1])
+            Rule::Follow { azimuth: [start, end], phi2 } => {
+                let is_first_half = s - self.from < self.to - s;
+                let now = match azimuth(axis) {
+                    Some(azimuth) => azimuth,
+                    None if is_first_half => start,
+                    None => end,
+                };
+                phi2 + to_nearest(now - start, TAU) + PI * f64::from(h[1])
             }
             Rule::Linear { stretch, share } => {
                 let [from, to] = stretches[stretch].phi2;
@@ -109,10 +117,25 @@ pub(super) fn inclination([i, j, k]: [f64; 3], phi2: f64) -> f64 {
     (i * sin - j * cos).atan2(k)
 }
 
-/// phi2 of an axis with phi1 >= 0, rad, in (-π, π] but for rounding.
-fn azimuth([i, j, _]: [f64; 3]) -> f64 {
+/// phi2 of an axis with phi1 >= 0, rad, in (-π, π] but for rounding; `None` at the pole.
+fn azimuth([i, j, _]: [f64; 3]) -> Option<f64> {
+    (i.hypot(j) > LEAST_SINE).then(|| direction_azimuth(i, j))
+}
+
+fn direction_azimuth(i: f64, j: f64) -> f64 {
     let azimuth = i.atan2(0.0 - j);
     if azimuth <= SEAM - PI { azimuth + TAU } else { azimuth }
+}
+
+/// The azimuths at both ends of a part of a path outside the cap. At the pole itself it is that of the way from it.
+fn azimuths(path: &Path, ends: [f64; 2]) -> [f64; 2] {
+    let at = |s: f64, sign: f64| {
+        azimuth(path.at(s).axis).unwrap_or_else(|| {
+            let [_, rate] = path.rates(s);
+            direction_azimuth(sign * rate.x, sign * rate.y)
+        })
+    };
+    [at(ends[0], 1.0), at(ends[1], -1.0)]
 }
 
 /// The difference modulo `period` that is nearest to zero; of two, the positive one.
@@ -258,7 +281,7 @@ impl Survey {
             self.open =
                 Some(Open { start: Place { motion: index, s: 1.0 }, from: None, all: 0.0, rapid: 0.0 });
         } else {
-            self.phi2 = Some(continued(self.phi2, azimuth(motion.end.axis)));
+            self.phi2 = Some(continued(self.phi2, of_arrival(motion)));
         }
     }
 
@@ -278,7 +301,7 @@ impl Survey {
                     open.rapid += measure;
                 }
             } else {
-                let [start, end] = [from, to].map(|s| azimuth(path.at(s).axis));
+                let [start, end] = azimuths(path, [from, to]);
                 self.close(Place { motion: index, s: from }, Some(start));
                 let begun = continued(self.phi2, start);
                 self.phi2 = Some(begun + to_nearest(end - start, TAU));
@@ -298,6 +321,10 @@ impl Survey {
         self.stretches.push(Stretch { start: open.start, end, phi2, measure, has_rapid, is_bounded });
         self.phi2 = Some(phi2[1]);
     }
+}
+
+fn of_arrival(motion: &Motion) -> f64 {
+    azimuth(motion.end.axis).unwrap_or(0.0)
 }
 
 /// The value nearest to `before` with this azimuth, modulo half turns.
@@ -331,10 +358,10 @@ impl<'a> Meridian<'a> {
             self.is_inside = true;
             Rule::Linear { stretch: self.next, share: [0.0, 0.0] }
         } else {
-            let azimuth = azimuth(motion.end.axis);
+            let azimuth = of_arrival(motion);
             let phi2 = continued(self.phi2, azimuth);
             self.phi2 = Some(phi2);
-            Rule::Follow { azimuth, phi2 }
+            Rule::Follow { azimuth: [azimuth; 2], phi2 }
         };
         self.spans.push(Span { from: 1.0, to: 1.0, rule });
     }
@@ -356,10 +383,10 @@ impl<'a> Meridian<'a> {
                 Rule::Linear { stretch: self.next, share }
             } else {
                 self.leave();
-                let [start, end] = [from, to].map(|s| azimuth(path.at(s).axis));
+                let [start, end] = azimuths(path, [from, to]);
                 let phi2 = continued(self.phi2, start);
                 self.phi2 = Some(phi2 + to_nearest(end - start, TAU));
-                Rule::Follow { azimuth: start, phi2 }
+                Rule::Follow { azimuth: [start, end], phi2 }
             };
             spans.push(Span { from, to, rule });
         });

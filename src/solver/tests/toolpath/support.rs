@@ -6,6 +6,23 @@ use verne_solver::toolpath::{
 };
 use verne_solver::{Machine, TableAngles, forward_working, part_pose};
 
+/// Numbers that look random and are the same in every run (SplitMix64).
+pub(crate) struct Random(u64);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
 pub(crate) fn unit(v: [f64; 3]) -> [f64; 3] {
     let norm = v.iter().map(|c| c * c).sum::<f64>().sqrt();
     v.map(|c| c / norm)
@@ -85,7 +102,12 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// The greatest deviation of the rows' linear joint motion from the program's feed paths, as a fraction of the
 /// tolerance: at 20 places between rows, at the best of many path parameters.
-pub(crate) fn worst_deviation(machine: &Machine, program: &[Motion], rows: &[Row], options: &PlanOptions) -> f64 {
+pub(crate) fn worst_deviation(
+    machine: &Machine,
+    program: &[Motion],
+    rows: &[Row],
+    options: &PlanOptions,
+) -> f64 {
     let mut worst: f64 = 0.0;
     for pair in rows.windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
@@ -128,7 +150,8 @@ fn best_fit(
         at(a).total_cmp(&at(b))
     });
     let middle = f64::from(best.unwrap()) / f64::from(count);
-    let (mut low, mut high) = ((middle - 1.0 / f64::from(count)).max(0.0), (middle + 1.0 / f64::from(count)).min(1.0));
+    let (mut low, mut high) =
+        ((middle - 1.0 / f64::from(count)).max(0.0), (middle + 1.0 / f64::from(count)).min(1.0));
     for _ in 0..60 {
         let (c, d) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
         if miss(c) < miss(d) { high = d } else { low = c }
