@@ -3,6 +3,7 @@
 //! [`plan`] chooses preimage, winding and working solution for a whole program, divides the motions into rows between
 //! which a controller may move the joints linearly, and reports where the machine's limits are broken.
 
+mod bound;
 mod choice;
 mod joint_segment;
 mod linearise;
@@ -146,6 +147,7 @@ pub fn plan<M: Motions + ?Sized>(
         stretches: &stretches,
         table_clearance: options.table_clearance,
         tool_radius: options.tool_radius,
+        pole: options.pole,
     };
     let count = motions.count().max(1) as f64;
     let chooser = Chooser::new(setting, options.weights, start);

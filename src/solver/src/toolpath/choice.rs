@@ -18,6 +18,9 @@ use super::path::Path;
 const ANGLE: f64 = 0.1;
 /// Fraction of the machine's longest dimension between two places that are examined.
 const LENGTH: f64 = 1.0 / 16.0;
+/// The same between two ends of motions: ends that are closer to the last place are not examined.
+const LEAST_ANGLE: f64 = 0.005;
+const LEAST_LENGTH: f64 = 1.0 / 512.0;
 /// Turning that counts as equal, rad.
 const EQUAL: f64 = 1e-9;
 /// Greatest number of states at a place.
@@ -90,12 +93,24 @@ pub(super) struct Chooser<'a> {
     states: Vec<State>,
     stages: Vec<Stage>,
     start: Option<[f64; 2]>,
+    /// The end of the last motion, if it has not been examined.
+    skipped: Option<Skipped>,
+}
+
+/// A place that has not been examined, with the length and the angles of the path to it.
+#[derive(Clone, Copy)]
+struct Skipped {
+    motion: Motion,
+    span: Span,
+    at: ToolPosition,
+    length: f64,
+    angle: f64,
 }
 
 impl<'a> Chooser<'a> {
     /// `weights` are those of turning of theta1 and theta2; `start` is where the table stands before the program.
     pub(super) fn new(setting: Setting<'a>, weights: [f64; 2], start: Option<[f64; 2]>) -> Self {
-        Self { setting, weights, states: Vec::new(), stages: Vec::new(), start }
+        Self { setting, weights, states: Vec::new(), stages: Vec::new(), start, skipped: None }
     }
 
     /// Examines the program; `go_on` is asked from time to time and ends the examination by `false`.
@@ -135,6 +150,7 @@ impl<'a> Chooser<'a> {
     /// The states at the end of a motion whose joints are free.
     fn jump(&mut self, motion: &Motion, span: Option<&Span>) {
         let Some(span) = span else { return };
+        self.examine_skipped();
         let before = std::mem::take(&mut self.states);
         let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
         for h in self.half_turns(phi2) {
@@ -225,7 +241,9 @@ impl<'a> Chooser<'a> {
             {
                 self.spread(stretch.phi2[1]);
             }
+            let is_skipped = self.skips(motion, span, path);
             let count = places(self.setting.machine.longest(), path, span.to - span.from);
+            let count = if is_skipped { 0 } else { count };
             for place in 1..=count {
                 let part = f64::from(place) / f64::from(count);
                 let s = if place == count { span.to } else { span.from + (span.to - span.from) * part };
@@ -237,8 +255,27 @@ impl<'a> Chooser<'a> {
         }
     }
 
+    /// Whether the end of a span is so near to the last place that it is left for later.
+    fn skips(&mut self, motion: &Motion, span: &Span, path: &Path) -> bool {
+        let part = span.to - span.from;
+        let (length, angle) = (path.length() * part, (path.turn() + path.sweep()) * part);
+        let before = self.skipped.map_or((0.0, 0.0), |skipped| (skipped.length, skipped.angle));
+        let (length, angle) = (before.0 + length, before.1 + angle);
+        let is_near = length < LEAST_LENGTH * self.setting.machine.longest() && angle < LEAST_ANGLE;
+        let at = path.at(span.to);
+        self.skipped = is_near.then_some(Skipped { motion: *motion, span: *span, at, length, angle });
+        is_near
+    }
+
+    fn examine_skipped(&mut self) {
+        if let Some(Skipped { motion, span, at, .. }) = self.skipped.take() {
+            self.advance(&motion, &span, span.to, &at);
+        }
+    }
+
     /// Gives every state at the beginning of a stretch all its ends.
     fn spread(&mut self, phi2: f64) {
+        self.examine_skipped();
         let ends = self.half_turns(phi2);
         let before = std::mem::take(&mut self.states);
         for (parent, state) in before.iter().enumerate() {
@@ -254,6 +291,7 @@ impl<'a> Chooser<'a> {
 
     /// Keeps the best of the states with the same end of a stretch.
     fn gather(&mut self) {
+        self.examine_skipped();
         let before = std::mem::take(&mut self.states);
         for (parent, state) in before.iter().enumerate() {
             let state = State { h: [state.h[1]; 2], parent: parent as u32, ..*state };
@@ -305,7 +343,8 @@ impl<'a> Chooser<'a> {
         self.stages.push(Stage { states: states.collect() });
     }
 
-    fn traced(self) -> Choice {
+    fn traced(mut self) -> Choice {
+        self.examine_skipped();
         let best = self.states.iter().enumerate().min_by(|(_, a), (_, b)| a.cost.compare(&b.cost));
         let mut index = best.map_or(0, |(index, _)| index);
         let mut choice: Choice = Vec::with_capacity(self.stages.len());

@@ -1,5 +1,6 @@
 //! The rows between two stops: so few that between any two of them the joints may change linearly.
 
+use super::bound::BoundEnd;
 use super::joint_segment::{Deviation, JointSegment, Stop, Track};
 use super::node::Node;
 use crate::limit::Refusal;
@@ -30,8 +31,12 @@ pub(super) fn linearise(
     start: Stop,
     end: Stop,
     tolerance: &Deviation,
-    mut found: impl FnMut(&Stop, &JointSegment, Deviation),
+    mut found: impl FnMut(&Stop, Option<&JointSegment>, Deviation),
 ) -> Result<(), LineariseError> {
+    if let Some(deviation) = bounded(track, &start, &end).filter(|bound| bound.ratio(tolerance) <= USED) {
+        found(&end, None, deviation);
+        return Ok(());
+    }
     let mut now = start;
     let mut step = end.s - start.s;
     while now.s < end.s {
@@ -44,14 +49,15 @@ pub(super) fn linearise(
         };
         let width = next.s - now.s;
         let segment = JointSegment::new(track.setting.machine, &now.node, &next.node);
-        let deviation = segment.as_ref().map(|segment| segment.deviation(track, [now.s, next.s], tolerance));
+        let deviation =
+            segment.as_ref().and_then(|segment| segment.deviation(track, [now.s, next.s], tolerance));
         let ratio = deviation.map_or(f64::INFINITY, |deviation| deviation.ratio(tolerance));
         // The deviation grows with the square of the step.
         let scale = if ratio > 0.0 { (AIM / ratio).sqrt() } else { RATIOS[1] };
         let scale = scale.clamp(RATIOS[0], RATIOS[1]);
         match (segment, deviation) {
             (Some(segment), Some(deviation)) if ratio <= USED => {
-                found(&next, &segment, deviation);
+                found(&next, Some(&segment), deviation);
                 now = next;
                 step = if is_last { step } else { width * scale };
             }
@@ -60,6 +66,19 @@ pub(super) fn linearise(
         }
     }
     Ok(())
+}
+
+/// An upper bound of the deviation of a single segment between two stops.
+fn bounded(track: &Track<'_>, start: &Stop, end: &Stop) -> Option<Deviation> {
+    let machine = track.setting.machine;
+    let (a, b) = (&start.node, &end.node);
+    let ends = [a, b].map(|node| BoundEnd::new(machine, node));
+    let joints = ends[0].second_derivatives(machine, [a, b], &ends[1], track.tool_length)?;
+    let width = end.s - start.s;
+    let [tip, axis] = track.path.second_derivatives().map(|second| second * width * width);
+    // Inside a cap the axis is off its path at the ends, too.
+    let off = if track.span.stretch().is_some() { track.setting.pole } else { 0.0 };
+    Some(Deviation { tip: 0.125 * (joints.tip + tip), axis: off + 0.125 * (joints.axis + axis) })
 }
 
 fn stop_at(track: &Track<'_>, s: f64, before: &Node) -> Result<Stop, LineariseError> {

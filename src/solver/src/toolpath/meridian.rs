@@ -119,7 +119,7 @@ pub(super) fn inclination([i, j, k]: [f64; 3], phi2: f64) -> f64 {
 
 /// phi2 of an axis with phi1 >= 0, rad, in (-π, π] but for rounding; `None` at the pole.
 fn azimuth([i, j, _]: [f64; 3]) -> Option<f64> {
-    (i.hypot(j) > LEAST_SINE).then(|| direction_azimuth(i, j))
+    (i * i + j * j > LEAST_SINE * LEAST_SINE).then(|| direction_azimuth(i, j))
 }
 
 fn direction_azimuth(i: f64, j: f64) -> f64 {
@@ -158,7 +158,7 @@ impl Cap {
     }
 
     fn has(&self, axis: [f64; 3]) -> bool {
-        axis[2] > 0.0 && axis[0].hypot(axis[1]) <= self.sine
+        axis[2] > 0.0 && axis[0] * axis[0] + axis[1] * axis[1] <= self.sine * self.sine
     }
 
     fn measure(&self, path: &Path) -> f64 {
@@ -195,7 +195,7 @@ impl Cap {
     fn least(&self, path: &Path, low: f64, high: f64) -> Option<f64> {
         let sine = |s: f64| {
             let [i, j, k] = path.at(s).axis;
-            if k > 0.0 { i.hypot(j) } else { 1.0 }
+            if k > 0.0 { (i * i + j * j).sqrt() } else { 1.0 }
         };
         if sine(low).min(sine(high)) > self.sine + path.turn() * (high - low) {
             return None;

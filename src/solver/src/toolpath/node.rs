@@ -20,6 +20,8 @@ pub(super) struct Setting<'a> {
     pub(super) stretches: &'a [Stretch],
     pub(super) table_clearance: Option<f64>,
     pub(super) tool_radius: f64,
+    /// Half-angle of the cap around the pole, rad.
+    pub(super) pole: f64,
 }
 
 /// Joints and platform pose at a place of the path.

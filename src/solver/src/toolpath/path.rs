@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::motion::{Curve, Motion, ToolPosition, Turning};
+use crate::angle::sin_cos;
 use crate::axis::tool_axis;
 use crate::pose::Point;
 
@@ -71,12 +72,22 @@ impl Path {
         ToolPosition { tip: self.tip(s).into(), axis: self.axis(s).into() }
     }
 
+    /// The tool's end and axis at a parameter, by the formulas also at the ends.
+    pub(super) fn vectors(&self, s: f64) -> [Vector3<f64>; 2] {
+        [self.tip(s), self.axis(s)]
+    }
+
+    /// The same, and their derivatives by the parameter.
+    pub(super) fn with_rates(&self, s: f64) -> ([Vector3<f64>; 2], [Vector3<f64>; 2]) {
+        (self.vectors(s), self.rates(s))
+    }
+
     fn tip(&self, s: f64) -> Vector3<f64> {
         let (a, b) = (Vector3::from(self.start.tip), Vector3::from(self.end.tip));
         match self.tip {
             TipPath::Line => a + (b - a) * s,
             TipPath::Arc { centre, radius, along, sweep, rest } => {
-                let (sin, cos) = (sweep * s).sin_cos();
+                let (sin, cos) = sin_cos(sweep * s);
                 centre + along + radius[0] * cos + radius[1] * sin + rest * s
             }
         }
@@ -86,7 +97,7 @@ impl Path {
         match &self.axis {
             AxisPath::Fixed => self.start.axis.into(),
             AxisPath::GreatCircle { towards, angle } => {
-                let (sin, cos) = (angle * s).sin_cos();
+                let (sin, cos) = sin_cos(angle * s);
                 Vector3::from(self.start.axis) * cos + towards * sin
             }
             AxisPath::Angles { start, end, frame } => {
@@ -102,26 +113,35 @@ impl Path {
         let tip = match self.tip {
             TipPath::Line => b - a,
             TipPath::Arc { radius, sweep, rest, .. } => {
-                let (sin, cos) = (sweep * s).sin_cos();
+                let (sin, cos) = sin_cos(sweep * s);
                 (radius[1] * cos - radius[0] * sin) * sweep + rest
             }
         };
         let axis = match &self.axis {
             AxisPath::Fixed => Vector3::zeros(),
             AxisPath::GreatCircle { towards, angle } => {
-                let (sin, cos) = (angle * s).sin_cos();
+                let (sin, cos) = sin_cos(angle * s);
                 (towards * cos - Vector3::from(self.start.axis) * sin) * *angle
             }
             AxisPath::Angles { start, end, frame } => {
                 let rate = [0, 1].map(|i| end[i] - start[i]);
                 let [phi1, phi2] = [0, 1].map(|i| start[i] + rate[i] * s);
-                let ((s1, c1), (s2, c2)) = (phi1.sin_cos(), phi2.sin_cos());
+                let ((s1, c1), (s2, c2)) = (sin_cos(phi1), sin_cos(phi2));
                 let along = [c1 * s2, -c1 * c2, -s1].map(|c| c * rate[0]);
                 let across = [s1 * c2, s1 * s2, 0.0].map(|c| c * rate[1]);
                 rotated(frame, std::array::from_fn(|i| along[i] + across[i])).into()
             }
         };
         [tip, axis]
+    }
+
+    /// Greatest second derivatives by the parameter: of the position, mm, and of the axis, rad.
+    pub(super) fn second_derivatives(&self) -> [f64; 2] {
+        let tip = match self.tip {
+            TipPath::Line => 0.0,
+            TipPath::Arc { radius, sweep, .. } => radius[0].norm() * sweep * sweep,
+        };
+        [tip, self.turn() * self.turn()]
     }
 
     /// Length of the path of the tool's end, mm; of a helix that misses its end the length is that of the arc and the
@@ -167,7 +187,7 @@ fn arc(start: Point, end: Point, centre: Point, normal: [f64; 3], sweep: f64) ->
     let along = normal * normal.dot(&from);
     let radial = from - along;
     let radius = [radial, normal.cross(&radial)];
-    let (sin, cos) = sweep.sin_cos();
+    let (sin, cos) = sin_cos(sweep);
     let rest = Vector3::from(end) - (centre + along + radius[0] * cos + radius[1] * sin);
     TipPath::Arc { centre, radius, along, sweep, rest }
 }

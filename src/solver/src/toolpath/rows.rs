@@ -209,12 +209,9 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
             self.examine(index, &segment, motion.tool_length);
             let of =
                 |node: &Node| part_pose(self.setting.machine, &node.pose, node.table, motion.tool_length);
-            segment.places().map(|(_, node)| from_line(path, &of(&node))).fold(
-                (0.0, [0.0; 3]),
-                |greatest, found| {
-                    if found.0 > greatest.0 { found } else { greatest }
-                },
-            )
+            let places = segment.places(self.setting.machine).flatten();
+            let found = places.map(|(_, node)| from_line(path, &of(&node)));
+            found.fold((0.0, [0.0; 3]), |greatest, found| if found.0 > greatest.0 { found } else { greatest })
         });
         let departure = match greatest {
             Some((distance, direction)) => Departure { motion: index, distance: Some(distance), direction },
@@ -301,7 +298,7 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
             let before = self.margin;
             self.row(index, kind, &track.path.at(stop.s), stop.s, &stop.node, motion.tool_length);
             let least = before.unwrap_or(f64::INFINITY).min(self.margin.unwrap_or(f64::INFINITY));
-            if least < GUARD {
+            if let Some(segment) = segment.filter(|_| least < GUARD) {
                 self.examine(index, segment, motion.tool_length);
             }
         });
@@ -368,7 +365,7 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
 
     /// Examines the margins between the ends of a segment.
     fn examine(&mut self, index: usize, segment: &JointSegment, tool_length: f64) {
-        if let Some((_, _, margins)) = segment.worst(&self.setting, tool_length) {
+        if let Some(margins) = segment.worst(&self.setting, tool_length) {
             self.report.meet(self.setting.machine, index, 1.0, &margins);
         }
     }
