@@ -12,13 +12,13 @@ use verne_solver::{Machine, PartPose, part_working};
 const ROUNDS: usize = 5;
 
 /// A dome finished in a raster: `lines` lines of `points` points.
-fn dome(lines: usize, points: usize) -> Vec<Motion> {
-    let mut program = Vec::with_capacity(lines * points);
+fn dome(lines: u32, points: u32) -> Vec<Motion> {
+    let mut program = Vec::new();
     for line in 0..lines {
         for point in 0..points {
-            let along = point as f64 / (points - 1) as f64;
+            let along = f64::from(point) / f64::from(points - 1);
             let along = if line % 2 == 0 { along } else { 1.0 - along };
-            let [x, y] = [120.0 * along - 60.0, 120.0 * line as f64 / lines as f64 - 60.0];
+            let [x, y] = [120.0 * along - 60.0, 120.0 * f64::from(line) / f64::from(lines) - 60.0];
             let radius = 200.0;
             let z = (radius * radius - x * x - y * y).sqrt();
             let axis = [x / radius, y / radius, z / radius];
@@ -39,9 +39,13 @@ fn dome(lines: usize, points: usize) -> Vec<Motion> {
     program
 }
 
+fn number(count: usize) -> f64 {
+    f64::from(u32::try_from(count).unwrap_or(u32::MAX))
+}
+
 fn main() {
     let machine = Machine::verne();
-    for (lines, points) in [(100, 500), (60, 12)] {
+    for (lines, points) in [(100, 500), (2_000, 12)] {
         let program = dome(lines, points);
         let targets: Vec<PartPose> = program
             .iter()
@@ -58,7 +62,7 @@ fn main() {
             for target in &targets {
                 let _ = black_box(part_working(&machine, black_box(target), 100.0));
             }
-            let solve = start.elapsed().as_secs_f64() / targets.len() as f64;
+            let solve = start.elapsed().as_secs_f64() / number(targets.len());
             let start = Instant::now();
             let options = PlanOptions::default();
             let report = plan(
@@ -72,7 +76,7 @@ fn main() {
             );
             let Ok(report) = report else { continue };
             rows = report.rows;
-            let row = start.elapsed().as_secs_f64() / rows as f64;
+            let row = start.elapsed().as_secs_f64() / number(usize::try_from(rows).unwrap_or_default());
             println!("{} ns a solution, {} ns a row", solve * 1e9, row * 1e9);
             ratios.push(row / solve);
         }

@@ -3,7 +3,9 @@
 //! [`plan`] chooses preimage, winding and working solution for a whole program, divides the motions into rows between
 //! which a controller may move the joints linearly, and reports where the machine's limits are broken.
 
+mod azimuth;
 mod bound;
+mod cap;
 mod choice;
 mod joint_segment;
 mod linearise;
@@ -13,6 +15,7 @@ mod node;
 mod path;
 mod report;
 mod rows;
+mod stretches;
 
 use std::fmt;
 
@@ -23,10 +26,12 @@ pub use rows::{Row, RowKind};
 
 use crate::machine::Machine;
 use crate::pose::TableAngles;
+use cap::Cap;
 use choice::Chooser;
-use meridian::{Cap, Meridian, stretches};
+use meridian::Meridian;
 use node::Setting;
 use rows::{RowSettings, Rower};
+use stretches::stretches;
 
 /// Share of the progress that the choice of states is counted as.
 const CHOICE_SHARE: f64 = 0.4;
@@ -149,9 +154,9 @@ pub fn plan<M: Motions + ?Sized>(
         tool_radius: options.tool_radius,
         pole: options.pole,
     };
-    let count = motions.count().max(1) as f64;
+    let part = |index: usize| fraction(index, motions.count());
     let chooser = Chooser::new(setting, options.weights, start);
-    let choice = chooser.choose(motions, cap, |index| progress(CHOICE_SHARE * index as f64 / count));
+    let choice = chooser.choose(motions, cap, |index| progress(CHOICE_SHARE * part(index)));
     let choice = choice.ok_or(PlanError::Cancelled)?;
     let settings = RowSettings {
         feed: options.tolerance,
@@ -164,9 +169,13 @@ pub fn plan<M: Motions + ?Sized>(
         Meridian::new(cap, &stretches),
         |index, rows| {
             is_full = rows > options.most_rows;
-            let part = CHOICE_SHARE + (1.0 - CHOICE_SHARE) * index as f64 / count;
-            !is_full && progress(part)
+            !is_full && progress(CHOICE_SHARE + (1.0 - CHOICE_SHARE) * part(index))
         },
     );
     report.ok_or(if is_full { PlanError::TooManyRows } else { PlanError::Cancelled })
+}
+
+#[allow(clippy::cast_precision_loss, reason = "progress")]
+fn fraction(index: usize, count: usize) -> f64 {
+    index as f64 / count.max(1) as f64
 }

@@ -5,6 +5,15 @@
 //! - `pole`: paths along, through and to the pole.
 //! - `support`: programs, and the check of rows by the forward problem.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_precision_loss,
+    reason = "tests"
+)]
+
 #[path = "toolpath/choices.rs"]
 mod choices;
 #[path = "toolpath/lines.rs"]

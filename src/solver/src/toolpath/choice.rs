@@ -5,62 +5,27 @@
 //! fewest failing places, then the least turning, then the greatest least margin of the rotary axis, then the least
 //! |theta2| at the start, then phi1 >= 0 there.
 
-use std::cmp::Ordering;
-use std::f64::consts::PI;
-use std::ops::RangeInclusive;
+mod cost;
+mod stages;
 
-use super::meridian::{Cap, Meridian, Place, Span};
+use std::cmp::Ordering;
+
+use self::cost::Cost;
+use self::stages::Stages;
+pub(super) use self::stages::{Choice, Chosen};
+use super::cap::Cap;
+use super::meridian::{Meridian, Span};
 use super::motion::{Motion, MotionKind, Motions, ToolPosition};
 use super::node::{Node, Setting};
-use super::path::Path;
+use super::path::{Path, places};
+use super::stretches::Place;
 
-/// Angle of the axis or of an arc between two places that are examined, rad.
-const ANGLE: f64 = 0.1;
-/// Fraction of the machine's longest dimension between two places that are examined.
-const LENGTH: f64 = 1.0 / 16.0;
-/// The same between two ends of motions: ends that are closer to the last place are not examined.
-const LEAST_ANGLE: f64 = 0.005;
-const LEAST_LENGTH: f64 = 1.0 / 512.0;
-/// Turning that counts as equal, rad.
-const EQUAL: f64 = 1e-9;
+/// Angle and fraction of the machine's longest dimension between two ends of motions: ends that are closer to the last
+/// place are not examined.
+const LEAST_ANGLE: f64 = 0.02;
+const LEAST_LENGTH: f64 = 1.0 / 256.0;
 /// Greatest number of states at a place.
 const MOST_STATES: usize = 64;
-
-/// The cost of a sequence of states.
-#[derive(Clone, Copy, Debug)]
-struct Cost {
-    failing: f64,
-    turning: f64,
-    rotary_margin: f64,
-    start: f64,
-    is_turned: bool,
-}
-
-impl Cost {
-    /// The cost of a sequence with one more place, which is `turning` away.
-    fn and(&self, place: &Self, turning: f64) -> Self {
-        Self {
-            failing: self.failing + place.failing,
-            turning: self.turning + turning,
-            rotary_margin: self.rotary_margin.min(place.rotary_margin),
-            ..*self
-        }
-    }
-
-    fn compare(&self, other: &Self) -> Ordering {
-        let by_turning = if (self.turning - other.turning).abs() <= EQUAL {
-            Ordering::Equal
-        } else {
-            self.turning.total_cmp(&other.turning)
-        };
-        self.failing
-            .total_cmp(&other.failing)
-            .then(by_turning)
-            .then(other.rotary_margin.total_cmp(&self.rotary_margin))
-            .then(self.start.total_cmp(&other.start))
-            .then(self.is_turned.cmp(&other.is_turned))
-    }
-}
 
 /// A state: h now and, inside a stretch, at its end.
 #[derive(Clone, Copy, Debug)]
@@ -68,22 +33,7 @@ struct State {
     h: [i32; 2],
     node: Option<Node>,
     cost: Cost,
-    parent: u32,
-}
-
-/// The chosen state at a place where it may change.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Chosen {
-    pub(super) h: [i32; 2],
-    /// alpha of the working solution; `None` if the place has no solution.
-    pub(super) alpha: Option<f64>,
-}
-
-/// The chosen states: one for each arrival, rapid, and beginning and end of a bounded stretch, in order.
-pub(super) type Choice = Vec<Chosen>;
-
-struct Stage {
-    states: Vec<(Chosen, u32)>,
+    parent: usize,
 }
 
 /// Chooses the states of a program.
@@ -91,7 +41,7 @@ pub(super) struct Chooser<'a> {
     setting: Setting<'a>,
     weights: [f64; 2],
     states: Vec<State>,
-    stages: Vec<Stage>,
+    stages: Stages,
     start: Option<[f64; 2]>,
     /// The end of the last motion, if it has not been examined.
     skipped: Option<Skipped>,
@@ -110,7 +60,7 @@ struct Skipped {
 impl<'a> Chooser<'a> {
     /// `weights` are those of turning of theta1 and theta2; `start` is where the table stands before the program.
     pub(super) fn new(setting: Setting<'a>, weights: [f64; 2], start: Option<[f64; 2]>) -> Self {
-        Self { setting, weights, states: Vec::new(), stages: Vec::new(), start, skipped: None }
+        Self { setting, weights, states: Vec::new(), stages: Stages::default(), start, skipped: None }
     }
 
     /// Examines the program; `go_on` is asked from time to time and ends the examination by `false`.
@@ -153,40 +103,20 @@ impl<'a> Chooser<'a> {
         self.examine_skipped();
         let before = std::mem::take(&mut self.states);
         let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
-        for h in self.half_turns(phi2) {
+        for h in self.setting.half_turns(phi2) {
             let target = self.setting.target(span, 1.0, &motion.end, [h, h]);
-            match self.setting.nodes(&target, motion.tool_length) {
-                Ok(nodes) => {
-                    for node in nodes {
-                        let state = self.entered(&before, [h, h], Some(node), motion);
-                        self.states.push(state);
-                    }
-                }
-                Err(_) => {
-                    let state = self.entered(&before, [h, h], None, motion);
-                    self.states.push(state);
-                }
+            let nodes = self.setting.nodes(&target, motion.tool_length).unwrap_or_default();
+            let none = nodes.is_empty().then_some(None);
+            let nodes = nodes.into_iter().map(Some).chain(none);
+            for node in nodes {
+                let state = self.entered(&before, [h, h], node, motion);
+                self.states.push(state);
             }
             if self.states.len() >= MOST_STATES {
                 break;
             }
         }
         self.stage();
-    }
-
-    /// h for which theta2 is within its range, or nearest to it.
-    fn half_turns(&self, phi2: f64) -> RangeInclusive<i32> {
-        let [low, high] = self.setting.machine.limits().rotary;
-        let turns = |theta2: f64| (-theta2 - phi2) / PI;
-        let (first, last) = ((turns(high) - 1e-12).ceil(), (turns(low) + 1e-12).floor());
-        let middle = turns(0.5 * (low + high)).round();
-        let most = f64::from(MOST_STATES as u32 / 4);
-        let [first, last] = if first <= last {
-            [first.max(middle - most), last.min(middle + most)]
-        } else {
-            [middle, middle]
-        };
-        first as i32..=last as i32
     }
 
     fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, motion: &Motion) -> State {
@@ -210,7 +140,7 @@ impl<'a> Chooser<'a> {
             }
         }
         let (cost, parent) = best.map_or((own, 0), |best| best);
-        State { h, node, cost, parent: parent as u32 }
+        State { h, node, cost, parent }
     }
 
     /// The cost of one place.
@@ -276,13 +206,13 @@ impl<'a> Chooser<'a> {
     /// Gives every state at the beginning of a stretch all its ends.
     fn spread(&mut self, phi2: f64) {
         self.examine_skipped();
-        let ends = self.half_turns(phi2);
+        let ends = self.setting.half_turns(phi2);
         let before = std::mem::take(&mut self.states);
         for (parent, state) in before.iter().enumerate() {
             for h in ends.clone().chain([state.h[1]]) {
                 let h = [state.h[1], h];
-                if self.states.iter().all(|other| other.h != h || other.parent as usize != parent) {
-                    self.states.push(State { h, parent: parent as u32, ..*state });
+                if self.states.iter().all(|other| other.h != h || other.parent != parent) {
+                    self.states.push(State { h, parent, ..*state });
                 }
             }
         }
@@ -294,7 +224,7 @@ impl<'a> Chooser<'a> {
         self.examine_skipped();
         let before = std::mem::take(&mut self.states);
         for (parent, state) in before.iter().enumerate() {
-            let state = State { h: [state.h[1]; 2], parent: parent as u32, ..*state };
+            let state = State { h: [state.h[1]; 2], parent, ..*state };
             let same = |other: &State| {
                 let near = match (other.node, state.node) {
                     (Some(a), Some(b)) => (a.pose.alpha - b.pose.alpha).abs() < 1e-6,
@@ -340,21 +270,14 @@ impl<'a> Chooser<'a> {
             let alpha = state.node.map(|node| node.pose.alpha);
             (Chosen { h: state.h, alpha }, state.parent)
         });
-        self.stages.push(Stage { states: states.collect() });
+        self.stages.push(states.collect());
     }
 
     fn traced(mut self) -> Choice {
         self.examine_skipped();
         let best = self.states.iter().enumerate().min_by(|(_, a), (_, b)| a.cost.compare(&b.cost));
-        let mut index = best.map_or(0, |(index, _)| index);
-        let mut choice: Choice = Vec::with_capacity(self.stages.len());
-        for stage in self.stages.iter().rev() {
-            let Some(&(chosen, parent)) = stage.states.get(index) else { break };
-            choice.push(chosen);
-            index = parent as usize;
-        }
-        choice.reverse();
-        choice
+        let last = best.map_or(0, |(index, _)| index);
+        self.stages.traced(last)
     }
 }
 
@@ -363,10 +286,4 @@ fn is_wound(a: &State, b: &State) -> bool {
     let turns = [0, 1].map(|end| a.h[end] - b.h[end]);
     let alpha = |state: &State| state.node.map(|node| node.pose.alpha.to_bits());
     turns[0] == turns[1] && turns[0] % 2 == 0 && alpha(a) == alpha(b)
-}
-
-/// Number of places that are examined on a part of a path.
-pub(super) fn places(longest: f64, path: &Path, part: f64) -> u32 {
-    let count = (path.length() / (LENGTH * longest)).max((path.turn() + path.sweep()) / ANGLE) * part;
-    count.ceil().clamp(1.0, 1e6) as u32
 }

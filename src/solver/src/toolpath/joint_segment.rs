@@ -14,10 +14,10 @@ use crate::residual::{errors, worst};
 use crate::rods::Rods;
 use crate::table::part_pose;
 
-/// Number of intervals between the places of a segment whose poses are solved.
-const INTERVALS: usize = 4;
+/// The fractions of a segment where the forward problem is solved.
+const QUARTERS: [f64; 3] = [0.25, 0.5, 0.75];
 /// Number of intervals between the places where the deviation is interpolated or solved.
-const FINE_INTERVALS: usize = 16;
+const FINE_INTERVALS: u32 = 16;
 /// Part of the tolerance that the last term of an interpolated deviation may be.
 const SMALL: f64 = 0.02;
 /// Newton steps at one place.
@@ -68,7 +68,7 @@ pub(super) struct Stop {
 /// The poses of the platform along a segment.
 pub(super) struct JointSegment {
     /// At 1/4, 1/2 and 3/4.
-    poses: [PlatformPose; INTERVALS - 1],
+    poses: [PlatformPose; 3],
     ends: [Node; 2],
 }
 
@@ -78,7 +78,7 @@ impl JointSegment {
     pub(super) fn new(machine: &Machine, a: &Node, b: &Node) -> Option<Self> {
         let middle_joints = between(a, b, 0.5);
         let (middle, inverse) = newton(machine, middle_joints.rho, blended(&a.pose, &b.pose, 0.5))?;
-        let mut poses = [middle; INTERVALS - 1];
+        let mut poses = [middle; 3];
         for (i, t) in [(0, 0.25), (2, 0.75)] {
             let guess = parabola(&a.pose, &middle, &b.pose, t);
             let rho = between(a, b, t).rho;
@@ -87,17 +87,17 @@ impl JointSegment {
         Some(Self { poses, ends: [*a, *b] })
     }
 
-    /// The joints and the pose at a quarter of the segment: 1, 2 or 3.
-    fn quarter(&self, quarter: usize) -> Node {
-        let t = quarter as f64 / INTERVALS as f64;
-        Node { pose: self.poses[quarter - 1], ..between(&self.ends[0], &self.ends[1], t) }
+    /// The joints and the pose at one of the [`QUARTERS`].
+    fn quarter(&self, index: usize) -> Node {
+        let t = QUARTERS[index];
+        Node { pose: self.poses[index], ..between(&self.ends[0], &self.ends[1], t) }
     }
 
     /// The joints and the pose at places between the ends, with their fraction of the segment. `None` where the
     /// forward problem has no solution.
     pub(super) fn places(&self, machine: &Machine) -> impl Iterator<Item = Option<(f64, Node)>> {
         (1..FINE_INTERVALS).map(move |i| {
-            let t = i as f64 / FINE_INTERVALS as f64;
+            let t = f64::from(i) / f64::from(FINE_INTERVALS);
             let joints = between(&self.ends[0], &self.ends[1], t);
             let guess = parabola(&self.ends[0].pose, &self.poses[1], &self.ends[1].pose, t);
             let (pose, _) = newton(machine, joints.rho, guess)?;
@@ -121,16 +121,16 @@ impl JointSegment {
             let tool = tool_position(track.setting.machine, node, track.tool_length);
             from_path(track.path, ends, t, tool, tolerance)
         };
-        let offsets = [1, 2, 3].map(|quarter| at(quarter as f64 / INTERVALS as f64, &self.quarter(quarter)));
+        let offsets = [0, 1, 2].map(|index| at(QUARTERS[index], &self.quarter(index)));
         // Inside a cap the axis is off its path at the ends, too.
         let held = if track.span.stretch().is_some() {
-            [0, 1].map(|end| at(end as f64, &self.ends[end])[1])
+            [at(0.0, &self.ends[0])[1], at(1.0, &self.ends[1])[1]]
         } else {
             [Vector3::zeros(); 2]
         };
         let tips = Interpolated::new(offsets.map(|[tip, _]| tip));
         let axes = Interpolated::new(std::array::from_fn(|i| {
-            let t = (i + 1) as f64 / INTERVALS as f64;
+            let t = QUARTERS[i];
             offsets[i][1] - (held[0] * (1.0 - t) + held[1] * t)
         }));
         let last = Deviation { tip: tips.last(), axis: axes.last() };
@@ -196,7 +196,7 @@ impl Interpolated {
 
     fn greatest(&self) -> f64 {
         let square = (1..FINE_INTERVALS).fold(0.0_f64, |greatest, i| {
-            let t = i as f64 / FINE_INTERVALS as f64;
+            let t = f64::from(i) / f64::from(FINE_INTERVALS);
             let (bump, slant) = (t * (1.0 - t), 1.0 - 2.0 * t);
             let [a, b, c] = self.terms;
             let value = (a + b * slant + c * (0.25 * slant * slant)) * bump;

@@ -1,7 +1,12 @@
 //! The joints at one place of the path.
 
-use super::meridian::{Span, Stretch, inclination};
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+
+use super::azimuth::inclination;
+use super::meridian::Span;
 use super::motion::ToolPosition;
+use super::stretches::Stretch;
 use crate::clearance::Clearance;
 use crate::inverse::{part_every_working, part_working};
 use crate::limit::{Margin, Refusal};
@@ -12,6 +17,9 @@ use crate::posture::Posture;
 
 /// The difference of alpha to the place before above which other working solutions are looked for, rad.
 const NEAR: f64 = 0.05;
+
+/// Greatest number of half turns to each side of the middle of the rotary range.
+const MOST_HALF_TURNS: i32 = 16;
 
 /// What does not change along a program.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +40,7 @@ pub(super) struct Node {
     pub(super) table: TableAngles,
 }
 
-impl<'a> Setting<'a> {
+impl Setting<'_> {
     /// The pose of the tool at a place, for h half turns at the beginning and the end of a stretch.
     pub(super) fn target(&self, span: &Span, s: f64, at: &ToolPosition, h: [i32; 2]) -> PartPose {
         let phi2 = span.phi2(self.stretches, s, at.axis, h);
@@ -75,6 +83,21 @@ impl<'a> Setting<'a> {
     pub(super) fn worst(&self, node: &Node, tool_length: f64) -> (Margin, f64) {
         self.margins(node, tool_length).weighed(self.machine)
     }
+
+    /// h for which theta2 is within its range, or nearest to it.
+    pub(super) fn half_turns(&self, phi2: f64) -> RangeInclusive<i32> {
+        let [low, high] = self.machine.limits().rotary;
+        let turns = |theta2: f64| (-theta2 - phi2) / PI;
+        let (first, last) = ((turns(high) - 1e-12).ceil(), (turns(low) + 1e-12).floor());
+        let middle = turns(0.5 * (low + high)).round();
+        let most = f64::from(MOST_HALF_TURNS);
+        let [first, last] = if first <= last {
+            [first.max(middle - most), last.min(middle + most)]
+        } else {
+            [middle, middle]
+        };
+        whole(first)..=whole(last)
+    }
 }
 
 impl Node {
@@ -93,4 +116,9 @@ impl Node {
         weights[0] * (self.table.theta1 - other.table.theta1).abs()
             + weights[1] * (self.table.theta2 - other.table.theta2).abs()
     }
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "clamped to the range of the type")]
+fn whole(number: f64) -> i32 {
+    number.clamp(-1e6, 1e6) as i32
 }

@@ -3,9 +3,14 @@
 use nalgebra::Vector3;
 
 use super::motion::{Curve, Motion, ToolPosition, Turning};
-use crate::angle::sin_cos;
+use crate::angle::{angle_of_vector, sin_cos};
 use crate::axis::tool_axis;
 use crate::pose::Point;
+
+/// Angle of the axis or of an arc between two places that are examined, rad.
+const ANGLE: f64 = 0.1;
+/// Fraction of the machine's longest dimension between two places that are examined.
+const LENGTH: f64 = 1.0 / 16.0;
 
 /// The path of a motion.
 #[derive(Clone, Copy, Debug)]
@@ -200,7 +205,7 @@ fn great_circle(start: [f64; 3], end: [f64; 3]) -> AxisPath {
     }
     let (a, b) = (Vector3::from(start), Vector3::from(end));
     let (cross, dot) = (a.cross(&b), a.dot(&b));
-    let angle = cross.norm().atan2(dot);
+    let angle = angle_of_vector(dot, cross.norm());
     let across = b - a * dot;
     let norm = across.norm();
     if norm == 0.0 {
@@ -211,4 +216,19 @@ fn great_circle(start: [f64; 3], end: [f64; 3]) -> AxisPath {
 
 fn rotated(frame: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     frame.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+}
+
+/// Number of places that are examined on a part of a path.
+pub(super) fn places(longest: f64, path: &Path, part: f64) -> u32 {
+    let count = (path.length() / (LENGTH * longest)).max((path.turn() + path.sweep()) / ANGLE) * part;
+    count_of(count)
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to the range of the type"
+)]
+pub(super) fn count_of(number: f64) -> u32 {
+    number.ceil().clamp(1.0, 1e6) as u32
 }
