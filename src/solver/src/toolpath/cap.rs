@@ -15,7 +15,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_8;
 pub(super) struct Cap {
     sine: f64,
     /// Length that counts as much as a radian, mm.
-    scale: f64,
+    pub(super) scale: f64,
 }
 
 impl Cap {

@@ -22,8 +22,8 @@ use super::stretches::Place;
 
 /// Angle and fraction of the machine's longest dimension between two ends of motions: ends that are closer to the last
 /// place are not examined.
-const LEAST_ANGLE: f64 = 0.02;
-const LEAST_LENGTH: f64 = 1.0 / 256.0;
+const LEAST_ANGLE: f64 = 0.005;
+const LEAST_LENGTH: f64 = 1.0 / 512.0;
 /// Greatest number of states at a place.
 const MOST_STATES: usize = 64;
 

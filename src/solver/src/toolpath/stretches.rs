@@ -7,6 +7,9 @@ use super::cap::Cap;
 use super::motion::{Motion, MotionKind, Motions, ToolPosition};
 use super::path::Path;
 
+/// Measure, relative to the machine's longest dimension, of a stretch that is a point.
+const LEAST_MEASURE: f64 = 1e-9;
+
 /// A place on the path of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
@@ -45,7 +48,7 @@ struct Open {
 
 /// Finds the stretches of a program inside the cap. `fallback` is phi2 where nothing determines it.
 pub(super) fn stretches<M: Motions + ?Sized>(motions: &M, cap: &Cap, fallback: f64) -> Vec<Stretch> {
-    let mut survey = Survey { stretches: Vec::new(), phi2: None, open: None, fallback };
+    let mut survey = Survey { stretches: Vec::new(), phi2: None, open: None, fallback, scale: cap.scale };
     let mut start: Option<ToolPosition> = None;
     for index in 0..motions.count() {
         let motion = motions.motion(index);
@@ -68,6 +71,7 @@ struct Survey {
     phi2: Option<f64>,
     open: Option<Open>,
     fallback: f64,
+    scale: f64,
 }
 
 impl Survey {
@@ -113,6 +117,7 @@ impl Survey {
         let phi2 = [open.from.unwrap_or(free), exit.unwrap_or(free)];
         let has_rapid = open.rapid > 0.0;
         let measure = if has_rapid { open.rapid } else { open.all };
+        let measure = if measure < LEAST_MEASURE * self.scale { 0.0 } else { measure };
         let is_bounded = open.from.is_some() && exit.is_some();
         self.stretches.push(Stretch { start: open.start, end, phi2, measure, has_rapid, is_bounded });
         self.phi2 = Some(phi2[1]);
