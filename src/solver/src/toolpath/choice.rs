@@ -19,6 +19,7 @@ use super::motion::{Motion, MotionKind, Motions, ToolPosition};
 use super::node::{Node, Setting};
 use super::path::{Path, places};
 use super::stretches::Place;
+use crate::margins::Margins;
 
 /// Angle and fraction of the machine's longest dimension between two ends of motions: ends that are closer to the last
 /// place are not examined.
@@ -32,6 +33,8 @@ const MOST_STATES: usize = 64;
 struct State {
     h: [i32; 2],
     node: Option<Node>,
+    /// Whether all limits but the rotary axis' hold.
+    holds: bool,
     cost: Cost,
     parent: usize,
 }
@@ -120,7 +123,8 @@ impl<'a> Chooser<'a> {
     }
 
     fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, motion: &Motion) -> State {
-        let own = self.place_cost(node.as_ref(), motion.tool_length);
+        let holds = self.holds(node.as_ref(), motion.tool_length);
+        let own = self.place_cost(node.as_ref(), holds);
         if before.is_empty() {
             let turning = node.zip(self.start).map_or(0.0, |(node, [theta1, theta2])| {
                 self.weights[0] * (node.table.theta1 - theta1).abs()
@@ -128,7 +132,7 @@ impl<'a> Chooser<'a> {
             });
             let start = node.map_or(f64::INFINITY, |node| node.table.theta2.abs());
             let cost = Cost { turning, start, is_turned: h[1].rem_euclid(2) == 1, ..own };
-            return State { h, node, cost, parent: 0 };
+            return State { h, node, holds, cost, parent: 0 };
         }
         let mut best: Option<(Cost, usize)> = None;
         for (parent, state) in before.iter().enumerate() {
@@ -140,26 +144,23 @@ impl<'a> Chooser<'a> {
             }
         }
         let (cost, parent) = best.map_or((own, 0), |best| best);
-        State { h, node, cost, parent }
+        State { h, node, holds, cost, parent }
     }
 
-    /// The cost of one place.
-    fn place_cost(&self, node: Option<&Node>, tool_length: f64) -> Cost {
-        let mut cost = Cost {
-            failing: 1.0,
-            turning: 0.0,
-            rotary_margin: f64::NEG_INFINITY,
-            start: 0.0,
-            is_turned: false,
-        };
-        if let Some(node) = node {
-            let [low, high] = self.setting.machine.limits().rotary;
-            cost.rotary_margin = (node.table.theta2 - low).min(high - node.table.theta2);
-            if self.setting.worst(node, tool_length).0.value >= 0.0 {
-                cost.failing = 0.0;
-            }
-        }
-        cost
+    /// Whether all limits but the rotary axis' hold.
+    fn holds(&self, node: Option<&Node>, tool_length: f64) -> bool {
+        node.is_some_and(|node| {
+            Margins { rotary: None, ..self.setting.margins(node, tool_length) }.feasible()
+        })
+    }
+
+    /// The cost of one place, where the limits but the rotary axis' hold or not.
+    fn place_cost(&self, node: Option<&Node>, holds: bool) -> Cost {
+        let [low, high] = self.setting.machine.limits().rotary;
+        let rotary_margin =
+            node.map_or(f64::NEG_INFINITY, |node| (node.table.theta2 - low).min(high - node.table.theta2));
+        let failing = if holds && rotary_margin >= 0.0 { 0.0 } else { 1.0 };
+        Cost { failing, turning: 0.0, rotary_margin, start: 0.0, is_turned: false }
     }
 
     fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
@@ -257,10 +258,12 @@ impl<'a> Chooser<'a> {
                     self.setting.node(&target, motion.tool_length, alpha).ok()
                 }
             };
-            let own = self.place_cost(node.as_ref(), motion.tool_length);
+            let holds =
+                twin.map_or_else(|| self.holds(node.as_ref(), motion.tool_length), |j| self.states[j].holds);
+            let own = self.place_cost(node.as_ref(), holds);
             let turning =
                 node.zip(state.node).map_or(0.0, |(node, from)| node.turning_from(&from, self.weights));
-            self.states.push(State { node, cost: state.cost.and(&own, turning), ..*state });
+            self.states.push(State { node, holds, cost: state.cost.and(&own, turning), ..*state });
         }
     }
 

@@ -9,7 +9,7 @@ use super::motion::ToolPosition;
 use super::stretches::Stretch;
 use crate::clearance::Clearance;
 use crate::inverse::{part_every_working, part_working};
-use crate::limit::{Margin, Refusal};
+use crate::limit::Refusal;
 use crate::machine::Machine;
 use crate::margins::Margins;
 use crate::pose::{PartPose, PlatformPose, TableAngles};
@@ -77,11 +77,6 @@ impl Setting<'_> {
     pub(super) fn margins(&self, node: &Node, tool_length: f64) -> Margins {
         let clearance = Clearance::of(self.machine, self.table_clearance, tool_length, self.tool_radius);
         Margins::of_joints(self.machine, &node.pose, node.rho, node.table, clearance.as_ref())
-    }
-
-    /// The worst margin of a place, and its fraction of its constraint's range.
-    pub(super) fn worst(&self, node: &Node, tool_length: f64) -> (Margin, f64) {
-        self.margins(node, tool_length).weighed(self.machine)
     }
 
     /// h for which theta2 is within its range, or nearest to it.

@@ -144,7 +144,7 @@ fn best_fit(
         let at = exact(start, motion, s);
         (distance(at.tip, tip) / options.tolerance.tip).max(distance(at.axis, axis) / options.tolerance.axis)
     };
-    let count = 4_000;
+    let count = 200;
     let best = (0..=count).min_by(|a, b| {
         let at = |i: &i32| miss(f64::from(*i) / f64::from(count));
         at(a).total_cmp(&at(b))
