@@ -11,6 +11,12 @@ const SEAM: f64 = 1e-9;
 /// Sine of the inclination below which an axis has no azimuth.
 const LEAST_SINE: f64 = 1e-9;
 
+/// The axis of an orientation `[phi1, phi2]`.
+pub(super) fn axis_of([phi1, phi2]: [f64; 2]) -> [f64; 3] {
+    let ((s1, c1), (s2, c2)) = (sin_cos(phi1), sin_cos(phi2));
+    [s1 * s2, -s1 * c2, c1]
+}
+
 /// phi1 of an axis on the meridian phi2, rad: of its component there, if phi2 is not its own.
 pub(super) fn inclination([i, j, k]: [f64; 3], phi2: f64) -> f64 {
     let (sin, cos) = sin_cos(phi2);
@@ -31,7 +37,7 @@ fn direction_azimuth(i: f64, j: f64) -> f64 {
 pub(super) fn azimuths(path: &Path, ends: [f64; 2]) -> [f64; 2] {
     let at = |s: f64, sign: f64| {
         azimuth(path.at(s).axis).unwrap_or_else(|| {
-            let [_, rate] = path.rates(s);
+            let (_, [_, rate]) = path.with_rates(s);
             direction_azimuth(sign * rate.x, sign * rate.y)
         })
     };

@@ -77,16 +77,6 @@ impl Path {
         ToolPosition { tip: self.tip(s).into(), axis: self.axis(s).into() }
     }
 
-    /// The tool's end and axis at a parameter, by the formulas also at the ends.
-    pub(super) fn vectors(&self, s: f64) -> [Vector3<f64>; 2] {
-        [self.tip(s), self.axis(s)]
-    }
-
-    /// The same, and their derivatives by the parameter.
-    pub(super) fn with_rates(&self, s: f64) -> ([Vector3<f64>; 2], [Vector3<f64>; 2]) {
-        (self.vectors(s), self.rates(s))
-    }
-
     fn tip(&self, s: f64) -> Vector3<f64> {
         let (a, b) = (Vector3::from(self.start.tip), Vector3::from(self.end.tip));
         match self.tip {
@@ -112,21 +102,22 @@ impl Path {
         }
     }
 
-    /// Derivatives of the position and of the axis by the parameter.
-    pub(super) fn rates(&self, s: f64) -> [Vector3<f64>; 2] {
-        let (a, b) = (Vector3::from(self.start.tip), Vector3::from(self.end.tip));
-        let tip = match self.tip {
-            TipPath::Line => b - a,
-            TipPath::Arc { radius, sweep, rest, .. } => {
+    /// The tool's end and axis at a parameter, and their derivatives by it.
+    pub(super) fn with_rates(&self, s: f64) -> ([Vector3<f64>; 2], [Vector3<f64>; 2]) {
+        let (tip, tip_rate) = match self.tip {
+            TipPath::Line => (self.tip(s), Vector3::from(self.end.tip) - Vector3::from(self.start.tip)),
+            TipPath::Arc { centre, radius, along, sweep, rest } => {
                 let (sin, cos) = sin_cos(sweep * s);
-                (radius[1] * cos - radius[0] * sin) * sweep + rest
+                let tip = centre + along + radius[0] * cos + radius[1] * sin + rest * s;
+                (tip, (radius[1] * cos - radius[0] * sin) * sweep + rest)
             }
         };
-        let axis = match &self.axis {
-            AxisPath::Fixed => Vector3::zeros(),
+        let (axis, axis_rate) = match &self.axis {
+            AxisPath::Fixed => (self.axis(s), Vector3::zeros()),
             AxisPath::GreatCircle { towards, angle } => {
                 let (sin, cos) = sin_cos(angle * s);
-                (towards * cos - Vector3::from(self.start.axis) * sin) * *angle
+                let start = Vector3::from(self.start.axis);
+                (start * cos + towards * sin, (towards * cos - start * sin) * *angle)
             }
             AxisPath::Angles { start, end, frame } => {
                 let rate = [0, 1].map(|i| end[i] - start[i]);
@@ -134,10 +125,10 @@ impl Path {
                 let ((s1, c1), (s2, c2)) = (sin_cos(phi1), sin_cos(phi2));
                 let along = [c1 * s2, -c1 * c2, -s1].map(|c| c * rate[0]);
                 let across = [s1 * c2, s1 * s2, 0.0].map(|c| c * rate[1]);
-                rotated(frame, std::array::from_fn(|i| along[i] + across[i])).into()
+                (self.axis(s), rotated(frame, std::array::from_fn(|i| along[i] + across[i])).into())
             }
         };
-        [tip, axis]
+        ([tip, axis], [tip_rate, axis_rate])
     }
 
     /// Greatest second derivatives by the parameter: of the position, mm, and of the axis, rad.

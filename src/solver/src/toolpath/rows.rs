@@ -5,6 +5,7 @@ mod rapid;
 
 use std::f64::consts::PI;
 
+use super::azimuth::axis_of;
 use super::choice::Chosen;
 use super::joint_segment::{Deviation, JointSegment, Track};
 use super::meridian::{Meridian, Span};
@@ -12,7 +13,6 @@ use super::motion::{MotionKind, Motions, ToolPosition};
 use super::node::{Node, Setting};
 use super::path::{Path, places};
 use super::report::Report;
-use crate::axis::tool_axis;
 use crate::limit::{Constraint, Element, Margin, Refusal};
 use crate::pose::TableAngles;
 
@@ -172,7 +172,7 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         let margins = self.setting.margins(node, tool_length);
         let (margin, fraction) = self.report.meet(self.setting.machine, index, s, &margins);
         let phi = [node.pose.alpha - node.table.theta1, -node.table.theta2];
-        let position = ToolPosition { tip: at.tip, axis: tool_axis(phi[0], phi[1]) };
+        let position = ToolPosition { tip: at.tip, axis: axis_of(phi) };
         let inclination = (phi[0] + PI).rem_euclid(2.0 * PI) - PI;
         self.report.add_row(node, self.now.as_ref(), inclination);
         (self.emit)(&Row { motion: index, kind, position, rho: node.rho, table: node.table, margin });
