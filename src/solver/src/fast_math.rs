@@ -112,6 +112,13 @@ pub(crate) fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
+/// The angle of a vector that need not have unit length, in (-π, π]; zero for a vector of no length.
+#[inline]
+pub(crate) fn angle_of_vector(x: f64, y: f64) -> f64 {
+    let length = (x * x + y * y).sqrt();
+    if length > 0.0 { angle_of(x / length, y / length) } else { 0.0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -133,6 +133,7 @@ mod request_range;
 mod residual;
 mod rods;
 mod table;
+pub mod toolpath;
 mod trig_polynomial;
 pub mod workspace;
 

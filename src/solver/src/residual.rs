@@ -64,7 +64,7 @@ fn corrected(mechanism: &Mechanism, pose: PlatformPose, rho: [f64; 3]) -> Checke
 
 /// The rods' length errors in Eqs (3)-(6), mm.
 #[inline]
-fn errors(mechanism: &Mechanism, pose: &PlatformPose, rho: [f64; 3]) -> [f64; 4] {
+pub(crate) fn errors(mechanism: &Mechanism, pose: &PlatformPose, rho: [f64; 3]) -> [f64; 4] {
     let g = &mechanism.geometry;
     let (s, c) = sin_cos(pose.alpha);
     let vectors = vectors_of(mechanism, pose, rho, [c, s]);
@@ -76,7 +76,7 @@ fn errors(mechanism: &Mechanism, pose: &PlatformPose, rho: [f64; 3]) -> [f64; 4]
 }
 
 #[inline]
-fn largest(errors: &[f64; 4]) -> f64 {
+pub(crate) fn largest(errors: &[f64; 4]) -> f64 {
     let [a, b, c, d] = errors.map(f64::abs);
     greater(greater(a, b), greater(c, d))
 }

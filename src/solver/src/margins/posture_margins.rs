@@ -137,6 +137,19 @@ impl Margins {
         Self { table_clearance: above, ..Self::of(machine, posture, table) }
     }
 
+    /// [`Self::above_table`] from the platform's pose, the sliders and the table's angles.
+    #[inline]
+    pub(crate) fn of_joints(
+        machine: &Machine,
+        pose: &PlatformPose,
+        rho: [f64; 3],
+        table: TableAngles,
+        clearance: Option<&Clearance>,
+    ) -> Self {
+        let above = clearance.map(|clearance| clearance.margin(machine, pose, table));
+        Self { table_clearance: above, ..Self::of_solution(machine, pose, rho, Some(table)) }
+    }
+
     /// Whether every margin is at least zero.
     ///
     /// # References

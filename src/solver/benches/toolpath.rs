@@ -1,0 +1,86 @@
+//! What a planned row costs in working inverse problems of the part frame: `cargo bench --bench toolpath`.
+//!
+//! Both are timed in the same run. The target is at most six.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use verne_solver::axis::{Preimages, preimages};
+use verne_solver::toolpath::{Curve, Motion, MotionKind, PlanOptions, ToolPosition, Turning, plan};
+use verne_solver::{Machine, PartPose, part_working};
+
+const ROUNDS: usize = 5;
+
+/// A dome finished in a raster: `lines` lines of `points` points.
+fn dome(lines: u32, points: u32) -> Vec<Motion> {
+    let mut program = Vec::new();
+    for line in 0..lines {
+        for point in 0..points {
+            let along = f64::from(point) / f64::from(points - 1);
+            let along = if line % 2 == 0 { along } else { 1.0 - along };
+            let [x, y] = [120.0 * along - 60.0, 120.0 * f64::from(line) / f64::from(lines) - 60.0];
+            let radius = 200.0;
+            let z = (radius * radius - x * x - y * y).sqrt();
+            let axis = [x / radius, y / radius, z / radius];
+            let kind = match (line, point) {
+                (0, 0) => MotionKind::Arrive,
+                (_, 0) => MotionKind::Rapid,
+                _ => MotionKind::Feed,
+            };
+            program.push(Motion {
+                kind,
+                end: ToolPosition { tip: [x, y, z + 120.0], axis },
+                curve: Curve::Line,
+                turning: Turning::GreatCircle,
+                tool_length: 100.0,
+            });
+        }
+    }
+    program
+}
+
+fn number(count: usize) -> f64 {
+    f64::from(u32::try_from(count).unwrap_or(u32::MAX))
+}
+
+fn main() {
+    let machine = Machine::verne();
+    for (lines, points) in [(100, 500), (2_000, 12)] {
+        let program = dome(lines, points);
+        let targets: Vec<PartPose> = program
+            .iter()
+            .filter_map(|motion| {
+                let Preimages::Two([[phi1, phi2], _]) = preimages(motion.end.axis)? else { return None };
+                let [x, y, z] = motion.end.tip;
+                Some(PartPose { x, y, z, phi1, phi2 })
+            })
+            .collect();
+        let mut ratios = Vec::new();
+        let mut rows = 0_u64;
+        for _ in 0..ROUNDS {
+            let start = Instant::now();
+            for target in &targets {
+                let _ = black_box(part_working(&machine, black_box(target), 100.0));
+            }
+            let solve = start.elapsed().as_secs_f64() / number(targets.len());
+            let start = Instant::now();
+            let options = PlanOptions::default();
+            let report = plan(
+                &machine,
+                &program[..],
+                &options,
+                |_| true,
+                |row| {
+                    black_box(row);
+                },
+            );
+            let Ok(report) = report else { continue };
+            rows = report.rows;
+            let row = start.elapsed().as_secs_f64() / number(usize::try_from(rows).unwrap_or_default());
+            println!("{} ns a solution, {} ns a row", solve * 1e9, row * 1e9);
+            ratios.push(row / solve);
+        }
+        ratios.sort_by(f64::total_cmp);
+        println!("{} motions, {rows} rows: {:.2} solutions a row", program.len(), ratios[ratios.len() / 2]);
+    }
+}

@@ -1,0 +1,181 @@
+//! Tool paths: from the motions of a program to joint motion.
+//!
+//! [`plan`] chooses preimage, winding and working solution for a whole program, divides the motions into rows between
+//! which a controller may move the joints linearly, and reports where the machine's limits are broken.
+
+mod azimuth;
+mod bound;
+mod cap;
+mod choice;
+mod joint_segment;
+mod linearise;
+mod meridian;
+mod motion;
+mod node;
+mod path;
+mod report;
+mod rows;
+mod stretches;
+
+use std::fmt;
+
+pub use joint_segment::Deviation;
+pub use motion::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
+pub use report::{Departure, Failure, LeastMargin, MOST_DEPARTURES, MOST_FAILURES, Report};
+pub use rows::{Row, RowKind};
+
+use crate::machine::Machine;
+use crate::pose::TableAngles;
+use cap::Cap;
+use choice::Chooser;
+use meridian::Meridian;
+use node::Setting;
+use rows::{RowSettings, Rower};
+use stretches::stretches;
+
+/// Share of the progress that the choice of states is counted as.
+const CHOICE_SHARE: f64 = 0.4;
+
+/// What a plan keeps to. Lengths are millimetres, angles radians.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanOptions {
+    /// Greatest deviation of feed motions.
+    pub tolerance: Deviation,
+    /// Greatest deviation of the tool's end in rapids.
+    pub rapid_tolerance: f64,
+    /// Half-angle of the cap around the pole in which theta2 is free; part of the axis tolerance.
+    pub pole: f64,
+    /// Radius of the tool's end, for the height over the table.
+    pub tool_radius: f64,
+    /// Least height over the table; `None`: the machine's.
+    pub table_clearance: Option<f64>,
+    /// Where the table stands before the program; `None`: where the first position has it.
+    pub start: Option<TableAngles>,
+    /// Whether the joints move straight in all rapids.
+    pub joint_rapids: bool,
+    /// Weights of turning of theta1 and theta2.
+    pub weights: [f64; 2],
+    /// Greatest number of rows.
+    pub most_rows: u64,
+}
+
+impl Default for PlanOptions {
+    fn default() -> Self {
+        let axis = 0.05_f64.to_radians();
+        Self {
+            tolerance: Deviation { tip: 0.01, axis },
+            rapid_tolerance: 1.0,
+            pole: 0.5 * axis,
+            tool_radius: 0.0,
+            table_clearance: None,
+            start: None,
+            joint_rapids: false,
+            weights: [1.0; 2],
+            most_rows: 20_000_000,
+        }
+    }
+}
+
+/// Why there is no plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlanError {
+    /// The observer stopped the computation.
+    Cancelled,
+    /// The plan has more rows than allowed.
+    TooManyRows,
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Cancelled => "the computation was cancelled",
+            Self::TooManyRows => "the plan has more rows than allowed; increase the tolerance",
+        })
+    }
+}
+
+impl std::error::Error for PlanError {}
+
+/// Plans a program: calls `emit` with each row, in order, and reports.
+///
+/// `progress` receives the fraction of the work that is done and stops the computation by `false`. It is called for
+/// every motion.
+///
+/// # Units
+///
+/// Millimetres and radians.
+///
+/// # Errors
+///
+/// [`PlanError`]. A program that breaks limits is no error: see [`Report::failures`].
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (8), (9), (14), (26) relate
+/// the program's tool positions to the joints; the planning is not in the paper.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::toolpath::{
+///     Curve, Motion, MotionKind, PlanError, PlanOptions, ToolPosition, Turning, plan,
+/// };
+///
+/// let to = |kind, x| Motion {
+///     kind,
+///     end: ToolPosition { tip: [x, 0.0, 300.0], axis: [0.0, 0.0, 1.0] },
+///     curve: Curve::Line,
+///     turning: Turning::GreatCircle,
+///     tool_length: 100.0,
+/// };
+/// let program = [to(MotionKind::Arrive, -150.0), to(MotionKind::Feed, 150.0)];
+/// let mut rows = Vec::new();
+/// let report = plan(&Machine::verne(), &program[..], &PlanOptions::default(), |_| true, |row| rows.push(*row))?;
+/// assert!(report.is_feasible());
+/// assert!(rows.len() > 30, "a single segment would bend the line by 17 mm");
+/// assert!(report.deviation.tip <= 0.01);
+/// # Ok::<(), PlanError>(())
+/// ```
+pub fn plan<M: Motions + ?Sized>(
+    machine: &Machine,
+    motions: &M,
+    options: &PlanOptions,
+    mut progress: impl FnMut(f64) -> bool,
+    emit: impl FnMut(&Row),
+) -> Result<Report, PlanError> {
+    let cap = Cap::new(options.pole, machine.longest());
+    let start = options.start.map(|table| [table.theta1, table.theta2]);
+    let stretches = stretches(motions, &cap, start.map_or(0.0, |[_, theta2]| -theta2));
+    let setting = Setting {
+        machine,
+        stretches: &stretches,
+        table_clearance: options.table_clearance,
+        tool_radius: options.tool_radius,
+        pole: options.pole,
+    };
+    let part = |index: usize| fraction(index, motions.count());
+    let chooser = Chooser::new(setting, options.weights, start);
+    let choice = chooser.choose(motions, cap, |index| progress(CHOICE_SHARE * part(index)));
+    let choice = choice.ok_or(PlanError::Cancelled)?;
+    let settings = RowSettings {
+        feed: options.tolerance,
+        rapid: Deviation { tip: options.rapid_tolerance, axis: f64::INFINITY },
+        joint_rapids: options.joint_rapids,
+    };
+    let mut is_full = false;
+    let report = Rower::new(setting, &settings, &choice, emit).run(
+        motions,
+        Meridian::new(cap, &stretches),
+        |index, rows| {
+            is_full = rows > options.most_rows;
+            !is_full && progress(CHOICE_SHARE + (1.0 - CHOICE_SHARE) * part(index))
+        },
+    );
+    report.ok_or(if is_full { PlanError::TooManyRows } else { PlanError::Cancelled })
+}
+
+#[allow(clippy::cast_precision_loss, reason = "progress")]
+fn fraction(index: usize, count: usize) -> f64 {
+    index as f64 / count.max(1) as f64
+}

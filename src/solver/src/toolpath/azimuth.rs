@@ -1,0 +1,59 @@
+//! Azimuth and inclination of the tool's axis.
+
+use std::f64::consts::{PI, TAU};
+
+use super::motion::Motion;
+use super::path::Path;
+use crate::fast_math::{angle_of_vector, sin_cos};
+
+/// Width of the strip beside an azimuth of half a turn whose sign is rounding, rad.
+const SEAM: f64 = 1e-9;
+/// Sine of the inclination below which an axis has no azimuth.
+const LEAST_SINE: f64 = 1e-9;
+
+/// The axis of an orientation `[phi1, phi2]`.
+pub(super) fn axis_of([phi1, phi2]: [f64; 2]) -> [f64; 3] {
+    let ((s1, c1), (s2, c2)) = (sin_cos(phi1), sin_cos(phi2));
+    [s1 * s2, -s1 * c2, c1]
+}
+
+/// phi1 of an axis on the meridian phi2, rad: of its component there, if phi2 is not its own.
+pub(super) fn inclination([i, j, k]: [f64; 3], phi2: f64) -> f64 {
+    let (sin, cos) = sin_cos(phi2);
+    angle_of_vector(k, i * sin - j * cos)
+}
+
+/// phi2 of an axis with phi1 >= 0, rad, in (-π, π] but for rounding; `None` at the pole.
+pub(super) fn azimuth([i, j, _]: [f64; 3]) -> Option<f64> {
+    (i * i + j * j > LEAST_SINE * LEAST_SINE).then(|| direction_azimuth(i, j))
+}
+
+fn direction_azimuth(i: f64, j: f64) -> f64 {
+    let azimuth = angle_of_vector(0.0 - j, i);
+    if azimuth <= SEAM - PI { azimuth + TAU } else { azimuth }
+}
+
+/// The azimuths at both ends of a part of a path outside the cap. At the pole itself it is that of the way from it.
+pub(super) fn azimuths(path: &Path, ends: [f64; 2]) -> [f64; 2] {
+    let at = |s: f64, sign: f64| {
+        azimuth(path.at(s).axis).unwrap_or_else(|| {
+            let (_, [_, rate]) = path.with_rates(s);
+            direction_azimuth(sign * rate.x, sign * rate.y)
+        })
+    };
+    [at(ends[0], 1.0), at(ends[1], -1.0)]
+}
+
+/// The difference modulo `period` that is nearest to zero; of two, the positive one.
+pub(super) fn to_nearest(difference: f64, period: f64) -> f64 {
+    difference - period * (difference / period - 0.5 - SEAM).ceil()
+}
+
+pub(super) fn of_arrival(motion: &Motion) -> f64 {
+    azimuth(motion.end.axis).unwrap_or(0.0)
+}
+
+/// The value nearest to `before` with this azimuth, modulo half turns.
+pub(super) fn continued(before: Option<f64>, azimuth: f64) -> f64 {
+    before.map_or(azimuth, |before| before + to_nearest(azimuth - before, PI))
+}

@@ -1,0 +1,108 @@
+//! The cap around the pole in which phi2 is free.
+
+use super::path::{Path, count_of};
+
+/// Greatest angle that linear phi1 and phi2 move through in a step, rad.
+const STEP: f64 = 0.25;
+/// Halvings that locate where a path enters a cap.
+const HALVINGS: u32 = 60;
+/// Steps of the search for the least inclination.
+const GOLDEN_STEPS: u32 = 50;
+const GOLDEN: f64 = 0.618_033_988_749_894_8;
+
+/// The size of the cap, and what phi2 is spread over.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cap {
+    sine: f64,
+    /// Length that counts as much as a radian, mm.
+    pub(super) scale: f64,
+}
+
+impl Cap {
+    /// A cap of this half-angle, rad.
+    pub(super) fn new(angle: f64, scale: f64) -> Self {
+        Self { sine: angle.sin(), scale }
+    }
+
+    pub(super) fn has(&self, axis: [f64; 3]) -> bool {
+        axis[2] > 0.0 && axis[0] * axis[0] + axis[1] * axis[1] <= self.sine * self.sine
+    }
+
+    pub(super) fn measure(&self, path: &Path) -> f64 {
+        path.length() + self.scale * path.turn()
+    }
+
+    /// Calls `found` with the parts of a path: both ends of each, and whether it is inside the cap.
+    pub(super) fn split(&self, path: &Path, found: impl FnMut([f64; 2], bool)) {
+        let steps = if path.is_great_circle() { 1 } else { count_of(path.turn() / STEP) };
+        let mut parts = Parts { begun: 0.0, is_inside: self.has(path.at(0.0).axis), found };
+        for step in 0..steps {
+            let [low, high] = [step, step + 1].map(|step| f64::from(step) / f64::from(steps));
+            match [parts.is_inside, self.has(path.at(high).axis)] {
+                [false, false] => {
+                    if let Some(inside) = self.least(path, low, high) {
+                        parts.end(self.crossing(path, low, inside), true);
+                        parts.end(self.crossing(path, high, inside), false);
+                    }
+                }
+                [true, false] => parts.end(self.crossing(path, high, low), false),
+                [false, true] => parts.end(self.crossing(path, low, high), true),
+                [true, true] => {}
+            }
+            if !parts.is_inside && high < 1.0 {
+                // A part follows the azimuth through less than half a turn.
+                parts.end(high, false);
+            }
+        }
+        let is_inside = parts.is_inside;
+        parts.end(1.0, is_inside);
+    }
+
+    /// A parameter inside the cap between two outside, if the path passes through it.
+    fn least(&self, path: &Path, low: f64, high: f64) -> Option<f64> {
+        let sine = |s: f64| {
+            let [i, j, k] = path.at(s).axis;
+            if k > 0.0 { (i * i + j * j).sqrt() } else { 1.0 }
+        };
+        if sine(low).min(sine(high)) > self.sine + path.turn() * (high - low) {
+            return None;
+        }
+        let (mut a, mut b) = (low, high);
+        for _ in 0..GOLDEN_STEPS {
+            let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
+            if sine(c) < sine(d) {
+                b = d;
+            } else {
+                a = c;
+            }
+            if sine(c).min(sine(d)) <= self.sine {
+                return Some(if sine(c) < sine(d) { c } else { d });
+            }
+        }
+        None
+    }
+
+    /// Where a path crosses the cap's edge between a parameter outside and one inside; a parameter inside.
+    fn crossing(&self, path: &Path, mut outside: f64, mut inside: f64) -> f64 {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (outside + inside);
+            if self.has(path.at(middle).axis) { inside = middle } else { outside = middle }
+        }
+        inside
+    }
+}
+
+/// The parts of a path as they are found.
+struct Parts<F> {
+    begun: f64,
+    is_inside: bool,
+    found: F,
+}
+
+impl<F: FnMut([f64; 2], bool)> Parts<F> {
+    /// Ends the present part; the next one is inside the cap or not.
+    fn end(&mut self, s: f64, is_next_inside: bool) {
+        (self.found)([self.begun, s], self.is_inside);
+        (self.begun, self.is_inside) = (s, is_next_inside);
+    }
+}

@@ -1,0 +1,292 @@
+//! The choice of preimage, winding and working solution for a whole program, by dynamic programming.
+//!
+//! A state at a place is h (half turns of phi2 in addition to the continued meridian) with a working solution. A feed
+//! motion keeps h; a bounded stretch around the pole and a rapid may change it. The best sequence of states has the
+//! fewest failing places, then the least turning, then the greatest least margin of the rotary axis, then the least
+//! |theta2| at the start, then phi1 >= 0 there.
+
+mod cost;
+mod stages;
+
+use std::cmp::Ordering;
+
+use self::cost::Cost;
+use self::stages::Stages;
+pub(super) use self::stages::{Choice, Chosen};
+use super::cap::Cap;
+use super::meridian::{Meridian, Span};
+use super::motion::{Motion, MotionKind, Motions, ToolPosition};
+use super::node::{Node, Setting};
+use super::path::{Path, places};
+use super::stretches::Place;
+use crate::margins::Margins;
+
+/// Angle and fraction of the machine's longest dimension between two ends of motions: ends that are closer to the last
+/// place are not examined.
+const LEAST_ANGLE: f64 = 0.005;
+const LEAST_LENGTH: f64 = 1.0 / 512.0;
+/// Greatest number of states at a place.
+const MOST_STATES: usize = 64;
+
+/// A state: h now and, inside a stretch, at its end.
+#[derive(Clone, Copy, Debug)]
+struct State {
+    h: [i32; 2],
+    node: Option<Node>,
+    /// Whether all limits but the rotary axis' hold.
+    holds: bool,
+    cost: Cost,
+    parent: usize,
+}
+
+/// Chooses the states of a program.
+pub(super) struct Chooser<'a> {
+    setting: Setting<'a>,
+    weights: [f64; 2],
+    states: Vec<State>,
+    stages: Stages,
+    start: Option<[f64; 2]>,
+    /// The end of the last motion, if it has not been examined.
+    skipped: Option<Skipped>,
+}
+
+/// A place that has not been examined, with the length and the angles of the path to it.
+#[derive(Clone, Copy)]
+struct Skipped {
+    motion: Motion,
+    span: Span,
+    at: ToolPosition,
+    length: f64,
+    angle: f64,
+}
+
+impl<'a> Chooser<'a> {
+    /// `weights` are those of turning of theta1 and theta2; `start` is where the table stands before the program.
+    pub(super) fn new(setting: Setting<'a>, weights: [f64; 2], start: Option<[f64; 2]>) -> Self {
+        Self { setting, weights, states: Vec::new(), stages: Stages::default(), start, skipped: None }
+    }
+
+    /// Examines the program; `go_on` is asked from time to time and ends the examination by `false`.
+    pub(super) fn choose<M: Motions + ?Sized>(
+        mut self,
+        motions: &M,
+        cap: Cap,
+        mut go_on: impl FnMut(usize) -> bool,
+    ) -> Option<Choice> {
+        let mut meridian = Meridian::new(cap, self.setting.stretches);
+        let mut position: Option<ToolPosition> = None;
+        for index in 0..motions.count() {
+            if !go_on(index) {
+                return None;
+            }
+            let motion = motions.motion(index);
+            match position {
+                Some(start) if motion.kind != MotionKind::Arrive => {
+                    let path = Path::new(start, &motion);
+                    meridian.pass(motion.kind, &path);
+                    if motion.kind == MotionKind::Rapid {
+                        self.jump(&motion, meridian.spans.last());
+                    } else {
+                        self.feed(index, &motion, &path, &meridian.spans);
+                    }
+                }
+                _ => {
+                    meridian.arrive(&motion);
+                    self.jump(&motion, meridian.spans.last());
+                }
+            }
+            position = Some(motion.end);
+        }
+        Some(self.traced())
+    }
+
+    /// The states at the end of a motion whose joints are free.
+    fn jump(&mut self, motion: &Motion, span: Option<&Span>) {
+        let Some(span) = span else { return };
+        self.examine_skipped();
+        let before = std::mem::take(&mut self.states);
+        let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
+        for h in self.setting.half_turns(phi2) {
+            let target = self.setting.target(span, 1.0, &motion.end, [h, h]);
+            let nodes = self.setting.nodes(&target, motion.tool_length).unwrap_or_default();
+            let none = nodes.is_empty().then_some(None);
+            let nodes = nodes.into_iter().map(Some).chain(none);
+            for node in nodes {
+                let state = self.entered(&before, [h, h], node, motion);
+                self.states.push(state);
+            }
+            if self.states.len() >= MOST_STATES {
+                break;
+            }
+        }
+        self.stage();
+    }
+
+    fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, motion: &Motion) -> State {
+        let holds = self.holds(node.as_ref(), motion.tool_length);
+        let own = self.place_cost(node.as_ref(), holds);
+        if before.is_empty() {
+            let turning = node.zip(self.start).map_or(0.0, |(node, [theta1, theta2])| {
+                self.weights[0] * (node.table.theta1 - theta1).abs()
+                    + self.weights[1] * (node.table.theta2 - theta2).abs()
+            });
+            let start = node.map_or(f64::INFINITY, |node| node.table.theta2.abs());
+            let cost = Cost { turning, start, is_turned: h[1].rem_euclid(2) == 1, ..own };
+            return State { h, node, holds, cost, parent: 0 };
+        }
+        let mut best: Option<(Cost, usize)> = None;
+        for (parent, state) in before.iter().enumerate() {
+            let turning =
+                node.zip(state.node).map_or(0.0, |(node, from)| node.turning_from(&from, self.weights));
+            let cost = state.cost.and(&own, turning);
+            if best.is_none_or(|(least, _)| cost.compare(&least) == Ordering::Less) {
+                best = Some((cost, parent));
+            }
+        }
+        let (cost, parent) = best.map_or((own, 0), |best| best);
+        State { h, node, holds, cost, parent }
+    }
+
+    /// Whether all limits but the rotary axis' hold.
+    fn holds(&self, node: Option<&Node>, tool_length: f64) -> bool {
+        node.is_some_and(|node| {
+            Margins { rotary: None, ..self.setting.margins(node, tool_length) }.feasible()
+        })
+    }
+
+    /// The cost of one place, where the limits but the rotary axis' hold or not.
+    fn place_cost(&self, node: Option<&Node>, holds: bool) -> Cost {
+        let [low, high] = self.setting.machine.limits().rotary;
+        let rotary_margin =
+            node.map_or(f64::NEG_INFINITY, |node| (node.table.theta2 - low).min(high - node.table.theta2));
+        let failing = if holds && rotary_margin >= 0.0 { 0.0 } else { 1.0 };
+        Cost { failing, turning: 0.0, rotary_margin, start: 0.0, is_turned: false }
+    }
+
+    fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
+        for span in spans {
+            let stretch = span.stretch().map(|number| self.setting.stretches[number]);
+            let bounded = stretch.filter(|stretch| stretch.is_bounded && !stretch.has_rapid);
+            if let Some(stretch) =
+                bounded.filter(|stretch| stretch.start == Place { motion: index, s: span.from })
+            {
+                self.spread(stretch.phi2[1]);
+            }
+            let is_skipped = self.skips(motion, span, path);
+            let count = places(self.setting.machine.longest(), path, span.to - span.from);
+            let count = if is_skipped { 0 } else { count };
+            for place in 1..=count {
+                let part = f64::from(place) / f64::from(count);
+                let s = if place == count { span.to } else { span.from + (span.to - span.from) * part };
+                self.advance(motion, span, s, &path.at(s));
+            }
+            if bounded.is_some_and(|stretch| stretch.end == Place { motion: index, s: span.to }) {
+                self.gather();
+            }
+        }
+    }
+
+    /// Whether the end of a span is so near to the last place that it is left for later.
+    fn skips(&mut self, motion: &Motion, span: &Span, path: &Path) -> bool {
+        let part = span.to - span.from;
+        let (length, angle) = (path.length() * part, (path.turn() + path.sweep()) * part);
+        let before = self.skipped.map_or((0.0, 0.0), |skipped| (skipped.length, skipped.angle));
+        let (length, angle) = (before.0 + length, before.1 + angle);
+        let is_near = length < LEAST_LENGTH * self.setting.machine.longest() && angle < LEAST_ANGLE;
+        let at = path.at(span.to);
+        self.skipped = is_near.then_some(Skipped { motion: *motion, span: *span, at, length, angle });
+        is_near
+    }
+
+    fn examine_skipped(&mut self) {
+        if let Some(Skipped { motion, span, at, .. }) = self.skipped.take() {
+            self.advance(&motion, &span, span.to, &at);
+        }
+    }
+
+    /// Gives every state at the beginning of a stretch all its ends.
+    fn spread(&mut self, phi2: f64) {
+        self.examine_skipped();
+        let ends = self.setting.half_turns(phi2);
+        let before = std::mem::take(&mut self.states);
+        for (parent, state) in before.iter().enumerate() {
+            for h in ends.clone().chain([state.h[1]]) {
+                let h = [state.h[1], h];
+                if self.states.iter().all(|other| other.h != h || other.parent != parent) {
+                    self.states.push(State { h, parent, ..*state });
+                }
+            }
+        }
+        self.stage();
+    }
+
+    /// Keeps the best of the states with the same end of a stretch.
+    fn gather(&mut self) {
+        self.examine_skipped();
+        let before = std::mem::take(&mut self.states);
+        for (parent, state) in before.iter().enumerate() {
+            let state = State { h: [state.h[1]; 2], parent, ..*state };
+            let same = |other: &State| {
+                let near = match (other.node, state.node) {
+                    (Some(a), Some(b)) => (a.pose.alpha - b.pose.alpha).abs() < 1e-6,
+                    (None, None) => true,
+                    _ => false,
+                };
+                other.h == state.h && near
+            };
+            match self.states.iter_mut().find(|other| same(other)) {
+                Some(other) if state.cost.compare(&other.cost) == Ordering::Less => *other = state,
+                Some(_) => {}
+                None => self.states.push(state),
+            }
+        }
+        self.stage();
+    }
+
+    /// Moves every state to a place.
+    fn advance(&mut self, motion: &Motion, span: &Span, s: f64, at: &ToolPosition) {
+        let before = std::mem::take(&mut self.states);
+        for (i, state) in before.iter().enumerate() {
+            let target = self.setting.target(span, s, at, state.h);
+            // Whole turns change theta2 alone.
+            let twin = (0..i).find(|&j| is_wound(&before[j], state));
+            let node = match twin.and_then(|j| self.states[j].node) {
+                Some(node) => Some(node.wound_to(target.phi2)),
+                None if twin.is_some() => None,
+                None => {
+                    let alpha = state.node.map(|node| node.pose.alpha);
+                    self.setting.node(&target, motion.tool_length, alpha).ok()
+                }
+            };
+            let holds =
+                twin.map_or_else(|| self.holds(node.as_ref(), motion.tool_length), |j| self.states[j].holds);
+            let own = self.place_cost(node.as_ref(), holds);
+            let turning =
+                node.zip(state.node).map_or(0.0, |(node, from)| node.turning_from(&from, self.weights));
+            self.states.push(State { node, holds, cost: state.cost.and(&own, turning), ..*state });
+        }
+    }
+
+    /// Notes the states, so that the chosen ones can be traced back.
+    fn stage(&mut self) {
+        let states = self.states.iter().map(|state| {
+            let alpha = state.node.map(|node| node.pose.alpha);
+            (Chosen { h: state.h, alpha }, state.parent)
+        });
+        self.stages.push(states.collect());
+    }
+
+    fn traced(mut self) -> Choice {
+        self.examine_skipped();
+        let best = self.states.iter().enumerate().min_by(|(_, a), (_, b)| a.cost.compare(&b.cost));
+        let last = best.map_or(0, |(index, _)| index);
+        self.stages.traced(last)
+    }
+}
+
+/// Whether two states differ by whole turns of theta2 only.
+fn is_wound(a: &State, b: &State) -> bool {
+    let turns = [0, 1].map(|end| a.h[end] - b.h[end]);
+    let alpha = |state: &State| state.node.map(|node| node.pose.alpha.to_bits());
+    turns[0] == turns[1] && turns[0] % 2 == 0 && alpha(a) == alpha(b)
+}

@@ -1,0 +1,144 @@
+//! phi2 along a program, continued from motion to motion.
+//!
+//! Outside a cap around the pole the axis determines phi2 up to half turns: (phi1, phi2) and (-phi1, phi2 + π) are the
+//! same axis. One of these values is continued through the whole program; the others are it plus π h for an integer h,
+//! with phi1 in the sign of (-1)^h. So h counts preimages and windings together.
+//!
+//! Inside the cap phi2 is free, and phi1 is the axis' component on the meridian. Between the meridians where a path
+//! enters and leaves the cap, phi2 changes linearly with the path: over the rapids of the stretch if it has any, else
+//! over all of it.
+
+use std::f64::consts::{PI, TAU};
+
+use super::azimuth::{azimuth, azimuths, continued, of_arrival, to_nearest};
+use super::cap::Cap;
+use super::motion::{Motion, MotionKind};
+use super::path::Path;
+use super::stretches::Stretch;
+
+/// A part of one motion's path on which phi2 follows one rule.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    rule: Rule,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Rule {
+    /// phi2 follows the axis' azimuth, from this value; the azimuth at both ends.
+    Follow { azimuth: [f64; 2], phi2: f64 },
+    /// phi2 is linear in the path; `share` is the fraction of the stretch's measure at both ends.
+    Linear { stretch: usize, share: [f64; 2] },
+}
+
+impl Span {
+    /// The stretch that the span belongs to, if it is inside the cap.
+    pub(super) fn stretch(&self) -> Option<usize> {
+        match self.rule {
+            Rule::Linear { stretch, .. } => Some(stretch),
+            Rule::Follow { .. } => None,
+        }
+    }
+
+    /// A span over parameters from 0 to 1 on which phi2 turns from one end of the stretch to the other.
+    pub(super) fn turning(&self) -> Self {
+        let rule = match self.rule {
+            Rule::Linear { stretch, .. } => Rule::Linear { stretch, share: [0.0, 1.0] },
+            Rule::Follow { .. } => self.rule,
+        };
+        Self { from: 0.0, to: 1.0, rule }
+    }
+
+    /// phi2 at a parameter, for h half turns at the beginning and at the end of a stretch.
+    pub(super) fn phi2(&self, stretches: &[Stretch], s: f64, axis: [f64; 3], h: [i32; 2]) -> f64 {
+        match self.rule {
+            Rule::Follow { azimuth: [start, end], phi2 } => {
+                let is_first_half = s - self.from < self.to - s;
+                let now = match azimuth(axis) {
+                    Some(azimuth) => azimuth,
+                    None if is_first_half => start,
+                    None => end,
+                };
+                phi2 + to_nearest(now - start, TAU) + PI * f64::from(h[1])
+            }
+            Rule::Linear { stretch, share } => {
+                let [from, to] = stretches[stretch].phi2;
+                let [from, to] = [from + PI * f64::from(h[0]), to + PI * f64::from(h[1])];
+                let width = self.to - self.from;
+                let part = if width > 0.0 { (s - self.from) / width } else { 1.0 };
+                from + (to - from) * (share[0] + (share[1] - share[0]) * part)
+            }
+        }
+    }
+}
+
+/// Follows phi2 through a program whose stretches inside the cap are known.
+pub(super) struct Meridian<'a> {
+    cap: Cap,
+    stretches: &'a [Stretch],
+    /// Index of the next stretch, or of the present one.
+    next: usize,
+    /// Measure of the present stretch that lies behind.
+    done: f64,
+    is_inside: bool,
+    phi2: Option<f64>,
+    pub(super) spans: Vec<Span>,
+}
+
+impl<'a> Meridian<'a> {
+    pub(super) fn new(cap: Cap, stretches: &'a [Stretch]) -> Self {
+        Self { cap, stretches, next: 0, done: 0.0, is_inside: false, phi2: None, spans: Vec::new() }
+    }
+
+    /// Arrives at a position from anywhere: a single span at parameter 1.
+    pub(super) fn arrive(&mut self, motion: &Motion) {
+        self.leave();
+        self.spans.clear();
+        let rule = if self.cap.has(motion.end.axis) {
+            self.is_inside = true;
+            Rule::Linear { stretch: self.next, share: [0.0, 0.0] }
+        } else {
+            let azimuth = of_arrival(motion);
+            let phi2 = continued(self.phi2, azimuth);
+            self.phi2 = Some(phi2);
+            Rule::Follow { azimuth: [azimuth; 2], phi2 }
+        };
+        self.spans.push(Span { from: 1.0, to: 1.0, rule });
+    }
+
+    /// Moves along a path; `spans` then contains its parts.
+    pub(super) fn pass(&mut self, kind: MotionKind, path: &Path) {
+        let (cap, mut spans) = (self.cap, std::mem::take(&mut self.spans));
+        spans.clear();
+        cap.split(path, |[from, to], inside| {
+            let rule = if inside {
+                self.is_inside = true;
+                let stretch = self.stretches[self.next];
+                let before = self.done;
+                if kind == MotionKind::Rapid || !stretch.has_rapid {
+                    self.done += cap.measure(path) * (to - from);
+                }
+                let share = [before, self.done]
+                    .map(|done| if stretch.is_point() { 1.0 } else { (done / stretch.measure).min(1.0) });
+                Rule::Linear { stretch: self.next, share }
+            } else {
+                self.leave();
+                let [start, end] = azimuths(path, [from, to]);
+                let phi2 = continued(self.phi2, start);
+                self.phi2 = Some(phi2 + to_nearest(end - start, TAU));
+                Rule::Follow { azimuth: [start, end], phi2 }
+            };
+            spans.push(Span { from, to, rule });
+        });
+        self.spans = spans;
+    }
+
+    fn leave(&mut self) {
+        if self.is_inside {
+            self.phi2 = Some(self.stretches[self.next].phi2[1]);
+            (self.is_inside, self.done) = (false, 0.0);
+            self.next += 1;
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! The joints at one place of the path.
+
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
+
+use super::azimuth::inclination;
+use super::meridian::Span;
+use super::motion::ToolPosition;
+use super::stretches::Stretch;
+use crate::clearance::Clearance;
+use crate::error::KinematicsError;
+use crate::inverse::{part_every_working, part_working};
+use crate::machine::Machine;
+use crate::margins::Margins;
+use crate::pose::{PartPose, PlatformPose, TableAngles};
+use crate::posture::Posture;
+
+/// The difference of alpha to the place before above which other working solutions are looked for, rad.
+const NEAR: f64 = 0.05;
+
+/// Greatest number of half turns to each side of the middle of the rotary range.
+const MOST_HALF_TURNS: i32 = 16;
+
+/// What does not change along a program.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Setting<'a> {
+    pub(super) machine: &'a Machine,
+    pub(super) stretches: &'a [Stretch],
+    pub(super) table_clearance: Option<f64>,
+    pub(super) tool_radius: f64,
+    /// Half-angle of the cap around the pole, rad.
+    pub(super) pole: f64,
+}
+
+/// Joints and platform pose at a place of the path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub(super) pose: PlatformPose,
+    pub(super) rho: [f64; 3],
+    pub(super) table: TableAngles,
+}
+
+impl Setting<'_> {
+    /// The pose of the tool at a place, for h half turns at the beginning and the end of a stretch.
+    pub(super) fn target(&self, span: &Span, s: f64, at: &ToolPosition, h: [i32; 2]) -> PartPose {
+        let phi2 = span.phi2(self.stretches, s, at.axis, h);
+        let [x, y, z] = at.tip;
+        PartPose { x, y, z, phi1: inclination(at.axis, phi2), phi2 }
+    }
+
+    /// The joints at a place in the working solution that continues `alpha`.
+    pub(super) fn node(
+        &self,
+        target: &PartPose,
+        tool_length: f64,
+        alpha: Option<f64>,
+    ) -> Result<Node, KinematicsError> {
+        let posture = part_working(self.machine, target, tool_length)?;
+        let distance = |posture: &Posture, alpha: f64| (posture.pose.alpha - alpha).abs();
+        match alpha {
+            Some(alpha) if distance(&posture, alpha) > NEAR => {
+                let all = part_every_working(self.machine, target, tool_length)?;
+                let nearest = all.iter().min_by(|a, b| distance(a, alpha).total_cmp(&distance(b, alpha)));
+                Ok(Node::of(nearest.unwrap_or(&posture), target))
+            }
+            _ => Ok(Node::of(&posture, target)),
+        }
+    }
+
+    /// The joints of every working solution at a place.
+    pub(super) fn nodes(&self, target: &PartPose, tool_length: f64) -> Result<Vec<Node>, KinematicsError> {
+        let all = part_every_working(self.machine, target, tool_length)?;
+        Ok(all.iter().map(|posture| Node::of(posture, target)).collect())
+    }
+
+    /// All margins of a place.
+    pub(super) fn margins(&self, node: &Node, tool_length: f64) -> Margins {
+        let clearance = Clearance::of(self.machine, self.table_clearance, tool_length, self.tool_radius);
+        Margins::of_joints(self.machine, &node.pose, node.rho, node.table, clearance.as_ref())
+    }
+
+    /// h for which theta2 is within its range, or nearest to it.
+    pub(super) fn half_turns(&self, phi2: f64) -> RangeInclusive<i32> {
+        let [low, high] = self.machine.limits().rotary;
+        let turns = |theta2: f64| (-theta2 - phi2) / PI;
+        let (first, last) = ((turns(high) - 1e-12).ceil(), (turns(low) + 1e-12).floor());
+        let middle = turns(0.5 * (low + high)).round();
+        let most = f64::from(MOST_HALF_TURNS);
+        let [first, last] = if first <= last {
+            [first.max(middle - most), last.min(middle + most)]
+        } else {
+            [middle, middle]
+        };
+        whole(first)..=whole(last)
+    }
+}
+
+impl Node {
+    fn of(posture: &Posture, target: &PartPose) -> Self {
+        let table = TableAngles { theta1: posture.pose.alpha - target.phi1, theta2: -target.phi2 };
+        Self { pose: posture.pose, rho: posture.rho, table }
+    }
+
+    /// The same joints but for whole turns of the table.
+    pub(super) fn wound_to(self, phi2: f64) -> Self {
+        Self { table: TableAngles { theta2: -phi2, ..self.table }, ..self }
+    }
+
+    /// The angle that the table's axes turn through from another node, weighted by `weights`.
+    pub(super) fn turning_from(&self, other: &Self, weights: [f64; 2]) -> f64 {
+        weights[0] * (self.table.theta1 - other.table.theta1).abs()
+            + weights[1] * (self.table.theta2 - other.table.theta2).abs()
+    }
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "clamped to the range of the type")]
+fn whole(number: f64) -> i32 {
+    number.clamp(-1e6, 1e6) as i32
+}

@@ -1,0 +1,225 @@
+//! The exact path of one motion: position and axis of the tool for a parameter from 0 to 1.
+
+use nalgebra::Vector3;
+
+use super::motion::{Curve, Motion, ToolPosition, Turning};
+use crate::axis::tool_axis;
+use crate::fast_math::{angle_of_vector, sin_cos};
+use crate::pose::Point;
+
+/// Angle of the axis or of an arc between two places that are examined, rad.
+const ANGLE: f64 = 0.1;
+/// Fraction of the machine's longest dimension between two places that are examined.
+const LENGTH: f64 = 1.0 / 16.0;
+
+/// The path of a motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Path {
+    start: ToolPosition,
+    end: ToolPosition,
+    tip: TipPath,
+    axis: AxisPath,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum TipPath {
+    Line,
+    Arc {
+        centre: Vector3<f64>,
+        /// Radius vector at the start, and perpendicular to it; the part along the normal stays.
+        radius: [Vector3<f64>; 2],
+        along: Vector3<f64>,
+        sweep: f64,
+        /// What the end misses the arc by.
+        rest: Vector3<f64>,
+    },
+}
+
+#[derive(Clone, Copy, Debug)]
+enum AxisPath {
+    Fixed,
+    /// The great circle from the start towards a perpendicular unit vector.
+    GreatCircle {
+        towards: Vector3<f64>,
+        angle: f64,
+    },
+    Angles {
+        start: [f64; 2],
+        end: [f64; 2],
+        frame: [[f64; 3]; 3],
+    },
+}
+
+impl Path {
+    /// The path of a motion that begins at `start`.
+    pub(super) fn new(start: ToolPosition, motion: &Motion) -> Self {
+        let end = motion.end;
+        let tip = match motion.curve {
+            Curve::Line => TipPath::Line,
+            Curve::Arc { centre, normal, sweep } => arc(start.tip, end.tip, centre, normal, sweep),
+        };
+        let axis = match motion.turning {
+            Turning::GreatCircle => great_circle(start.axis, end.axis),
+            Turning::Angles { start, end, .. } if start == end => AxisPath::Fixed,
+            Turning::Angles { start, end, frame } => AxisPath::Angles { start, end, frame },
+        };
+        Self { start, end, tip, axis }
+    }
+
+    /// The tool's position at a parameter. At 0 and 1 it is that of the motion's ends, to the last bit.
+    pub(super) fn at(&self, s: f64) -> ToolPosition {
+        if s <= 0.0 {
+            return self.start;
+        }
+        if s >= 1.0 {
+            return self.end;
+        }
+        ToolPosition { tip: self.tip(s).into(), axis: self.axis(s).into() }
+    }
+
+    fn tip(&self, s: f64) -> Vector3<f64> {
+        let (a, b) = (Vector3::from(self.start.tip), Vector3::from(self.end.tip));
+        match self.tip {
+            TipPath::Line => a + (b - a) * s,
+            TipPath::Arc { centre, radius, along, sweep, rest } => {
+                let (sin, cos) = sin_cos(sweep * s);
+                centre + along + radius[0] * cos + radius[1] * sin + rest * s
+            }
+        }
+    }
+
+    fn axis(&self, s: f64) -> Vector3<f64> {
+        match &self.axis {
+            AxisPath::Fixed => self.start.axis.into(),
+            AxisPath::GreatCircle { towards, angle } => {
+                let (sin, cos) = sin_cos(angle * s);
+                Vector3::from(self.start.axis) * cos + towards * sin
+            }
+            AxisPath::Angles { start, end, frame } => {
+                let [phi1, phi2] = [0, 1].map(|i| start[i] + (end[i] - start[i]) * s);
+                rotated(frame, tool_axis(phi1, phi2)).into()
+            }
+        }
+    }
+
+    /// The tool's end and axis at a parameter, and their derivatives by it.
+    pub(super) fn with_rates(&self, s: f64) -> ([Vector3<f64>; 2], [Vector3<f64>; 2]) {
+        let (tip, tip_rate) = match self.tip {
+            TipPath::Line => (self.tip(s), Vector3::from(self.end.tip) - Vector3::from(self.start.tip)),
+            TipPath::Arc { centre, radius, along, sweep, rest } => {
+                let (sin, cos) = sin_cos(sweep * s);
+                let tip = centre + along + radius[0] * cos + radius[1] * sin + rest * s;
+                (tip, (radius[1] * cos - radius[0] * sin) * sweep + rest)
+            }
+        };
+        let (axis, axis_rate) = match &self.axis {
+            AxisPath::Fixed => (self.axis(s), Vector3::zeros()),
+            AxisPath::GreatCircle { towards, angle } => {
+                let (sin, cos) = sin_cos(angle * s);
+                let start = Vector3::from(self.start.axis);
+                (start * cos + towards * sin, (towards * cos - start * sin) * *angle)
+            }
+            AxisPath::Angles { start, end, frame } => {
+                let rate = [0, 1].map(|i| end[i] - start[i]);
+                let [phi1, phi2] = [0, 1].map(|i| start[i] + rate[i] * s);
+                let ((s1, c1), (s2, c2)) = (sin_cos(phi1), sin_cos(phi2));
+                let along = [c1 * s2, -c1 * c2, -s1].map(|c| c * rate[0]);
+                let across = [s1 * c2, s1 * s2, 0.0].map(|c| c * rate[1]);
+                (self.axis(s), rotated(frame, std::array::from_fn(|i| along[i] + across[i])).into())
+            }
+        };
+        ([tip, axis], [tip_rate, axis_rate])
+    }
+
+    /// Greatest second derivatives by the parameter: of the position, mm, and of the axis, rad.
+    pub(super) fn second_derivatives(&self) -> [f64; 2] {
+        let tip = match self.tip {
+            TipPath::Line => 0.0,
+            TipPath::Arc { radius, sweep, .. } => radius[0].norm() * sweep * sweep,
+        };
+        [tip, self.turn() * self.turn()]
+    }
+
+    /// Length of the path of the tool's end, mm; of a helix that misses its end the length is that of the arc and the
+    /// rest.
+    pub(super) fn length(&self) -> f64 {
+        match self.tip {
+            TipPath::Line => (Vector3::from(self.end.tip) - Vector3::from(self.start.tip)).norm(),
+            TipPath::Arc { radius, sweep, rest, .. } => (radius[0].norm() * sweep).hypot(rest.norm()),
+        }
+    }
+
+    /// Upper bound of the angle that the axis moves through, rad.
+    pub(super) fn turn(&self) -> f64 {
+        match self.axis {
+            AxisPath::Fixed => 0.0,
+            AxisPath::GreatCircle { angle, .. } => angle,
+            AxisPath::Angles { start, end, .. } => (end[0] - start[0]).abs() + (end[1] - start[1]).abs(),
+        }
+    }
+
+    /// Angle of the arc, rad; zero for a line.
+    pub(super) fn sweep(&self) -> f64 {
+        match self.tip {
+            TipPath::Line => 0.0,
+            TipPath::Arc { sweep, .. } => sweep,
+        }
+    }
+
+    /// Whether the axis moves along a great circle or not at all.
+    pub(super) fn is_great_circle(&self) -> bool {
+        !matches!(self.axis, AxisPath::Angles { .. })
+    }
+
+    /// Whether neither the tool's end nor its axis moves.
+    pub(super) fn is_point(&self) -> bool {
+        self.turn() == 0.0 && self.length() == 0.0
+    }
+}
+
+fn arc(start: Point, end: Point, centre: Point, normal: [f64; 3], sweep: f64) -> TipPath {
+    let (centre, normal) = (Vector3::from(centre), Vector3::from(normal));
+    let from = Vector3::from(start) - centre;
+    let along = normal * normal.dot(&from);
+    let radial = from - along;
+    let radius = [radial, normal.cross(&radial)];
+    let (sin, cos) = sin_cos(sweep);
+    let rest = Vector3::from(end) - (centre + along + radius[0] * cos + radius[1] * sin);
+    TipPath::Arc { centre, radius, along, sweep, rest }
+}
+
+/// The great circle between two unit vectors. Opposite vectors have none; programs with such motions are faulty, and
+/// any circle will do here.
+fn great_circle(start: [f64; 3], end: [f64; 3]) -> AxisPath {
+    if start == end {
+        return AxisPath::Fixed;
+    }
+    let (a, b) = (Vector3::from(start), Vector3::from(end));
+    let (cross, dot) = (a.cross(&b), a.dot(&b));
+    let angle = angle_of_vector(dot, cross.norm());
+    let across = b - a * dot;
+    let norm = across.norm();
+    if norm == 0.0 {
+        return AxisPath::Fixed;
+    }
+    AxisPath::GreatCircle { towards: across / norm, angle }
+}
+
+fn rotated(frame: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    frame.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+}
+
+/// Number of places that are examined on a part of a path.
+pub(super) fn places(longest: f64, path: &Path, part: f64) -> u32 {
+    let count = (path.length() / (LENGTH * longest)).max((path.turn() + path.sweep()) / ANGLE) * part;
+    count_of(count)
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to the range of the type"
+)]
+pub(super) fn count_of(number: f64) -> u32 {
+    number.ceil().clamp(1.0, 1e6) as u32
+}

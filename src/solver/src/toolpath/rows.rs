@@ -1,0 +1,182 @@
+//! The rows of a program for a choice of states.
+
+mod feed;
+mod rapid;
+
+use std::f64::consts::PI;
+
+use super::azimuth::axis_of;
+use super::choice::Chosen;
+use super::joint_segment::{Deviation, JointSegment, Track};
+use super::meridian::{Meridian, Span};
+use super::motion::{MotionKind, Motions, ToolPosition};
+use super::node::{Node, Setting};
+use super::path::{Path, places};
+use super::report::Report;
+use crate::error::KinematicsError;
+use crate::limit::{Constraint, Element, Margin};
+use crate::pose::TableAngles;
+
+/// What a row is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RowKind {
+    /// A place of a rapid, or the first position.
+    Rapid,
+    /// The end of a feed motion.
+    Feed,
+    /// A place between the ends of a feed motion.
+    Inserted,
+    /// The rotary axis turns while the tool stands still at the pole.
+    Turn,
+}
+
+/// One row: the joints to which the machine moves, all of them linearly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Index of the motion that the row belongs to.
+    pub motion: usize,
+    /// What the row is for.
+    pub kind: RowKind,
+    /// Where the tool is.
+    pub position: ToolPosition,
+    /// The sliders, mm.
+    pub rho: [f64; 3],
+    /// The table's angles, rad.
+    pub table: TableAngles,
+    /// The worst margin.
+    pub margin: Margin,
+}
+
+/// What the rows of a program are made with.
+pub(super) struct RowSettings {
+    pub(super) feed: Deviation,
+    pub(super) rapid: Deviation,
+    pub(super) joint_rapids: bool,
+}
+
+/// Makes the rows.
+pub(super) struct Rower<'a, F> {
+    setting: Setting<'a>,
+    settings: &'a RowSettings,
+    choice: std::slice::Iter<'a, Chosen>,
+    emit: F,
+    report: Report,
+    now: Option<Node>,
+    h: [i32; 2],
+    margin: Option<f64>,
+}
+
+impl<'a, F: FnMut(&Row)> Rower<'a, F> {
+    pub(super) fn new(
+        setting: Setting<'a>,
+        settings: &'a RowSettings,
+        choice: &'a [Chosen],
+        emit: F,
+    ) -> Self {
+        let choice = choice.iter();
+        Self { setting, settings, choice, emit, report: Report::new(), now: None, h: [0; 2], margin: None }
+    }
+
+    /// Makes the rows of all motions; `go_on` is asked before each and ends the work by `false`.
+    pub(super) fn run<M: Motions + ?Sized>(
+        mut self,
+        motions: &M,
+        mut meridian: Meridian<'_>,
+        mut go_on: impl FnMut(usize, u64) -> bool,
+    ) -> Option<Report> {
+        let mut position: Option<ToolPosition> = None;
+        for index in 0..motions.count() {
+            if !go_on(index, self.report.rows) {
+                return None;
+            }
+            let motion = motions.motion(index);
+            match position {
+                Some(start) if motion.kind != MotionKind::Arrive => {
+                    let path = Path::new(start, &motion);
+                    meridian.pass(motion.kind, &path);
+                    if motion.kind == MotionKind::Rapid {
+                        self.rapid(index, &motion, &path, &meridian.spans);
+                    } else {
+                        self.feed(index, &motion, &path, &meridian.spans);
+                    }
+                }
+                _ => {
+                    meridian.arrive(&motion);
+                    self.arrive(index, &motion, &meridian.spans);
+                }
+            }
+            position = Some(motion.end);
+        }
+        Some(self.report)
+    }
+
+    pub(super) fn next_choice(&mut self) -> Chosen {
+        self.choice.next().copied().unwrap_or(Chosen { h: self.h, alpha: None })
+    }
+
+    pub(super) fn change_to(&mut self, chosen: Chosen) {
+        if (chosen.h[1] - self.h[1]) % 2 != 0 && self.report.rows > 0 {
+            self.report.preimage_changes += 1;
+        }
+        self.h = chosen.h;
+    }
+
+    /// Examines the places of a path that has no rows, for the report.
+    pub(super) fn survey(&mut self, index: usize, track: &Track<'_>) {
+        let Span { from, to, .. } = track.span;
+        let count = places(self.setting.machine.longest(), track.path, to - from);
+        for place in 0..count {
+            let s = from + (to - from) * f64::from(place) / f64::from(count);
+            match track.node(s, None) {
+                Ok(node) => {
+                    let margins = self.setting.margins(&node, track.tool_length);
+                    self.report.meet(self.setting.machine, index, s, &margins);
+                }
+                Err(refusal) => self.refuse(index, s, refusal),
+            }
+        }
+    }
+
+    pub(super) fn refuse(&mut self, index: usize, s: f64, refusal: KinematicsError) {
+        let margin = match refusal {
+            KinematicsError::Unreachable(margin) => margin,
+            KinematicsError::OutOfDomain | KinematicsError::OutOfProportion | KinematicsError::SelfMotion => {
+                Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value: f64::MIN }
+            }
+        };
+        self.report.fail(index, s, margin, margin.value);
+    }
+
+    /// Examines the margins between the ends of a segment.
+    pub(super) fn examine(&mut self, index: usize, segment: &JointSegment, tool_length: f64) {
+        if let Some(margins) = segment.worst(&self.setting, tool_length) {
+            self.report.meet(self.setting.machine, index, 1.0, &margins);
+        }
+    }
+
+    pub(super) fn track<'p>(&self, path: &'p Path, span: Span, tool_length: f64) -> Track<'p>
+    where
+        'a: 'p,
+    {
+        Track { setting: self.setting, path, span, h: self.h, tool_length }
+    }
+
+    pub(super) fn row(
+        &mut self,
+        index: usize,
+        kind: RowKind,
+        at: &ToolPosition,
+        s: f64,
+        node: &Node,
+        tool_length: f64,
+    ) {
+        let margins = self.setting.margins(node, tool_length);
+        let (margin, fraction) = self.report.meet(self.setting.machine, index, s, &margins);
+        let phi = [node.pose.alpha - node.table.theta1, -node.table.theta2];
+        let position = ToolPosition { tip: at.tip, axis: axis_of(phi) };
+        let inclination = (phi[0] + PI).rem_euclid(2.0 * PI) - PI;
+        self.report.add_row(node, self.now.as_ref(), inclination);
+        (self.emit)(&Row { motion: index, kind, position, rho: node.rho, table: node.table, margin });
+        (self.now, self.margin) = (Some(*node), Some(fraction));
+    }
+}

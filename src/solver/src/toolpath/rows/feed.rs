@@ -1,0 +1,133 @@
+//! Feed motions.
+
+use super::{Row, RowKind, Rower};
+use crate::error::KinematicsError;
+use crate::limit::{Constraint, Element, Margin};
+use crate::toolpath::joint_segment::{Stop, Track};
+use crate::toolpath::linearise::{LineariseError, linearise};
+use crate::toolpath::meridian::Span;
+use crate::toolpath::motion::Motion;
+use crate::toolpath::node::Node;
+use crate::toolpath::path::Path;
+use crate::toolpath::stretches::Place;
+
+/// Fraction of a margin's range below which a segment's margins are examined between its ends.
+const GUARD: f64 = 0.02;
+
+impl<F: FnMut(&Row)> Rower<'_, F> {
+    pub(super) fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
+        self.report.length[0] += path.length();
+        for span in spans {
+            let stretch = span.stretch().map(|number| self.setting.stretches[number]);
+            let bounded = stretch.filter(|stretch| stretch.is_bounded && !stretch.has_rapid);
+            if let Some(stretch) =
+                bounded.filter(|stretch| stretch.start == Place { motion: index, s: span.from })
+            {
+                let chosen = self.next_choice();
+                self.change_to(chosen);
+                if stretch.is_point() {
+                    self.turn(index, motion, path, span);
+                }
+            }
+            self.follow(index, motion, path, span);
+            if bounded.is_some_and(|stretch| stretch.end == Place { motion: index, s: span.to }) {
+                let chosen = self.next_choice();
+                self.change_to(chosen);
+            }
+        }
+    }
+
+    /// Turns the rotary axis at the pole while the tool stands still.
+    fn turn(&mut self, index: usize, motion: &Motion, path: &Path, span: &Span) {
+        let Some(now) = self.now else { return };
+        let position = path.at(span.from);
+        let held = Path::new(position, &Motion { end: position, ..*motion });
+        let turning = span.turning();
+        let track = self.track(&held, turning, motion.tool_length);
+        let Ok(end) = track.node(1.0, Some(now.pose.alpha)) else { return };
+        self.rows_between(index, motion, &track, [now, end], RowKind::Turn);
+    }
+
+    /// Follows a feed motion on one span.
+    fn follow(&mut self, index: usize, motion: &Motion, path: &Path, span: &Span) {
+        let track = self.track(path, *span, motion.tool_length);
+        let alpha = self.now.map(|node| node.pose.alpha);
+        let end = match track.node(span.to, alpha) {
+            Ok(end) => end,
+            Err(refusal) => {
+                self.survey(index, &track);
+                self.refuse(index, span.to, refusal);
+                self.now = None;
+                return;
+            }
+        };
+        if let Some(now) = self.now {
+            self.rows_between(index, motion, &track, [now, end], RowKind::Feed);
+        } else {
+            self.survey(index, &track);
+            self.row(index, RowKind::Feed, &path.at(span.to), span.to, &end, motion.tool_length);
+        }
+    }
+
+    fn rows_between(
+        &mut self,
+        index: usize,
+        motion: &Motion,
+        track: &Track<'_>,
+        ends: [Node; 2],
+        kind: RowKind,
+    ) {
+        let [start, end] = [track.span.from, track.span.to];
+        let stops = [Stop { s: start, node: ends[0] }, Stop { s: end, node: ends[1] }];
+        let feed = self.settings.feed;
+        if track.path.is_point() && kind != RowKind::Turn {
+            self.row(index, kind, &track.path.at(end), end, &ends[1], motion.tool_length);
+            return;
+        }
+        let mut failure = None;
+        let result = linearise(track, stops[0], stops[1], &feed, |stop, segment, deviation| {
+            let is_end = stop.s >= 1.0;
+            let kind = if kind == RowKind::Feed && !is_end { RowKind::Inserted } else { kind };
+            self.report.deviation = self.report.deviation.with(deviation);
+            let before = self.margin;
+            self.row(index, kind, &track.path.at(stop.s), stop.s, &stop.node, motion.tool_length);
+            let least = before.unwrap_or(f64::INFINITY).min(self.margin.unwrap_or(f64::INFINITY));
+            if let Some(segment) = segment.filter(|_| least < GUARD) {
+                self.examine(index, segment, motion.tool_length);
+            }
+        });
+        if let Err(error) = result {
+            failure = Some(error);
+        }
+        match failure {
+            None => {}
+            Some(LineariseError::Refused(s, refusal)) => {
+                self.break_off(index, motion, track, s, refusal, &ends[1]);
+            }
+            Some(LineariseError::Jump(s)) => {
+                let refusal = KinematicsError::Unreachable(Margin {
+                    constraint: Constraint::ParallelSingularity,
+                    element: Element::Platform,
+                    value: 0.0,
+                });
+                self.break_off(index, motion, track, s, refusal, &ends[1]);
+            }
+        }
+    }
+
+    /// Notes that a part of a motion has no joints, and goes on at its end.
+    fn break_off(
+        &mut self,
+        index: usize,
+        motion: &Motion,
+        track: &Track<'_>,
+        s: f64,
+        refusal: KinematicsError,
+        end: &Node,
+    ) {
+        self.survey(index, track);
+        self.refuse(index, s, refusal);
+        let position = track.path.at(track.span.to);
+        self.row(index, RowKind::Feed, &position, track.span.to, end, motion.tool_length);
+    }
+}

@@ -1,0 +1,125 @@
+//! The stretches of a program inside the cap around the pole.
+
+use std::f64::consts::TAU;
+
+use super::azimuth::{azimuths, continued, of_arrival, to_nearest};
+use super::cap::Cap;
+use super::motion::{Motion, MotionKind, Motions, ToolPosition};
+use super::path::Path;
+
+/// Measure, relative to the machine's longest dimension, of a stretch that is a point.
+const LEAST_MEASURE: f64 = 1e-9;
+
+/// A place on the path of a program.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    pub(super) motion: usize,
+    pub(super) s: f64,
+}
+
+/// A stretch of the path inside the cap around the pole.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    pub(super) start: Place,
+    pub(super) end: Place,
+    /// phi2 where the path enters and leaves, rad.
+    pub(super) phi2: [f64; 2],
+    /// What phi2 is spread over: length of the path and angle of the axis.
+    pub(super) measure: f64,
+    /// Whether the measure counts rapids only.
+    pub(super) has_rapid: bool,
+    /// Whether the path enters and leaves the cap by a motion, so that phi2 is determined at both ends.
+    pub(super) is_bounded: bool,
+}
+
+impl Stretch {
+    /// Whether phi2 can only turn while the tool's end stands still.
+    pub(super) fn is_point(&self) -> bool {
+        self.measure <= 0.0
+    }
+}
+
+struct Open {
+    start: Place,
+    from: Option<f64>,
+    all: f64,
+    rapid: f64,
+}
+
+/// Finds the stretches of a program inside the cap. `fallback` is phi2 where nothing determines it.
+pub(super) fn stretches<M: Motions + ?Sized>(motions: &M, cap: &Cap, fallback: f64) -> Vec<Stretch> {
+    let mut survey = Survey { stretches: Vec::new(), phi2: None, open: None, fallback, scale: cap.scale };
+    let mut start: Option<ToolPosition> = None;
+    for index in 0..motions.count() {
+        let motion = motions.motion(index);
+        match start {
+            Some(start) if motion.kind != MotionKind::Arrive => {
+                survey.pass(index, motion.kind, &Path::new(start, &motion), cap);
+            }
+            _ => survey.arrive(index, &motion, cap),
+        }
+        start = Some(motion.end);
+    }
+    let end = Place { motion: motions.count().saturating_sub(1), s: 1.0 };
+    survey.close(end, None);
+    survey.stretches
+}
+
+struct Survey {
+    stretches: Vec<Stretch>,
+    /// phi2 so far, where it is determined.
+    phi2: Option<f64>,
+    open: Option<Open>,
+    fallback: f64,
+    scale: f64,
+}
+
+impl Survey {
+    fn arrive(&mut self, index: usize, motion: &Motion, cap: &Cap) {
+        self.close(Place { motion: index, s: 0.0 }, None);
+        if cap.has(motion.end.axis) {
+            self.open =
+                Some(Open { start: Place { motion: index, s: 1.0 }, from: None, all: 0.0, rapid: 0.0 });
+        } else {
+            self.phi2 = Some(continued(self.phi2, of_arrival(motion)));
+        }
+    }
+
+    fn pass(&mut self, index: usize, kind: MotionKind, path: &Path, cap: &Cap) {
+        cap.split(path, |[from, to], inside| {
+            if inside {
+                let phi2 = self.phi2;
+                let open = self.open.get_or_insert(Open {
+                    start: Place { motion: index, s: from },
+                    from: phi2,
+                    all: 0.0,
+                    rapid: 0.0,
+                });
+                let measure = cap.measure(path) * (to - from);
+                open.all += measure;
+                if kind == MotionKind::Rapid {
+                    open.rapid += measure;
+                }
+            } else {
+                let [start, end] = azimuths(path, [from, to]);
+                self.close(Place { motion: index, s: from }, Some(start));
+                let begun = continued(self.phi2, start);
+                self.phi2 = Some(begun + to_nearest(end - start, TAU));
+            }
+        });
+    }
+
+    /// Ends the open stretch, where the path leaves the cap at this azimuth, or ends inside it.
+    fn close(&mut self, end: Place, azimuth: Option<f64>) {
+        let Some(open) = self.open.take() else { return };
+        let exit = azimuth.map(|azimuth| continued(open.from, azimuth));
+        let free = open.from.or(exit).or(self.phi2).unwrap_or(self.fallback);
+        let phi2 = [open.from.unwrap_or(free), exit.unwrap_or(free)];
+        let has_rapid = open.rapid > 0.0;
+        let measure = if has_rapid { open.rapid } else { open.all };
+        let measure = if measure < LEAST_MEASURE * self.scale { 0.0 } else { measure };
+        let is_bounded = open.from.is_some() && exit.is_some();
+        self.stretches.push(Stretch { start: open.start, end, phi2, measure, has_rapid, is_bounded });
+        self.phi2 = Some(phi2[1]);
+    }
+}

@@ -1,0 +1,24 @@
+//! Plans of tool paths against independent checks.
+//!
+//! - `lines`: numbers of rows and deviations of single motions.
+//! - `choices`: preimages and windings of whole programs.
+//! - `pole`: paths along, through and to the pole.
+//! - `support`: programs, and the check of rows by the forward problem.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_precision_loss,
+    reason = "tests"
+)]
+
+#[path = "toolpath/choices.rs"]
+mod choices;
+#[path = "toolpath/lines.rs"]
+mod lines;
+#[path = "toolpath/pole.rs"]
+mod pole;
+#[path = "toolpath/support.rs"]
+mod support;

@@ -1,0 +1,107 @@
+//! Paths along, through and to the pole.
+
+use verne_solver::Machine;
+use verne_solver::axis::tool_axis;
+use verne_solver::toolpath::{Motion, PlanOptions, RowKind};
+
+use super::support::{Random, arrive, feed, planned, rapid, worst_deviation};
+
+const UP: [f64; 3] = [0.0, 0.0, 1.0];
+
+fn tilted(tilt: f64, azimuth: f64) -> [f64; 3] {
+    tool_axis(tilt.to_radians(), azimuth.to_radians())
+}
+
+fn check(program: &[Motion], options: &PlanOptions) -> (f64, usize) {
+    let machine = Machine::verne();
+    let (report, rows) = planned(&machine, program, options);
+    assert!(report.is_feasible(), "{:?}", report.failures.first());
+    let worst = worst_deviation(&machine, program, &rows, options);
+    assert!(worst <= 1.0, "{worst} of the tolerance");
+    let turns = rows.iter().filter(|row| row.kind == RowKind::Turn).count();
+    (report.turning[1].to_degrees(), turns)
+}
+
+#[test]
+fn a_path_over_the_pole_changes_the_sign_of_phi1() {
+    for off in [0.0, 1e-9, 1e-7, 1e-6] {
+        let program =
+            [arrive([0.0, 0.0, 300.0], [off, -0.2, 1.0]), feed([20.0, 0.0, 300.0], [off, 0.2, 1.0])];
+        let (turning, turns) = check(&program, &PlanOptions::default());
+        assert!(turning < 1.0, "theta2 turns by {turning}° at {off}");
+        assert_eq!(turns, 0);
+    }
+}
+
+#[test]
+fn noise_along_the_pole_does_not_turn_the_table() {
+    let mut random = Random::new(3);
+    let mut program = vec![arrive([0.0, 0.0, 300.0], UP)];
+    for i in 1..200 {
+        let axis = [random.within(-1e-7, 1e-7), random.within(-1e-7, 1e-7), 1.0];
+        program.push(feed([f64::from(i) * 0.2, 0.0, 300.0], axis));
+    }
+    let (turning, turns) = check(&program, &PlanOptions::default());
+    assert_eq!((turning, turns), (0.0, 0));
+}
+
+#[test]
+fn a_vertical_approach_has_the_meridian_of_the_tilt_that_follows() {
+    let program = [
+        arrive([60.0, 0.0, 350.0], UP),
+        feed([60.0, 0.0, 300.0], UP),
+        feed([60.0, 10.0, 300.0], tilted(10.0, 75.0)),
+        feed([60.0, 0.0, 300.0], UP),
+    ];
+    let (turning, turns) = check(&program, &PlanOptions::default());
+    assert!(turning < 1e-9, "{turning}");
+    assert_eq!(turns, 0);
+}
+
+#[test]
+fn a_cut_that_leaves_the_pole_on_another_meridian_spreads_the_turn() {
+    let program = [
+        arrive([60.0, -10.0, 300.0], tilted(10.0, 0.0)),
+        feed([60.0, 0.0, 300.0], UP),
+        feed([50.0, 0.0, 300.0], UP),
+        feed([50.0, 10.0, 300.0], tilted(10.0, 80.0)),
+    ];
+    let (turning, turns) = check(&program, &PlanOptions::default());
+    assert!((turning - 80.0).abs() < 0.01, "{turning}");
+    assert_eq!(turns, 0);
+}
+
+/// A single segment would move the tool's end by 17.7 mm.
+#[test]
+fn the_table_turns_at_the_pole_while_the_tool_stands_still() {
+    let program = [
+        arrive([60.0, 0.0, 300.0], tilted(10.0, 0.0)),
+        feed([60.0, 0.0, 300.0], UP),
+        feed([60.0, 0.0, 300.0], tilted(10.0, 89.9)),
+    ];
+    let options = PlanOptions { pole: 0.0, ..PlanOptions::default() };
+    let (turning, turns) = check(&program, &options);
+    assert!((turning - 89.9).abs() < 0.01, "{turning}");
+    assert!((40..=56).contains(&turns), "{turns} rows; the fewest are 43");
+}
+
+#[test]
+fn rapids_at_the_pole_turn_the_table_for_the_next_cut() {
+    let program = [
+        arrive([60.0, 0.0, 300.0], tilted(10.0, 0.0)),
+        feed([60.0, 10.0, 300.0], UP),
+        rapid([60.0, 10.0, 350.0], UP),
+        feed([60.0, 10.0, 300.0], UP),
+        feed([60.0, 0.0, 300.0], tilted(10.0, 60.0)),
+    ];
+    let (turning, turns) = check(&program, &PlanOptions::default());
+    assert!((turning - 60.0).abs() < 0.01, "{turning}");
+    assert_eq!(turns, 0);
+}
+
+#[test]
+fn a_pure_rotation_keeps_the_tool_s_end_in_place() {
+    let program =
+        [arrive([30.0, 20.0, 300.0], tilted(5.0, 30.0)), feed([30.0, 20.0, 300.0], tilted(20.0, 70.0))];
+    check(&program, &PlanOptions::default());
+}
