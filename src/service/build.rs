@@ -1,19 +1,20 @@
-//! Builds the viewer with npm into OUT_DIR, where the crate embeds it from.
+//! Builds the viewer with npm into `OUT_DIR`. The crate embeds it from there.
 //!
-//! Without Node the service is built all the same, and says at `/` how to get the viewer. Cargo does not notice when Node
-//! is installed then: a script that ran at every build until it is would link the binary anew every time.
-//! `VERNE_VIEWER=require` makes a viewer that cannot be built an error; `VERNE_VIEWER=skip` does not try.
+//! Without Node the build succeeds, and the service explains at `/` how to get the viewer. Cargo does not run this script
+//! again when Node is installed later: a script that runs at every build would link the binary at every build.
+//! With `VERNE_VIEWER=require` a viewer that cannot be built is an error; with `VERNE_VIEWER=skip` the script does not
+//! build it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-/// What the viewer is made from, seen from its directory. Not `generated` or `node_modules`, which the build writes.
+/// The sources of the viewer in its directory, without `generated` and `node_modules`, which the build writes.
 const SOURCES: [&str; 6] =
     ["src", "index.html", "package.json", "package-lock.json", "tsconfig.json", "vite.config.ts"];
 
 fn main() -> Result<(), String> {
-    // Asked when the script runs: a checkout may have moved, with all that was built in it, since the script was compiled.
+    // Read when the script runs: the checkout may have moved since the script was compiled.
     let crate_directory = env::var("CARGO_MANIFEST_DIR").map_err(|error| error.to_string())?;
     let viewer = Path::new(&crate_directory).join("../viewer");
     for source in SOURCES {
@@ -24,15 +25,15 @@ fn main() -> Result<(), String> {
 
     let out = PathBuf::from(env::var("OUT_DIR").map_err(|error| error.to_string())?).join("viewer");
     empty(&out)?;
-    let wish = env::var("VERNE_VIEWER").unwrap_or_default();
-    if wish == "skip" {
+    let mode = env::var("VERNE_VIEWER").unwrap_or_default();
+    if mode == "skip" {
         return Ok(());
     }
     match build(&viewer, &out) {
-        Err(fault) if wish == "require" => Err(format!("the viewer cannot be built: {fault}")),
-        Err(fault) => {
+        Err(error) if mode == "require" => Err(format!("the viewer cannot be built: {error}")),
+        Err(error) => {
             empty(&out)?;
-            println!("cargo::warning=built without the viewer: {fault}");
+            println!("cargo::warning=built without the viewer: {error}");
             Ok(())
         }
         Ok(()) => Ok(()),
@@ -40,7 +41,7 @@ fn main() -> Result<(), String> {
 }
 
 fn empty(directory: &Path) -> Result<(), String> {
-    // It may not be there yet.
+    // The directory may not exist yet.
     let _ = fs::remove_dir_all(directory);
     fs::create_dir_all(directory).map_err(|error| format!("{}: {error}", directory.display()))
 }
@@ -53,11 +54,11 @@ fn build(viewer: &Path, out: &Path) -> Result<(), String> {
     npm(viewer, &["run", "build", "--", "--outDir", &out, "--emptyOutDir"])
 }
 
-/// Whether `node_modules` holds what the lock file asks for.
+/// Whether `node_modules` is as new as the lock file.
 fn installed(viewer: &Path) -> bool {
     let time = |path: &str| fs::metadata(viewer.join(path)).and_then(|file| file.modified());
     match (time("node_modules/.package-lock.json"), time("package-lock.json")) {
-        (Ok(installed), Ok(asked)) => installed >= asked,
+        (Ok(installed), Ok(locked)) => installed >= locked,
         _ => false,
     }
 }
@@ -72,7 +73,7 @@ fn npm(viewer: &Path, arguments: &[&str]) -> Result<(), String> {
     if output.status.success() {
         return Ok(());
     }
-    // Cargo shows what a failing build script printed; type errors go to the standard output.
+    // Cargo shows the output of a build script that fails. npm writes type errors to standard output.
     eprint!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     Err(format!("npm {} failed", arguments.join(" ")))
 }

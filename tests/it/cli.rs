@@ -23,7 +23,7 @@ fn json(line: &str) -> Value {
 }
 
 #[tokio::test]
-async fn answers_are_those_of_http() {
+async fn the_command_line_answers_as_http_does() {
     for (line, uri) in [
         ("fk --rho 674,685,250 --solutions all", "/fk?rho=674,685,250&solutions=all"),
         ("fk --rho=674,685,250 --theta1 -10 --theta2 -20.5", "/fk?rho=674,685,250&theta1=-10&theta2=-20.5"),
@@ -41,7 +41,7 @@ async fn answers_are_those_of_http() {
 }
 
 #[test]
-fn a_machine_may_be_a_file() {
+fn a_machine_can_be_a_file() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/reference/machine-verne.json");
     let by_file = json(&format!("fk --rho 674,685,250 --machine {file}"));
     assert_eq!(by_file, json("fk --rho 674,685,250"));
@@ -64,9 +64,9 @@ fn errors_name_the_flag() {
     }
 }
 
-/// `--help` shows in its line of usage what a command demands.
+/// A command line with only the arguments that `--help` shows in its line of usage is valid.
 #[test]
-fn what_the_line_of_usage_shows_is_enough() {
+fn the_line_of_usage_shows_all_required_arguments() {
     for command in ["fk", "ik", "key new", "workspace", "openapi"] {
         let help = verne(&format!("{command} --help")).unwrap_err();
         let usage = help.lines().find_map(|line| line.strip_prefix("Usage: verne ")).unwrap();
@@ -84,38 +84,38 @@ fn what_the_line_of_usage_shows_is_enough() {
 }
 
 #[test]
-fn serving_is_the_default() {
+fn serve_is_the_default_command() {
     let without_command = Cli::try_parse_from(["verne", "--listen", "127.0.0.1:0"]);
     assert!(without_command.is_ok());
     assert!(Cli::try_parse_from(["verne", "serve", "--machines", "somewhere"]).is_ok());
     assert!(Cli::try_parse_from(["verne", "serve", "--listen", "nowhere"]).is_err());
 }
 
-/// Answers one question with these bytes; where it listens.
+/// Answers one request with these bytes. Returns the address, and the request.
 fn answering(bytes: &'static [u8]) -> (SocketAddr, JoinHandle<String>) {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap();
     let answered = thread::spawn(move || {
         let (mut stream, _) = listener.accept().unwrap();
-        let mut question = [0; 1024];
-        let length = stream.read(&mut question).unwrap();
+        let mut request = [0; 1024];
+        let length = stream.read(&mut request).unwrap();
         stream.write_all(bytes).unwrap();
-        String::from_utf8_lossy(&question[..length]).into_owned()
+        String::from_utf8_lossy(&request[..length]).into_owned()
     });
     (address, answered)
 }
 
 #[test]
-fn health_is_what_readyz_says() {
-    let (address, question) = answering(b"HTTP/1.1 200 OK\r\ncontent-length: 0\r\n\r\n");
+fn health_succeeds_only_for_status_200() {
+    let (address, request) = answering(b"HTTP/1.1 200 OK\r\ncontent-length: 0\r\n\r\n");
     assert_eq!(verne(&format!("health --url http://{address}/readyz")), Ok(String::new()));
-    assert!(question.join().unwrap().starts_with("GET /readyz HTTP/1.1\r\n"));
-    for refusal in [&b"HTTP/1.1 503 Service Unavailable\r\n\r\n"[..], b"200 by no protocol", b""] {
-        let (address, _) = answering(refusal);
+    assert!(request.join().unwrap().starts_with("GET /readyz HTTP/1.1\r\n"));
+    for response in [&b"HTTP/1.1 503 Service Unavailable\r\n\r\n"[..], b"200 by no protocol", b""] {
+        let (address, _) = answering(response);
         let error = verne(&format!("health --url http://{address}/readyz")).unwrap_err();
         assert!(error.starts_with(&format!("http://{address}/readyz: ")), "{error}");
     }
-    let nobody = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
-    assert!(verne(&format!("health --url http://{nobody}/readyz")).is_err());
+    let unused = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+    assert!(verne(&format!("health --url http://{unused}/readyz")).is_err());
     assert!(verne("health --url ftp://127.0.0.1/readyz").unwrap_err().contains("http://"));
 }

@@ -1,12 +1,12 @@
-//! The service on a socket: what clients may do to it, and how it ends.
+//! The service on a socket: clients that misbehave, limits, TLS, and the end of the service.
 
-mod ending;
-mod full;
+mod connection_limit;
 mod half_closed;
-mod refused;
-mod slow;
+mod http2;
+mod rejected_heads;
+mod slow_clients;
+mod stopping;
 mod tls;
-mod versions;
 
 use std::future::Future;
 use std::net::SocketAddr;
@@ -20,9 +20,9 @@ use verne_service::serve_on;
 
 use crate::http::settings;
 
-const QUESTION: &str = "GET /livez HTTP/1.1\r\nHost: localhost\r\n\r\n";
+const LIVENESS_PROBE: &str = "GET /livez HTTP/1.1\r\nHost: localhost\r\n\r\n";
 
-/// A service on a socket of its own.
+/// A running service.
 struct Served {
     address: SocketAddr,
     stop: oneshot::Sender<()>,
@@ -33,9 +33,9 @@ async fn serve(flags: &str) -> Served {
     let config = settings(&format!("--memory-only {flags}"));
     let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
     let address = listener.local_addr().unwrap();
-    let (stop, told) = oneshot::channel::<()>();
-    let told = async { drop(told.await) };
-    let ended = tokio::spawn(async move { serve_on(vec![listener], &config, told).await.unwrap() });
+    let (stop, stopped) = oneshot::channel::<()>();
+    let stopped = async { drop(stopped.await) };
+    let ended = tokio::spawn(async move { serve_on(vec![listener], &config, stopped).await.unwrap() });
     Served { address, stop, ended }
 }
 
@@ -44,29 +44,28 @@ impl Served {
         TcpStream::connect(self.address).await.unwrap()
     }
 
-    /// Tells it to stop, and waits until it has.
-    async fn end(self) {
+    /// Stops the service and waits for its end.
+    async fn stop(self) {
         drop(self.stop);
         in_time(self.ended).await.unwrap();
     }
 }
 
-/// What should come to an end does, or the test fails in place of hanging.
+/// Waits for a future. The test fails instead of hanging.
 async fn in_time<T>(future: impl Future<Output = T>) -> T {
     tokio::time::timeout(Duration::from_mins(1), future).await.expect("it comes to an end")
 }
 
-/// Everything until the connection is closed, by whatever means.
+/// Everything that is received until the connection is closed or reset.
 async fn rest(stream: &mut (impl AsyncRead + Unpin)) -> String {
     let mut bytes = Vec::new();
-    // A reset is an end too.
     let _ = in_time(stream.read_to_end(&mut bytes)).await;
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Asks whether the service lives, on a connection that stays open; false if it is closed instead.
-async fn asked(stream: &mut TcpStream) -> bool {
-    if stream.write_all(QUESTION.as_bytes()).await.is_err() {
+/// Sends a probe on a connection that stays open. Returns false if the service closes the connection instead.
+async fn probe(stream: &mut TcpStream) -> bool {
+    if stream.write_all(LIVENESS_PROBE.as_bytes()).await.is_err() {
         return false;
     }
     let mut answer = Vec::new();
@@ -80,7 +79,7 @@ async fn asked(stream: &mut TcpStream) -> bool {
 }
 
 #[tokio::test]
-async fn what_is_no_http_harms_nobody() {
+async fn clients_that_do_not_speak_http_do_not_disturb_others() {
     let served = serve("").await;
     for garbage in [
         b"\0\0\0\0\xff\xff\xff\xff".as_slice(),
@@ -96,6 +95,6 @@ async fn what_is_no_http_harms_nobody() {
         let answer = rest(&mut stream).await;
         assert!(!answer.contains(" 200 "), "{answer}");
     }
-    assert!(asked(&mut served.connect().await).await);
-    served.end().await;
+    assert!(probe(&mut served.connect().await).await);
+    served.stop().await;
 }

@@ -3,6 +3,7 @@
 //! May import `wire`.
 
 pub(crate) mod admission;
+pub(crate) mod client_address;
 pub(crate) mod client_quota;
 pub(crate) mod error;
 pub(crate) mod key;
@@ -10,3 +11,4 @@ pub(crate) mod keys;
 pub(crate) mod keys_file;
 pub(crate) mod rate;
 pub(crate) mod response_memory;
+pub(crate) mod toml_error;

@@ -10,7 +10,7 @@ fn main() -> ExitCode {
     match cli.run(&mut stdout(), &mut stderr(), stdout().is_terminal()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
-            // Nothing is left to tell where not even this can be written.
+            // If standard error is closed, the exit status alone reports the failure.
             drop(writeln!(stderr(), "error: {message}"));
             ExitCode::FAILURE
         }

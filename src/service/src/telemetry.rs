@@ -1,9 +1,9 @@
-//! What the process reports while it runs: a log, metrics, and traces for those who collect them.
+//! Log, metrics and traces.
 //!
 //! May import `limits` and `wire`.
 
 #[cfg(test)]
-pub(crate) mod logged;
+pub(crate) mod captured_log;
 pub(crate) mod metrics;
 
 use std::io::{IsTerminal, stderr};
@@ -19,7 +19,7 @@ use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
 use tracing_subscriber::{EnvFilter, Layer};
 
-/// How the log is written, and where traces go.
+/// The settings of the log and the traces.
 #[derive(Clone, Debug, Default, Args)]
 pub struct TelemetryConfig {
     /// Format of the log on standard error. `RUST_LOG` sets its level.
@@ -30,7 +30,7 @@ pub struct TelemetryConfig {
     pub otlp: Option<String>,
 }
 
-/// A form of the log.
+/// A format of the log.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum LogFormat {
     /// Lines of text.
@@ -40,20 +40,20 @@ pub enum LogFormat {
     Json,
 }
 
-/// The telemetry of the process; at its end traces are sent that have not been.
-#[must_use = "traces are sent to the end"]
+/// The telemetry of the process. When it is dropped, it sends the last traces.
+#[must_use = "dropping it ends the traces"]
 pub(crate) struct Telemetry(Option<SdkTracerProvider>);
 
 impl TelemetryConfig {
-    /// Sets up the log and the traces of the process; once, before its runtime.
-    pub(crate) fn begin(&self) -> Result<Telemetry, String> {
+    /// Starts the log and the traces of the process. Call it once, outside of the async runtime.
+    pub(crate) fn start(&self) -> Result<Telemetry, String> {
         let filter = || EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("info"));
         let log = tracing_subscriber::fmt::layer().with_writer(stderr).with_ansi(stderr().is_terminal());
         let log = match self.log_format {
             LogFormat::Text => log.with_filter(filter()).boxed(),
             LogFormat::Json => log.json().flatten_event(true).with_filter(filter()).boxed(),
         };
-        let provider = self.otlp.as_deref().map(exporting_to).transpose()?;
+        let provider = self.otlp.as_deref().map(provider_for).transpose()?;
         let traces = provider.as_ref().map(|provider| {
             global::set_text_map_propagator(TraceContextPropagator::new());
             tracing_opentelemetry::layer().with_tracer(provider.tracer("verne")).with_filter(filter())
@@ -63,7 +63,7 @@ impl TelemetryConfig {
     }
 }
 
-fn exporting_to(url: &str) -> Result<SdkTracerProvider, String> {
+fn provider_for(url: &str) -> Result<SdkTracerProvider, String> {
     let endpoint = format!("{}/v1/traces", url.trim_end_matches('/'));
     let exporter = SpanExporter::builder().with_http().with_endpoint(endpoint).build();
     let exporter = exporter.map_err(|error| format!("otlp: {error}"))?;

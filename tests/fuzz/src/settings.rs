@@ -13,18 +13,14 @@ use crate::draw::Draw;
 
 static PLACE: LazyLock<TempDir> = LazyLock::new(|| TempDir::new().unwrap());
 
-/// The keys that the service has, as it prints them.
+/// The keys that the service has, from its error for an unknown key.
 static KEYS: LazyLock<Vec<String>> = LazyLock::new(|| {
-    let path = PLACE.path().join("empty.toml");
-    fs::write(&path, "").unwrap();
-    let printed = read(&path, "serve").unwrap();
-    let name = |line: &str| {
-        let line = line.trim_start_matches("# ");
-        line.split([' ', ':']).next().unwrap_or_default().to_owned()
-    };
-    printed
-        .lines()
-        .map(name)
+    let path = PLACE.path().join("unknown.toml");
+    fs::write(&path, "unknown = 1").unwrap();
+    let error = read(&path, "serve").unwrap_err();
+    let (_, keys) = error.trim().split_once("the settings are ").unwrap();
+    keys.split(", ")
+        .map(str::to_owned)
         .chain(["slots", "config", "print_config", "listening", "\"\""].map(str::to_owned))
         .collect()
 });

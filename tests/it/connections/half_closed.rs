@@ -1,4 +1,4 @@
-//! Clients that close their direction of the connection: some wait for the answer, some have gone.
+//! Clients that close their direction of the connection. Some wait for the response, some have gone.
 
 use serde_json::{Value, json};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
@@ -14,7 +14,7 @@ fn posted(path: &str, version: &str, body: &Value) -> String {
     )
 }
 
-/// The answer to a client that sends this and closes its direction at once, without interim answers.
+/// The response to a client that sends this and closes its direction at once, without interim responses.
 async fn answered(served: &Served, request: &str) -> String {
     let mut stream = served.connect().await;
     stream.write_all(request.as_bytes()).await.unwrap();
@@ -23,7 +23,7 @@ async fn answered(served: &Served, request: &str) -> String {
 }
 
 #[tokio::test]
-async fn who_closes_its_direction_is_answered() {
+async fn half_closed_clients_are_answered() {
     let served = serve("").await;
     for version in ["1.1", "1.0"] {
         for path in ["/livez", "/fk?rho=674,685,250", "/workspace?tolerance=20", "/docs/swagger-ui-bundle.js"]
@@ -39,22 +39,22 @@ async fn who_closes_its_direction_is_answered() {
         let answer = answered(&served, &question).await;
         assert!(answer.starts_with(&format!("HTTP/{version} 200 OK")), "{answer}");
     }
-    served.end().await;
+    served.stop().await;
 }
 
 #[tokio::test]
-async fn a_body_that_breaks_off_is_told_at_once() {
+async fn an_incomplete_body_is_rejected_at_once() {
     let served = serve("--timeout 600").await;
     let request = posted("/fk", "1.1", &json!({"joints": {"rho": [674, 685, 250]}}));
     let answer = answered(&served, request.strip_suffix("}").unwrap()).await;
     assert!(answer.starts_with("HTTP/1.1 400 ") && answer.contains("bad_request"), "{answer}");
-    served.end().await;
+    served.stop().await;
 }
 
 #[tokio::test]
-async fn who_waits_is_answered_the_job_and_who_has_gone_waits_no_more() {
+async fn half_closed_clients_wait_for_jobs_and_disconnected_clients_cancel_them() {
     let served = serve("--wait 20 --job-threads 1").await;
-    // Each of minutes.
+    // Each job takes minutes.
     let question = |first: u32| {
         let lengths = json!({"from": first, "to": first + 99, "step": 1});
         json!({"kind": "part", "tool_length": lengths, "tolerance": 0.02})
@@ -76,10 +76,10 @@ async fn who_waits_is_answered_the_job_and_who_has_gone_waits_no_more() {
     in_time(async { while state("running").await + state("queued").await < 3 {} }).await;
     drop(gone);
     in_time(async { while state("cancelled").await < 2 {} }).await;
-    // It is there while it waits: interim answers come, and the answer at the end of its wait.
+    // The service sends interim responses while the client waits, and then the response.
     let mut answer = String::new();
     in_time(waiting.read_to_string(&mut answer)).await.unwrap();
     let last = answer.replace("HTTP/1.1 100 Continue\r\n\r\n", "");
     assert!(answer.len() > last.len() && last.starts_with("HTTP/1.1 202 Accepted"), "{answer}");
-    served.end().await;
+    served.stop().await;
 }

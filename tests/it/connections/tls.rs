@@ -13,14 +13,14 @@ use tokio_rustls::client::TlsStream;
 use tokio_rustls::rustls::crypto::aws_lc_rs;
 use tokio_rustls::rustls::{ClientConfig, RootCertStore};
 
-use super::versions::{http2, question};
+use super::http2::{http2, liveness_probe};
 use super::{Served, in_time, rest, serve};
 use crate::cli::verne;
 
-/// A service with a certificate of its own, and a client that trusts it and speaks these protocols.
+/// A service with a self-signed certificate, and a client that trusts it and offers the given protocols.
 async fn secured(flags: &str) -> (Served, impl AsyncFn(&[&str]) -> TlsStream<TcpStream>) {
-    let place = TempDir::new().unwrap();
-    let [certificate, key] = ["certificate.pem", "key.pem"].map(|name| place.path().join(name));
+    let directory = TempDir::new().unwrap();
+    let [certificate, key] = ["certificate.pem", "key.pem"].map(|name| directory.path().join(name));
     let CertifiedKey { cert, signing_key } = generate_simple_self_signed(["localhost".to_owned()]).unwrap();
     fs::write(&certificate, cert.pem()).unwrap();
     fs::write(&key, signing_key.serialize_pem()).unwrap();
@@ -30,8 +30,8 @@ async fn secured(flags: &str) -> (Served, impl AsyncFn(&[&str]) -> TlsStream<Tcp
     trusted.add(cert.der().clone()).unwrap();
     let address = served.address;
     let connect = async move |protocols: &[&str]| {
-        // The files are read when the service starts; this keeps them until then.
-        let _place = &place;
+        // The files must exist until the service has started.
+        let _directory = &directory;
         let mut config = ClientConfig::builder_with_provider(Arc::new(aws_lc_rs::default_provider()))
             .with_safe_default_protocol_versions()
             .unwrap()
@@ -46,7 +46,7 @@ async fn secured(flags: &str) -> (Served, impl AsyncFn(&[&str]) -> TlsStream<Tcp
 }
 
 #[tokio::test]
-async fn both_versions_are_spoken() {
+async fn tls_supports_http1_and_http2() {
     let (served, connect) = secured("").await;
     for protocols in [&["http/1.1"] as &[&str], &[]] {
         let mut stream = connect(protocols).await;
@@ -61,24 +61,24 @@ async fn both_versions_are_spoken() {
     let stream = connect(&["h2", "http/1.1"]).await;
     assert_eq!(stream.get_ref().1.alpn_protocol(), Some(b"h2".as_slice()));
     let (mut client, _) = http2(stream).await;
-    assert_eq!(in_time(client.send_request(question())).await.unwrap().status(), StatusCode::OK);
+    assert_eq!(in_time(client.send_request(liveness_probe())).await.unwrap().status(), StatusCode::OK);
     drop(client);
-    served.end().await;
+    served.stop().await;
 }
 
 #[tokio::test]
-async fn who_closes_its_direction_is_answered() {
+async fn half_closed_clients_are_answered_over_tls() {
     let (served, connect) = secured("").await;
     let mut stream = connect(&["http/1.1"]).await;
     stream.write_all(b"GET /workspace?tolerance=20 HTTP/1.1\r\nHost: localhost\r\n\r\n").await.unwrap();
     stream.shutdown().await.unwrap();
     let answer = rest(&mut stream).await.replace("HTTP/1.1 100 Continue\r\n\r\n", "");
     assert!(answer.starts_with("HTTP/1.1 200 OK"), "{answer}");
-    served.end().await;
+    served.stop().await;
 }
 
 #[tokio::test]
-async fn who_does_not_shake_hands_or_say_anything_after_is_cut() {
+async fn clients_without_a_handshake_or_a_request_are_disconnected() {
     let (served, connect) = secured("--header-timeout 1").await;
     let mut silent = served.connect().await;
     let mut plain = served.connect().await;
@@ -88,14 +88,14 @@ async fn who_does_not_shake_hands_or_say_anything_after_is_cut() {
     assert!(!rest(&mut plain).await.contains("HTTP/1.1 200"));
     assert!(!rest(&mut one).await.contains(" 200 "));
     assert!(!rest(&mut two).await.contains(" 200 "));
-    served.end().await;
+    served.stop().await;
 }
 
 #[tokio::test]
-async fn probes_are_answered_when_all_connections_are_taken() {
+async fn a_full_service_answers_probes_over_tls() {
     let (served, connect) = secured("--max-connections 1").await;
     let (mut first, _) = http2(connect(&["h2"]).await).await;
-    assert_eq!(in_time(first.send_request(question())).await.unwrap().status(), StatusCode::OK);
+    assert_eq!(in_time(first.send_request(liveness_probe())).await.unwrap().status(), StatusCode::OK);
     for (path, status) in [("/livez", "200 OK"), ("/readyz", "200 OK"), ("/machines", "503 ")] {
         let mut stream = connect(&["h2", "http/1.1"]).await;
         assert_eq!(stream.get_ref().1.alpn_protocol(), Some(b"http/1.1".as_slice()));
@@ -105,17 +105,17 @@ async fn probes_are_answered_when_all_connections_are_taken() {
         assert!(answer.starts_with(&format!("HTTP/1.1 {status}")), "{answer}");
     }
     drop(first);
-    served.end().await;
+    served.stop().await;
 }
 
 #[tokio::test]
-async fn health_is_asked_by_https_as_well() {
+async fn verne_health_supports_https() {
     let (served, _connect) = secured("").await;
     let line = format!("health --url https://{}/readyz", served.address);
     assert_eq!(tokio::task::spawn_blocking(move || verne(&line)).await.unwrap(), Ok(String::new()));
-    served.end().await;
+    served.stop().await;
     let plain = serve("").await;
     let line = format!("health --url https://{}/readyz", plain.address);
     assert!(tokio::task::spawn_blocking(move || verne(&line)).await.unwrap().is_err());
-    plain.end().await;
+    plain.stop().await;
 }

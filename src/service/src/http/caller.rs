@@ -1,6 +1,6 @@
 //! Who is behind a request.
 
-use std::net::{IpAddr, SocketAddr};
+use std::net::SocketAddr;
 
 use axum::extract::{ConnectInfo, FromRequestParts};
 use axum::http::Extensions;
@@ -9,6 +9,7 @@ use verne_jobs::Job;
 
 use crate::http::error::{AccessError, HttpError};
 use crate::http::state::Shared;
+use crate::limits::client_address::client_name;
 use crate::limits::keys::Pass;
 use crate::wire::error::OperationError;
 use crate::wire::role::Role;
@@ -79,31 +80,7 @@ impl FromRequestParts<Shared> for Caller {
 /// what it sends may come from a proxy, for everybody.
 pub(crate) fn address(extensions: &Extensions) -> (String, bool) {
     match extensions.get::<ConnectInfo<SocketAddr>>() {
-        Some(ConnectInfo(peer)) => (network(peer.ip()), !peer.ip().to_canonical().is_loopback()),
+        Some(ConnectInfo(peer)) => (client_name(peer.ip()), !peer.ip().to_canonical().is_loopback()),
         None => ("local".to_owned(), false),
-    }
-}
-
-/// One client of the queue: an address, or the network that an IPv6 subscriber has for himself.
-fn network(address: IpAddr) -> String {
-    match address.to_canonical() {
-        IpAddr::V4(address) => address.to_string(),
-        IpAddr::V6(address) => {
-            let [a, b, c, d, ..] = address.segments();
-            format!("{a:x}:{b:x}:{c:x}:{d:x}::/64")
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::network;
-
-    #[test]
-    fn a_subscriber_is_one_client() {
-        let of = |address: &str| address.parse().map(network);
-        assert_eq!(of("2001:db8:1:2:3::4"), of("2001:db8:1:2:ffff::1"));
-        assert_ne!(of("2001:db8:1:2::1"), of("2001:db8:1:3::1"));
-        assert_eq!(of("::ffff:10.0.0.1"), of("10.0.0.1"));
     }
 }

@@ -21,13 +21,13 @@ use crate::http::problem::give_every_failure_a_document;
 use crate::http::proxy::ProxyNetwork;
 use crate::http::request_log::{Observer, observe, without_long_id};
 use crate::http::security_headers::Browsers;
-use crate::telemetry::metrics::requests::Requests;
+use crate::telemetry::metrics::requests::RequestMetrics;
 
 /// Wraps the routes; the first layer here is the outermost. One stack: each call of `Router::layer` would box every
 /// request once more.
 pub(crate) fn wrap(
     routes: Router,
-    requests: Arc<Requests>,
+    requests: Arc<RequestMetrics>,
     time_limit: Duration,
     browsers: &Browsers,
     proxies: Vec<ProxyNetwork>,

@@ -45,14 +45,14 @@ mod tests {
     use std::sync::Arc;
 
     use super::{LINES, Refusals};
-    use crate::telemetry::logged::Logged;
+    use crate::telemetry::captured_log::CapturedLog;
 
     #[tokio::test]
     async fn few_have_a_line_and_the_others_are_counted() {
         let refusals = Arc::new(Refusals::default());
         let told = |count: u64| (0..count).filter(|_| refusals.has_line(401)).count();
         assert_eq!(told(24_000), 10);
-        let logged = Logged::begin();
+        let logged = CapturedLog::begin();
         refusals.end(401);
         let text = logged.text();
         assert!(text.lines().count() == 1 && text.contains("23990") && text.contains("401"), "{text}");

@@ -14,7 +14,7 @@ use tracing::{Instrument, Span, debug, error, field, info, info_span};
 use tracing_opentelemetry::OpenTelemetrySpanExt;
 
 use crate::http::refusal_log::Refusals;
-use crate::telemetry::metrics::requests::Requests;
+use crate::telemetry::metrics::requests::RequestMetrics;
 
 /// Paths that are no route of the API: the viewer's files, and what does not exist.
 const ELSEWHERE: &str = "other";
@@ -28,7 +28,7 @@ const LONGEST: usize = 128;
 /// Where what is observed goes.
 #[derive(Clone)]
 pub(crate) struct Observer {
-    requests: Arc<Requests>,
+    requests: Arc<RequestMetrics>,
     /// Whose key is not known.
     unknown: Arc<Refusals>,
     /// Who may not what was asked for, or not from where.
@@ -37,7 +37,7 @@ pub(crate) struct Observer {
 
 impl Observer {
     /// Counts requests.
-    pub(crate) fn new(requests: Arc<Requests>) -> Self {
+    pub(crate) fn new(requests: Arc<RequestMetrics>) -> Self {
         Self { requests, unknown: Arc::default(), forbidden: Arc::default() }
     }
 
@@ -134,7 +134,7 @@ mod tests {
     use crate::limits::key::Key;
     use crate::process::config::ServeConfig;
     use crate::process::service::Service;
-    use crate::telemetry::logged::Logged;
+    use crate::telemetry::captured_log::CapturedLog;
 
     /// A service with one key, which may read, and the key.
     async fn service() -> (Service, Key) {
@@ -151,7 +151,7 @@ mod tests {
     #[tokio::test]
     async fn a_flood_of_refusals_is_a_few_lines() {
         let (service, known) = service().await;
-        let logged = Logged::begin();
+        let logged = CapturedLog::begin();
         for _ in 0..200 {
             let request = Request::get("/machines").body(Body::empty()).unwrap();
             assert_eq!(service.router.clone().oneshot(request).await.unwrap().status(), 401);
@@ -172,7 +172,7 @@ mod tests {
             (&known, "/workspace", Some(("ada", 403))),
             (&known, "/machines", None),
         ] {
-            let logged = Logged::begin();
+            let logged = CapturedLog::begin();
             let request = Request::get(format!("{path}?hidden=1"))
                 .header(AUTHORIZATION, format!("Bearer {key}"))
                 .extension(ConnectInfo(peer));

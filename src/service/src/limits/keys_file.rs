@@ -12,6 +12,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::limits::key::Key;
 use crate::limits::rate::{Bucket, Rate};
+use crate::limits::toml_error;
 use crate::wire::role::Role;
 
 /// Most characters in a name.
@@ -35,7 +36,7 @@ pub(crate) type Table = HashMap<Hash, Arc<Holder>>;
 #[derive(Debug)]
 pub struct BadKeys {
     path: PathBuf,
-    /// Which entry, or line.
+    /// Which entry.
     place: Option<String>,
     reason: String,
 }
@@ -89,13 +90,8 @@ impl Entry {
 pub(crate) fn read(path: &Path, default: Option<Rate>) -> Result<Table, BadKeys> {
     let bad = |place, reason| BadKeys { path: path.to_owned(), place, reason };
     let text = std::fs::read_to_string(path).map_err(|error| bad(None, error.to_string()))?;
-    let Document { key } = toml::from_str(&text).map_err(|error| {
-        let line = error
-            .span()
-            .and_then(|span| text.get(..span.start))
-            .map(|before| before.matches('\n').count() + 1);
-        bad(line.map(|line| format!("line {line}")), error.message().to_owned())
-    })?;
+    let Document { key } =
+        toml::from_str(&text).map_err(|error| bad(None, toml_error::describe(&error, &text)))?;
     let mut keys = Table::new();
     for (i, entry) in key.into_iter().enumerate() {
         let place = place(i + 1, &entry);

@@ -23,7 +23,7 @@ use crate::operations::results::{CELLS, MESH, Results, pack_mesh};
 use crate::operations::subtask::{Subtask, SubtaskRequest};
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
-use crate::telemetry::metrics::computations::Computations;
+use crate::telemetry::metrics::computations::ComputationMetrics;
 use crate::wire::dexterity::SetName;
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
@@ -41,12 +41,12 @@ const ERROR_BYTES: usize = 256;
 /// Computes the answers of jobs on the threads of the queue, and stores them.
 pub(crate) struct JobExecutor {
     store: BlockingResults,
-    computations: Computations,
+    computations: ComputationMetrics,
 }
 
 impl JobExecutor {
     /// An executor that stores its answers in `results` and counts them in `computations`. `runtime` runs the store.
-    pub(crate) fn new(results: Results, computations: Computations, runtime: Handle) -> Self {
+    pub(crate) fn new(results: Results, computations: ComputationMetrics, runtime: Handle) -> Self {
         Self { store: BlockingResults { results, runtime }, computations }
     }
 
@@ -264,7 +264,7 @@ mod tests {
     use crate::operations::question_text::JobParameters;
     use crate::operations::results::{MESH, Results};
     use crate::operations::workspace_question::WorkspaceQuestion;
-    use crate::telemetry::metrics::computations::Computations;
+    use crate::telemetry::metrics::computations::ComputationMetrics;
     use crate::wire::format::MeshFormat;
 
     struct Unwatched;
@@ -280,7 +280,7 @@ mod tests {
     #[tokio::test]
     async fn a_job_stores_the_mesh_in_the_format_that_the_client_waits_for() {
         let results = Results::new(Store::in_memory(1 << 24));
-        let executor = JobExecutor::new(results.clone(), Computations::default(), Handle::current());
+        let executor = JobExecutor::new(results.clone(), ComputationMetrics::default(), Handle::current());
         let request = from_value(json!({"tolerance": 50})).unwrap();
         let question = WorkspaceQuestion::new(&request, &MachineRegistry::default()).unwrap();
         let id = question.id;

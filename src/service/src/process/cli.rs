@@ -1,17 +1,12 @@
-//! The command line.
+//! The command line: one module for each command except `serve` and `worker`.
 
+pub(crate) mod answer;
 pub(crate) mod health;
 pub(crate) mod key;
+pub(crate) mod kinematics;
 pub(crate) mod progress;
-pub(crate) mod question;
 pub(crate) mod store;
 pub(crate) mod workspace;
-
-use crate::process::cli::health::HealthCommand;
-use crate::process::cli::key::KeyCommand;
-use crate::process::cli::question::Question;
-use crate::process::cli::store::StoreCommand;
-use crate::process::cli::workspace::WorkspaceCommand;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -19,9 +14,14 @@ use std::time::Duration;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use crate::process::cli::health::HealthCommand;
+use crate::process::cli::key::KeyCommand;
+use crate::process::cli::kinematics::KinematicsCommand;
+use crate::process::cli::store::StoreCommand;
+use crate::process::cli::workspace::WorkspaceCommand;
 use crate::process::config::ServeConfig;
 use crate::process::config::worker::WorkerConfig;
-use crate::process::service::StartError;
+use crate::process::start_error::StartError;
 use crate::process::{config, service, worker_process};
 use crate::telemetry::TelemetryConfig;
 
@@ -37,9 +37,9 @@ pub struct Cli {
     command: Option<Command>,
     #[command(flatten)]
     serve: ServeConfig,
-    /// The settings in force, where they are to be printed and nothing else.
+    /// The effective settings, if `--print-config` asks for them.
     #[arg(skip)]
-    settings: Option<String>,
+    printed_settings: Option<String>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -57,53 +57,53 @@ enum Command {
     /// Compute a workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
     Workspace(WorkspaceCommand),
     #[command(flatten)]
-    Ask(Question),
+    Kinematics(KinematicsCommand),
 }
 
 impl Cli {
-    /// Reads the words of a command line, the first of which names the program, and the file of settings that they or
-    /// the environment name.
+    /// Reads a command line, whose first word is the name of the program, and the settings file that it or the
+    /// environment names.
     pub fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
         let words: Vec<OsString> = words.into_iter().collect();
         let read = config::sources::read(Self::command(), &words)?;
-        Ok(Self { settings: read.printed, ..Self::from_arg_matches(&read.matches)? })
+        Ok(Self { printed_settings: read.printed, ..Self::from_arg_matches(&read.matches)? })
     }
 
-    /// Serves, or writes the answer to `out`: with line breaks for people, or without. What is shown and no part of
-    /// the answer goes to `aside`. The error is for people.
-    pub fn run(self, out: &mut impl Write, aside: &mut impl Write, pretty: bool) -> Result<(), String> {
-        if let Some(settings) = self.settings {
+    /// Runs the command. Results go to `out`, with line breaks if `pretty`; the key of `verne key new` goes to `err`.
+    /// The error is a message for people.
+    pub fn run(self, out: &mut impl Write, err: &mut impl Write, pretty: bool) -> Result<(), String> {
+        if let Some(settings) = self.printed_settings {
             return write!(out, "{settings}").map_err(|error| format!("cannot print the settings: {error}"));
         }
         match self.command.unwrap_or(Command::Serve(Box::new(self.serve))) {
             Command::Serve(config) => on_runtime(&config.telemetry, service::serve(&config)),
-            Command::Worker(config) => on_runtime(&config.telemetry, worker_process::work(&config)),
+            Command::Worker(config) => on_runtime(&config.telemetry, worker_process::run(&config)),
             Command::Health(command) => command.run(),
-            Command::Key(command) => command.run(out, aside),
+            Command::Key(command) => command.run(out, err),
             Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, pretty),
-            Command::Ask(question) => {
-                let answer = question.answer(pretty)?;
+            Command::Kinematics(command) => {
+                let answer = command.answer(pretty)?;
                 writeln!(out, "{answer}").map_err(|error| format!("cannot write the answer: {error}"))
             }
         }
     }
 }
 
-/// How long threads have to finish what blocks them after all else has ended.
-const LAST: Duration = Duration::from_secs(5);
+/// How long blocked threads may take to finish after everything else has ended.
+const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(5);
 
 fn on_runtime(
     telemetry: &TelemetryConfig,
-    service: impl Future<Output = Result<(), StartError>>,
+    task: impl Future<Output = Result<(), StartError>>,
 ) -> Result<(), String> {
-    let _telemetry = telemetry.begin()?;
+    let _telemetry = telemetry.start()?;
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()
         .map_err(|error| format!("cannot start: {error}"))?;
-    let ended = runtime.block_on(service).map_err(|error| error.to_string());
-    // A name that the system still looks up must not keep the process.
-    runtime.shutdown_timeout(LAST);
+    let ended = runtime.block_on(task).map_err(|error| error.to_string());
+    // A thread may wait for a name server.
+    runtime.shutdown_timeout(SHUTDOWN_TIMEOUT);
     ended
 }

@@ -1,13 +1,18 @@
-//! Settings of `verne serve`, from flags, environment and a file.
+//! The settings of `verne serve`, from flags, environment variables and a file.
 //!
-//! This is the one list of them. What two settings have to do with each other stands in `checks`: to clap, which reads
-//! flags and environment before the file, `requires` and `conflicts_with` would mean less than they say.
+//! - This module, `cluster`, `worker` and `listen` list the settings. clap generates the flags and the help from them.
+//! - `sources` reads them from all layers, `file` from the settings file; `layers` tells from which layer a value
+//!   comes.
+//! - `checks` rejects settings that contradict each other. clap's `requires` and `conflicts_with` cannot do that,
+//!   because clap reads flags and environment variables before the file.
+//! - `print` prints the effective settings.
 
 pub(crate) mod checks;
 pub(crate) mod cluster;
 pub(crate) mod file;
+pub(crate) mod layers;
 pub(crate) mod listen;
-pub(crate) mod print_config;
+pub(crate) mod print;
 pub(crate) mod sources;
 pub(crate) mod worker;
 
@@ -20,32 +25,31 @@ use clap::{Args, value_parser};
 
 use crate::http::origin::Origin;
 use crate::http::proxy::{BasePath, HostName, ProxyNetwork};
+use crate::http::state::RequestLimits;
 use crate::process::config::cluster::{BrokerConfig, StoreConfig};
 use crate::process::config::listen::Listen;
-
-use crate::http::state::RequestLimits;
 use crate::telemetry::TelemetryConfig;
 use crate::wire::bounded_list::MOST_ROWS;
 
-/// A year, in seconds: more than that is a mistake, and no clock overflows.
-const LONGEST: u64 = 365 * 86_400;
+/// Maximum of all durations: a year, in seconds. More is a mistake, and no clock overflows.
+const MAX_SECONDS: u64 = 365 * 86_400;
 
-/// Where settings come from beside flags and environment.
+/// The settings file.
 #[derive(Clone, Debug, Default, Args)]
 pub struct SettingsFile {
     /// TOML file of settings. Its keys are the flag names with `_` instead of `-`. Flags and environment variables
     /// override it.
     #[arg(long, env = "VERNE_CONFIG", value_name = "FILE")]
     pub config: Option<PathBuf>,
-    /// Print the effective settings and the source of each, in the format of the --config file, then exit.
+    /// Print the effective settings in the format of the --config file, then exit.
     #[arg(long)]
     pub print_config: bool,
 }
 
-/// Where and what to serve.
+/// The settings of `verne serve`.
 #[derive(Clone, Debug, Args)]
 pub struct ServeConfig {
-    /// The file of settings.
+    /// The settings file.
     #[command(flatten)]
     pub file: SettingsFile,
     /// Address and port to listen on. `localhost:PORT` means 127.0.0.1 and ::1.
@@ -71,7 +75,7 @@ pub struct ServeConfig {
     /// Seconds within which a client must send all headers of a request. It is also the time within which the next
     /// request on a connection must begin.
     #[arg(long, env = "VERNE_HEADER_TIMEOUT", default_value_t = 10, value_name = "SECONDS",
-        value_parser = value_parser!(u64).range(1..=LONGEST))]
+        value_parser = value_parser!(u64).range(1..=MAX_SECONDS))]
     pub header_timeout: u64,
     /// PEM file with the certificate and its chain; the service then uses TLS. The service loads a changed file within
     /// a minute.
@@ -124,15 +128,15 @@ pub struct ServeConfig {
     pub queue: usize,
     /// Seconds after which the service aborts a job. The time in the queue counts.
     #[arg(long, env = "VERNE_JOB_LIMIT", default_value_t = 86_400, value_name = "SECONDS",
-        value_parser = value_parser!(u64).range(1..=LONGEST))]
+        value_parser = value_parser!(u64).range(1..=MAX_SECONDS))]
     pub job_limit: u64,
     /// Seconds for which a request waits for its job. After that the service answers with the address of the job.
     #[arg(long, env = "VERNE_WAIT", default_value_t = 10, value_name = "SECONDS",
-        value_parser = value_parser!(u64).range(0..=LONGEST))]
+        value_parser = value_parser!(u64).range(0..=MAX_SECONDS))]
     pub wait: u64,
     /// Seconds after which the service aborts a request, or a response of which the client reads nothing.
     #[arg(long, env = "VERNE_TIMEOUT", default_value_t = 30, value_name = "SECONDS",
-        value_parser = value_parser!(u64).range(1..=LONGEST))]
+        value_parser = value_parser!(u64).range(1..=MAX_SECONDS))]
     pub timeout: u64,
     /// TOML file of API keys, with entries from `verne key new`. Requests then need a key; without this file anybody
     /// may send any request. SIGHUP reloads the file.
@@ -153,20 +157,21 @@ pub struct ServeConfig {
     pub max_requests: usize,
     /// Seconds that requests in progress and jobs may take to finish after the service receives a stop signal.
     #[arg(long, env = "VERNE_DRAIN", default_value_t = 10, value_name = "SECONDS",
-        value_parser = value_parser!(u64).range(0..=LONGEST))]
+        value_parser = value_parser!(u64).range(0..=MAX_SECONDS))]
     pub drain: u64,
-    /// What the process tells of itself.
+    /// The log and the traces.
     #[command(flatten)]
     pub telemetry: TelemetryConfig,
-    /// Where jobs wait, if other processes run them.
+    /// The broker, if other processes run the jobs.
     #[command(flatten)]
     pub broker: BrokerConfig,
-    /// Where results are kept, if other processes read them.
+    /// The result store, if other processes read the results.
     #[command(flatten)]
     pub store: StoreConfig,
 }
 
 impl ServeConfig {
+    /// The limits of requests.
     pub(crate) fn limits(&self) -> RequestLimits {
         let longest_wait = Duration::from_secs(self.timeout.saturating_sub(1));
         RequestLimits {
@@ -179,7 +184,7 @@ impl ServeConfig {
         }
     }
 
-    /// Cores for jobs: what is interactive keeps one.
+    /// Number of cores for jobs. By default one core remains for requests.
     pub(crate) fn job_cores(&self) -> usize {
         let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         self.job_threads.map_or(cores.saturating_sub(1).max(1), NonZeroUsize::get)

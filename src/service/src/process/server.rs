@@ -1,19 +1,26 @@
-//! The listener: connections are accepted within bounds, served, and brought to an end.
+//! The listener: it accepts connections up to a limit, serves them, and closes them when the service stops.
+//!
+//! - `connection`: the handshake and the version of HTTP; then `http1_stream` with `exchange`, `half_closed` and
+//!   `rejected_head`, or `http2_activity`.
+//! - `connection_limit`, `fd_limit`: the number of connections.
+//! - `tls`: the certificate and its reload.
+//! - `listener_config`, `startup_warnings`: what the settings say.
+//!
+//! axum-server does not replace these modules: it has one hyper configuration for all connections, no access to a
+//! single connection, and no time limits. Beyond the connection limit the service answers one probe over HTTP/1; it
+//! announces the end of an idle HTTP/2 connection; and it needs the socket of a rejected head back.
 
 pub(crate) mod connection;
 pub(crate) mod connection_limit;
 pub(crate) mod exchange;
 pub(crate) mod fd_limit;
 pub(crate) mod half_closed;
+pub(crate) mod http1_stream;
+pub(crate) mod http2_activity;
 pub(crate) mod listener_config;
-pub(crate) mod refusal;
-pub(crate) mod stall_detection;
+pub(crate) mod rejected_head;
 pub(crate) mod startup_warnings;
-pub(crate) mod timeout_stream;
 pub(crate) mod tls;
-
-use crate::process::server::listener_config::Terms;
-use crate::process::server::tls::{Tls, TlsError};
 
 use std::io;
 use std::net::SocketAddr;
@@ -21,100 +28,103 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use axum::Router;
-use futures_util::FutureExt;
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
+use tokio_util::task::TaskTracker;
 
-use crate::process::server::connection::{Attendant, Bounds};
-use crate::process::server::connection_limit::{Full, Places, SPARE};
-use crate::telemetry::metrics::connections::Connections;
+use crate::process::server::connection::ConnectionHandler;
+use crate::process::server::connection_limit::{ConnectionLimit, ConnectionLimitError, PROBE_CONNECTIONS};
+use crate::process::server::fd_limit::raise_for;
+use crate::process::server::listener_config::{ListenerConfig, Timeouts};
+use crate::process::server::startup_warnings::warn_if_open;
+use crate::process::server::tls::{Tls, TlsError, reload_on_change};
+use crate::telemetry::metrics::connections::ConnectionMetrics;
 
-/// How long nothing is accepted after the system could not, for want of files, say.
-const BREATH: Duration = Duration::from_millis(500);
+/// How long the listener pauses after the system could not accept a connection, for example for lack of files.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(500);
 
-/// Refused connections are logged no more often than this.
-const SELDOM: Duration = Duration::from_secs(10);
+/// Minimum time between two lines of the log about rejected connections.
+const LOG_INTERVAL: Duration = Duration::from_secs(10);
 
 /// A listener that is ready to serve.
 pub(crate) struct Server {
     listeners: Listeners,
-    places: Arc<Places>,
-    /// For what must be answered when all places are taken.
-    spare: Arc<Places>,
-    bounds: Bounds,
+    limit: ConnectionLimit,
+    /// For connections beyond the limit.
+    probe_limit: ConnectionLimit,
+    timeouts: Timeouts,
     tls: Option<Arc<Tls>>,
 }
 
 impl Server {
-    /// Reads the certificate, where there is one.
-    pub(crate) fn new(listeners: Vec<TcpListener>, terms: &Terms) -> Result<Self, TlsError> {
-        let tls = match &terms.tls {
+    /// Reads the certificate, if the configuration has one.
+    pub(crate) fn new(listeners: Vec<TcpListener>, config: &ListenerConfig) -> Result<Self, TlsError> {
+        let tls = match &config.tls {
             Some([certificate, key]) => Some(Arc::new(Tls::read(certificate, key)?)),
             None => None,
         };
-        let places =
-            Places::new(crate::process::server::fd_limit::room_for(terms.connections), terms.proxies.clone());
-        let spare = Places::new(SPARE, terms.proxies.clone());
-        let bounds = Bounds { header: terms.header, stall: terms.stall };
-        Ok(Self { listeners: Listeners(listeners), places, spare, bounds, tls })
+        Ok(Self {
+            listeners: Listeners(listeners),
+            limit: ConnectionLimit::new(raise_for(config.connections), config.proxies.clone()),
+            probe_limit: ConnectionLimit::new(PROBE_CONNECTIONS, config.proxies.clone()),
+            timeouts: config.timeouts,
+            tls,
+        })
     }
 
-    /// Says where it listens, and what is open to others.
-    pub(crate) fn announce(&self, has_keys: bool) -> io::Result<()> {
+    /// Logs the addresses, and warnings if other machines can reach them.
+    pub(crate) fn log_addresses(&self, has_keys: bool) -> io::Result<()> {
         let scheme = if self.tls.is_some() { "https" } else { "http" };
         for listener in &self.listeners.0 {
             let address = listener.local_addr()?;
             tracing::info!("listening on {scheme}://{address}");
-            crate::process::server::startup_warnings::warn_if_open(
-                address.ip(),
-                has_keys,
-                self.tls.is_some(),
-            );
+            warn_if_open(address.ip(), has_keys, self.tls.is_some());
         }
         Ok(())
     }
 
-    /// Serves until it is to stop; `full` answers one request of each who comes when all places are taken. Then idle
-    /// connections are closed at once, and what is open after the limit is cut: a client that reads nothing must not keep
-    /// the process.
+    /// Serves `router` until `stopping` is cancelled, and one request of `probes` on each connection beyond the limit.
+    /// Then it closes idle connections at once, and all others after `drain`: a client that reads nothing must not
+    /// delay the end of the process.
     pub(crate) async fn serve(
         self,
         router: Router,
-        full: Router,
-        connections: Connections,
+        probes: Router,
+        metrics: ConnectionMetrics,
         stopping: &CancellationToken,
-        limit: Duration,
+        drain: Duration,
     ) {
-        let open = watch::Sender::new(());
-        let cut = CancellationToken::new();
-        let usual = Attendant::new(self.bounds, router, self.tls.clone(), stopping.clone());
-        let brief = usual.for_one_request(full);
-        let mut refusals = Refusals::default();
-        connections.limit(self.places.count());
-        let reloading = tokio::spawn(
-            cut.clone().run_until_cancelled_owned(crate::process::server::tls::keep_fresh(self.tls)),
-        );
+        let (tasks, close) = (TaskTracker::new(), CancellationToken::new());
+        if let Some(tls) = self.tls.clone() {
+            tasks.spawn(stopping.clone().run_until_cancelled_owned(reload_on_change(tls)));
+        }
+        let handler = ConnectionHandler::new(self.timeouts, router, self.tls, stopping.clone());
+        let probe_handler = handler.for_one_request(probes);
+        let mut rejections = RejectionLog::default();
+        metrics.set_limit(self.limit.total());
         while let Some((stream, peer)) = self.listeners.next(stopping).await {
-            let (attendant, place, counted) = match self.places.take(peer.ip()) {
-                Ok(place) => (&usual, place, Some(connections.open())),
-                Err(full) => {
-                    connections.refuse();
-                    refusals.log(peer, full);
-                    let Ok(place) = self.spare.take(peer.ip()) else { continue };
-                    (&brief, place, None)
+            let (handler, share, counted) = match self.limit.take(peer.ip()) {
+                Ok(share) => (&handler, share, Some(metrics.open())),
+                Err(error) => {
+                    metrics.count_rejection();
+                    rejections.log(peer, error);
+                    // Without a response: the client would usually lose one that is sent before its request.
+                    let Ok(share) = self.probe_limit.take(peer.ip()) else { continue };
+                    (&probe_handler, share, None)
                 }
             };
-            let (attended, open) = (attendant.clone().attend(stream, peer, place), open.subscribe());
-            let attended = cut.clone().run_until_cancelled_owned(attended);
-            tokio::spawn(attended.map(|_| drop((open, counted))));
+            let (connection, close) = (handler.clone().run(stream, peer), close.clone());
+            tasks.spawn(async move {
+                close.run_until_cancelled(connection).await;
+                drop((share, counted));
+            });
         }
         drop(self.listeners);
-        if tokio::time::timeout(limit, open.closed()).await.is_err() {
+        tasks.close();
+        if tokio::time::timeout(drain, tasks.wait()).await.is_err() {
             tracing::info!("closing the connections that are still open");
         }
-        cut.cancel();
-        drop(reloading.await);
+        close.cancel();
     }
 }
 
@@ -122,8 +132,7 @@ impl Server {
 struct Listeners(Vec<TcpListener>);
 
 impl Listeners {
-    /// The next connection; nothing when the service is to stop. No error of one connection, or of the moment, ends the
-    /// listeners.
+    /// The next connection; `None` when the service stops. Errors do not end the listeners.
     async fn next(&self, stopping: &CancellationToken) -> Option<(TcpStream, SocketAddr)> {
         loop {
             match stopping.run_until_cancelled(self.accept()).await? {
@@ -131,13 +140,12 @@ impl Listeners {
                 Err(error) if is_of_one_connection(&error) => {}
                 Err(error) => {
                     tracing::error!(%error, "cannot accept connections now");
-                    stopping.run_until_cancelled(tokio::time::sleep(BREATH)).await?;
+                    stopping.run_until_cancelled(tokio::time::sleep(ACCEPT_PAUSE)).await?;
                 }
             }
         }
     }
 
-    /// A connection to one of them, whichever it is.
     async fn accept(&self) -> io::Result<(TcpStream, SocketAddr)> {
         let on = async |listener: Option<&TcpListener>| match listener {
             Some(listener) => listener.accept().await,
@@ -155,20 +163,19 @@ fn is_of_one_connection(error: &io::Error) -> bool {
     matches!(error.kind(), ConnectionAborted | ConnectionRefused | ConnectionReset | Interrupted)
 }
 
-/// Beyond the spare places a connection is closed without a word: an answer before the request is lost as often as not. The
-/// log says why.
+/// Logs rejected connections, several in one line.
 #[derive(Default)]
-struct Refusals {
-    told: Option<Instant>,
-    untold: u64,
+struct RejectionLog {
+    logged: Option<Instant>,
+    rejected: u64,
 }
 
-impl Refusals {
-    fn log(&mut self, peer: SocketAddr, full: Full) {
-        self.untold += 1;
-        if self.told.is_none_or(|told| told.elapsed() >= SELDOM) {
-            tracing::warn!(%peer, refused = self.untold, "{full}");
-            *self = Self { told: Some(Instant::now()), untold: 0 };
+impl RejectionLog {
+    fn log(&mut self, peer: SocketAddr, error: ConnectionLimitError) {
+        self.rejected += 1;
+        if self.logged.is_none_or(|logged| logged.elapsed() >= LOG_INTERVAL) {
+            tracing::warn!(%peer, refused = self.rejected, "{error}");
+            *self = Self { logged: Some(Instant::now()), rejected: 0 };
         }
     }
 }

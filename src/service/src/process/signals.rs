@@ -1,9 +1,9 @@
-//! Signals that a process is sent.
+//! The signals of the operating system.
 
-/// Returns when the process is to end: SIGTERM or ctrl-c.
-pub(crate) async fn told_to_stop() {
+/// Returns when the process receives SIGTERM or ctrl-c.
+pub(crate) async fn stop_signal() {
     let interrupted = async {
-        // Without a handler the default remains: the signal ends the process.
+        // Without a handler the signal ends the process, which is the system's default.
         if tokio::signal::ctrl_c().await.is_err() {
             std::future::pending::<()>().await;
         }
@@ -29,10 +29,10 @@ async fn terminated() {
     std::future::pending().await
 }
 
-/// From now on SIGHUP, at which files of keys are read again, does not end the process. As long as this is polled, one that
-/// finds nothing to read is told of.
+/// Prevents SIGHUP, which reloads the keys, from ending the process. The future never ends; it logs each SIGHUP if the
+/// process has no keys.
 #[cfg(unix)]
-pub(crate) fn outlive_hangups(has_keys: bool) -> impl Future<Output = ()> {
+pub(crate) fn handle_hangups(has_keys: bool) -> impl Future<Output = ()> {
     use tokio::signal::unix::{SignalKind, signal};
     let hangups = signal(SignalKind::hangup());
     async move {
@@ -47,8 +47,8 @@ pub(crate) fn outlive_hangups(has_keys: bool) -> impl Future<Output = ()> {
     }
 }
 
-/// There is no SIGHUP here.
+/// This system has no SIGHUP.
 #[cfg(not(unix))]
-pub(crate) fn outlive_hangups(_has_keys: bool) -> impl Future<Output = ()> {
+pub(crate) fn handle_hangups(_has_keys: bool) -> impl Future<Output = ()> {
     std::future::pending()
 }

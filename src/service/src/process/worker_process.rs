@@ -1,4 +1,4 @@
-//! `verne worker`: runs the jobs that wait at a broker, and puts their results where all reach them.
+//! `verne worker`: runs jobs from the broker and writes their results to the shared store.
 
 use std::pin::pin;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use tokio::runtime::Handle;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 use verne_jobs::Backend;
-use verne_jobs::jetstream::{Worker, WorkerConfig as Threads};
+use verne_jobs::jetstream::{self, Worker};
 
 use crate::http::error::HttpError;
 use crate::http::handlers::service;
@@ -23,60 +23,60 @@ use crate::operations::job_executor::JobExecutor;
 use crate::process::config::listen::Listen;
 use crate::process::config::worker::WorkerConfig;
 use crate::process::server::Server;
-use crate::process::server::listener_config::Terms;
-use crate::process::server::startup_warnings::warn_of_probes;
-use crate::process::service::StartError;
-use crate::process::signals::{outlive_hangups, told_to_stop};
+use crate::process::server::listener_config::ListenerConfig;
+use crate::process::server::startup_warnings::warn_if_probes_are_open;
+use crate::process::signals::{handle_hangups, stop_signal};
+use crate::process::start_error::StartError;
 use crate::process::storage;
-use crate::process::storage::StorageError;
+use crate::process::storage::error::StorageError;
 use crate::telemetry::metrics::Metrics;
-use crate::telemetry::metrics::computations::Computations;
+use crate::telemetry::metrics::computations::ComputationMetrics;
 
-/// A worker submits parts of jobs only: the queue's bound is that of who submits jobs.
+/// A worker submits only subtasks. The process that submits a job limits the queue.
 const QUEUE: usize = usize::MAX;
 
-/// What the probes tell of.
-struct Probed {
+/// The state of the probes.
+struct ProbeState {
     readiness: Readiness,
     metrics: Metrics,
 }
 
-/// Runs jobs until SIGTERM or ctrl-c, which may come before it can. Then those under way go back to the queue, within a
-/// bounded time.
-pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
-    let mut told = pin!(told_to_stop());
-    let hangups = pin!(outlive_hangups(false));
+/// Runs jobs until SIGTERM or ctrl-c, which may arrive before the worker is connected. Then it returns its jobs to the
+/// queue, within the time `drain` of the settings.
+pub(crate) async fn run(config: &WorkerConfig) -> Result<(), StartError> {
+    let mut stop = pin!(stop_signal());
+    let hangups = pin!(handle_hangups(false));
     let opening = storage::shared::open(&config.broker, &config.store, config.cache_bytes, QUEUE);
     let (results, jobs) = tokio::select! {
         opened = opening => opened.map_err(StartError::Storage)?,
-        () = &mut told => return Ok(()),
+        () = &mut stop => return Ok(()),
     };
-    let computations = Computations::default();
+    let computations = ComputationMetrics::default();
     let tasks = Arc::new(JobExecutor::new(results.clone(), computations.clone(), Handle::current()));
     let (threads, slots) = config.threads_and_slots();
-    let worker = Worker::start(&jobs, Threads { threads, slots }, tasks)
+    let worker = Worker::start(&jobs, jetstream::WorkerConfig { threads, slots }, tasks)
         .map_err(|error| StartError::Storage(StorageError::Broker(error)))?;
     tracing::info!(threads, slots, "accepting jobs");
 
     let stopping = CancellationToken::new();
-    let mut metrics = Metrics::of(Arc::clone(&jobs) as Arc<dyn Backend>, results.store(), &computations);
-    metrics.tell_of_worker(worker.occupancy());
+    let mut metrics = Metrics::new(Arc::clone(&jobs) as Arc<dyn Backend>, results.store(), &computations);
+    metrics.register_worker(worker.occupancy());
     let readiness = Readiness::new(results, Arc::clone(&jobs) as Arc<dyn Backend>, stopping.clone());
-    let probed = Arc::new(Probed { readiness, metrics });
+    let probes = Arc::new(ProbeState { readiness, metrics });
     let limit = Duration::from_secs(config.drain);
     let serving = match config.listen {
         Some(address) => {
             let listener = TcpListener::bind(address).await;
             let listener = listener.map_err(|error| StartError::Listen(Listen::Address(address), error))?;
             tracing::info!("serving probes and metrics on http://{address}");
-            warn_of_probes(address.ip());
-            Some(serve(listener, &Terms::of_probes(), probed, stopping.clone(), limit)?)
+            warn_if_probes_are_open(address.ip());
+            Some(serve(listener, &ListenerConfig::for_probes(), probes, stopping.clone(), limit)?)
         }
         None => None,
     };
 
     tokio::select! {
-        () = told => {}
+        () = stop => {}
         () = hangups => {}
     }
     stopping.cancel();
@@ -88,32 +88,32 @@ pub(crate) async fn work(config: &WorkerConfig) -> Result<(), StartError> {
     Ok(())
 }
 
-/// Answers probes until it is to stop, and what is asked then for as long as the limit.
+/// Answers probes until `stopping` is cancelled, and finishes the requests in progress within `limit`.
 fn serve(
     listener: TcpListener,
-    terms: &Terms,
-    probed: Arc<Probed>,
+    config: &ListenerConfig,
+    probes: Arc<ProbeState>,
     stopping: CancellationToken,
     limit: Duration,
 ) -> Result<JoinHandle<()>, StartError> {
-    let (requests, connections) = (Arc::clone(&probed.metrics.requests), probed.metrics.connections.clone());
+    let (requests, connections) = (Arc::clone(&probes.metrics.requests), probes.metrics.connections.clone());
     let routes = Router::new()
         .route("/livez", get(service::get_livez))
         .route(
             "/readyz",
-            get(|State(probed): State<Arc<Probed>>| async move { probed.readiness.told().await }),
+            get(|State(probes): State<Arc<ProbeState>>| async move { probes.readiness.told().await }),
         )
         .route(
             "/metrics",
-            get(|State(probed): State<Arc<Probed>>| async move {
-                probed.metrics.answer().map_err(HttpError::from)
+            get(|State(probes): State<Arc<ProbeState>>| async move {
+                probes.metrics.answer().map_err(HttpError::from)
             }),
         )
         .fallback(service::nothing_here)
-        .with_state(probed);
-    let router = middleware::wrap(routes, requests, terms.stall, &Browsers::default(), Vec::new());
-    let server = Server::new(vec![listener], terms).map_err(StartError::Tls)?;
-    // Where there are only probes, those that come when all connections are taken are answered the same.
+        .with_state(probes);
+    let router = middleware::wrap(routes, requests, config.timeouts.stall, &Browsers::default(), Vec::new());
+    let server = Server::new(vec![listener], config).map_err(StartError::Tls)?;
+    // All routes are probes, so connections beyond the limit may use all of them.
     Ok(tokio::spawn(async move {
         server.serve(router.clone(), router, connections, &stopping, limit).await;
     }))
@@ -132,23 +132,23 @@ mod tests {
     use tokio_util::sync::CancellationToken;
     use verne_store::Store;
 
-    use super::{Probed, serve, work};
+    use super::{ProbeState, run, serve};
     use crate::http::readiness::Readiness;
     use crate::process::config::ServeConfig;
     use crate::process::config::worker::WorkerConfig;
-    use crate::process::server::listener_config::Terms;
+    use crate::process::server::listener_config::{ListenerConfig, Timeouts};
     use crate::process::storage::Storage;
     use crate::telemetry::metrics::Metrics;
 
-    async fn probed(stopping: CancellationToken) -> Arc<Probed> {
+    async fn probe_state(stopping: CancellationToken) -> Arc<ProbeState> {
         let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
         let config = ServeConfig::from_arg_matches(&command.get_matches_from(["--memory-only"])).unwrap();
         let Storage { results, jobs, computations, .. } = Storage::open(&config).await.unwrap();
-        let metrics = Metrics::of(Arc::clone(&jobs), results.store(), &computations);
-        Arc::new(Probed { readiness: Readiness::new(results, jobs, stopping), metrics })
+        let metrics = Metrics::new(Arc::clone(&jobs), results.store(), &computations);
+        Arc::new(ProbeState { readiness: Readiness::new(results, jobs, stopping), metrics })
     }
 
-    /// What comes after these bytes, until the connection is closed.
+    /// Everything that the listener answers to these bytes until it closes the connection.
     async fn answer(listener: std::net::SocketAddr, bytes: &str) -> String {
         let mut stream = TcpStream::connect(listener).await.unwrap();
         stream.write_all(bytes.as_bytes()).await.unwrap();
@@ -159,36 +159,37 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn probes_are_answered_within_bounds() {
+    async fn probes_are_answered_and_silent_connections_are_closed() {
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let address = listener.local_addr().unwrap();
         let stopping = CancellationToken::new();
-        let terms = Terms { header: Duration::from_secs(1), connections: 1, ..Terms::of_probes() };
+        let timeouts = Timeouts { header: Duration::from_secs(1), stall: Duration::from_secs(30) };
+        let config = ListenerConfig { timeouts, connections: 1, ..ListenerConfig::for_probes() };
         let limit = Duration::from_mins(1);
         let serving =
-            serve(listener, &terms, probed(stopping.clone()).await, stopping.clone(), limit).unwrap();
+            serve(listener, &config, probe_state(stopping.clone()).await, stopping.clone(), limit).unwrap();
 
         let _taken = TcpStream::connect(address).await.unwrap();
         for (path, status) in [("livez", 200), ("readyz", 200), ("metrics", 200), ("fk", 404)] {
             let answer = answer(address, &format!("GET /{path} HTTP/1.1\r\nHost: verne\r\n\r\n")).await;
             assert!(answer.starts_with(&format!("HTTP/1.1 {status} ")), "{answer}");
         }
-        assert_eq!(answer(address, "").await, "", "who says nothing is cut");
+        assert_eq!(answer(address, "").await, "");
         assert_eq!(answer(address, "PRI * HTTP/2.0").await, "");
         stopping.cancel();
         tokio::time::timeout(Duration::from_mins(1), serving).await.unwrap().unwrap();
     }
 
-    /// What `verne worker` ends with.
-    async fn refusal(flags: &str) -> String {
+    /// The error of `verne worker`.
+    async fn start_error(flags: &str) -> String {
         let command = WorkerConfig::augment_args(Command::new("verne").no_binary_name(true));
         let matches = command.get_matches_from(flags.split_whitespace());
-        work(&WorkerConfig::from_arg_matches(&matches).unwrap()).await.unwrap_err().to_string()
+        run(&WorkerConfig::from_arg_matches(&matches).unwrap()).await.unwrap_err().to_string()
     }
 
-    /// A broker that knows nobody.
+    /// The broker rejects every user.
     #[tokio::test]
-    async fn a_broker_that_refuses_is_not_waited_for() {
+    async fn a_worker_ends_if_the_broker_rejects_it() {
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let address = listener.local_addr().unwrap();
         tokio::spawn(async move {
@@ -201,23 +202,23 @@ mod tests {
                 stream.write_all(b"-ERR 'Authorization Violation'\r\n").await.unwrap();
             }
         });
-        let place = TempDir::new().unwrap();
-        let store = format!("file://{}", place.path().display());
+        let directory = TempDir::new().unwrap();
+        let store = format!("file://{}", directory.path().display());
         Store::init_shared(&store).unwrap();
-        let error = refusal(&format!("--broker nats://verne:wrong@{address} --store {store}")).await;
+        let error = start_error(&format!("--broker nats://verne:wrong@{address} --store {store}")).await;
         assert!(error.starts_with("broker: ") && error.contains("refuses this process"), "{error}");
         assert!(!error.contains("wrong"), "{error}");
     }
 
     #[tokio::test]
-    async fn what_is_missing_is_named() {
+    async fn errors_name_the_missing_setting() {
         for (flags, expected) in [
             ("", "broker: "),
             ("--store file:///nowhere", "broker: "),
             ("--broker nats://127.0.0.1:1", "store: "),
             ("--broker http://127.0.0.1:1 --store file:///proc/nowhere", "broker: "),
         ] {
-            let error = refusal(flags).await;
+            let error = start_error(flags).await;
             assert!(error.starts_with(expected), "{flags}: {error}");
         }
     }

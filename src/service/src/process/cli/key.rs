@@ -1,4 +1,4 @@
-//! `verne key`: makes the keys of a service.
+//! `verne key`: creates API keys.
 
 use std::io::Write;
 
@@ -8,7 +8,7 @@ use crate::limits::key::Key;
 use crate::limits::keys_file::is_name;
 use crate::wire::role::Role;
 
-/// Keys of a service.
+/// API keys.
 #[derive(Debug, Args)]
 pub(crate) struct KeyCommand {
     #[command(subcommand)]
@@ -31,13 +31,13 @@ enum Command {
 }
 
 impl KeyCommand {
-    /// Writes the entry to `out`, which may be the file of keys itself, and the key to `aside`.
-    pub(crate) fn run(self, out: &mut impl Write, aside: &mut impl Write) -> Result<(), String> {
+    /// Writes the entry to `out`, which may be the --keys file itself, and the key to `err`.
+    pub(crate) fn run(self, out: &mut impl Write, err: &mut impl Write) -> Result<(), String> {
         let Command::New { name, role } = self.command;
         let key = Key::fresh().map_err(|error| format!("the system has no random numbers: {error}"))?;
         let hash = key.hash().to_hex();
-        // The key first: an entry of a key that nobody has seen is of no use.
-        writeln!(aside, "{key}")
+        // The key first: without it the entry is useless.
+        writeln!(err, "{key}")
             .and_then(|()| writeln!(out, "[[key]]\nname = \"{name}\"\nrole = \"{role}\"\nhash = \"{hash}\""))
             .map_err(|error| format!("cannot write the key: {error}"))
     }

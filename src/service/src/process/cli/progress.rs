@@ -1,27 +1,28 @@
-//! How far a computation is, on a terminal.
+//! The progress of a computation on the terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use verne_solver::workspace::Observer;
 
 const STEPS: u64 = 1000;
 
-/// A bar on standard error; nothing where that is no terminal. Ctrl-C ends the process: nothing has been written then.
-pub(crate) struct Bar(ProgressBar);
+/// A progress bar on standard error; invisible if that is no terminal.
+pub(crate) struct TerminalProgress(ProgressBar);
 
-impl Bar {
+impl TerminalProgress {
+    /// Shows the bar until it is dropped.
     pub(crate) fn new() -> Self {
         let style = ProgressStyle::with_template("{wide_bar} {percent} % {elapsed}");
         Self(ProgressBar::new(STEPS).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
     }
 }
 
-impl Drop for Bar {
+impl Drop for TerminalProgress {
     fn drop(&mut self) {
         self.0.finish_and_clear();
     }
 }
 
-impl Observer for Bar {
+impl Observer for TerminalProgress {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -30,12 +31,13 @@ impl Observer for Bar {
     #[expect(clippy::cast_precision_loss, reason = "a thousand is exact")]
     fn progress(&self, part: f64) {
         let position = (part * STEPS as f64) as u64;
-        // Several threads report: the bar never falls.
+        // Several threads report, and not in order.
         if position > self.0.position() {
             self.0.set_position(position);
         }
     }
 
+    /// Ctrl-C ends the process instead.
     fn cancelled(&self) -> bool {
         false
     }

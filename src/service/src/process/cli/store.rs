@@ -1,4 +1,4 @@
-//! `verne store`: prepares stores of results.
+//! `verne store`: prepares directories as result stores.
 
 use std::io::Write;
 
@@ -25,12 +25,12 @@ enum Command {
 }
 
 impl StoreCommand {
-    /// Prepares the store, and says so on `out`.
+    /// Prepares the directory and confirms it on `out`.
     pub(crate) fn run(&self, out: &mut impl Write) -> Result<(), String> {
         let Command::Init { url } = &self.command;
-        let made = Store::init_shared(url).map_err(|error| error.to_string())?;
-        let told =
-            if made { "is now a result store" } else { "is already a result store; nothing was changed" };
-        writeln!(out, "{url} {told}").map_err(|error| format!("cannot write the answer: {error}"))
+        let created = Store::init_shared(url).map_err(|error| error.to_string())?;
+        let outcome =
+            if created { "is now a result store" } else { "is already a result store; nothing was changed" };
+        writeln!(out, "{url} {outcome}").map_err(|error| format!("cannot write the answer: {error}"))
     }
 }

@@ -1,4 +1,4 @@
-//! `verne workspace`: volumes, meshes and slices without a server.
+//! `verne workspace`: computes volumes, meshes and slices without a server.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -11,8 +11,8 @@ use crate::operations::mesh_files::{MeshDescription, write_mesh};
 use crate::operations::slice::answer_slice;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
-use crate::process::cli::progress::Bar;
-use crate::process::cli::question::{in_flags, machine, written};
+use crate::process::cli::answer::{machine, to_json, with_flags};
+use crate::process::cli::progress::TerminalProgress;
 use crate::wire::alphas::Alphas;
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::format::{MeshFormat, SliceFormat};
@@ -20,7 +20,7 @@ use crate::wire::parse::parse_body;
 use crate::wire::workspace::WorkspaceRequest;
 use crate::wire::workspace_query::WorkspaceQuery;
 
-/// A workspace on the command line.
+/// The command.
 #[derive(Debug, Args)]
 pub(crate) struct WorkspaceCommand {
     #[command(flatten)]
@@ -39,37 +39,37 @@ pub(crate) struct WorkspaceCommand {
     alpha: Alphas,
 }
 
-/// What is written to a file.
-enum Wanted {
+/// The format of the file.
+enum OutputFormat {
     Mesh(MeshFormat),
     Slice(SliceFormat),
 }
 
 impl WorkspaceCommand {
-    /// Writes the file, or the answer to `out`.
+    /// Writes the file, or the answer as JSON to `out`.
     pub(crate) fn run(self, out: &mut impl Write, pretty: bool) -> Result<(), String> {
-        // A file that cannot be written in any format is refused before the work.
-        let wanted = self.output.as_deref().map(|path| self.wanted(path)).transpose()?;
+        // Before the computation: the extension may be unknown.
+        let format = self.output.as_deref().map(|path| self.format(path)).transpose()?;
         let machine = machine(&self.query.machine)?;
         let request = WorkspaceRequest { machine, ..self.query.into_request() };
-        let bar = Bar::new();
-        let question = WorkspaceQuestion::new(&request, &MachineRegistry::default()).map_err(in_flags)?;
-        let workspace = compute_workspace(&question, usize::MAX, &bar).map_err(in_flags)?;
+        let progress = TerminalProgress::new();
+        let question = WorkspaceQuestion::new(&request, &MachineRegistry::default()).map_err(with_flags)?;
+        let workspace = compute_workspace(&question, usize::MAX, &progress).map_err(with_flags)?;
         let slice = |format| {
             let z = self.slice.unwrap_or_default();
-            answer_slice(&question, workspace.inclination, z, &self.alpha, format, &bar)
-                .map_err(|error| in_flags(named(error)))
+            answer_slice(&question, workspace.inclination, z, &self.alpha, format, &progress)
+                .map_err(|error| with_flags(with_slice_flag(error)))
         };
-        let bytes = match &wanted {
-            Some(Wanted::Mesh(format)) => {
+        let bytes = match &format {
+            Some(OutputFormat::Mesh(format)) => {
                 write_mesh(&MeshDescription::of_workspace(&question), &workspace.mesh, *format)
-                    .map_err(in_flags)?
+                    .map_err(with_flags)?
             }
-            Some(Wanted::Slice(format)) => slice(*format)?,
+            Some(OutputFormat::Slice(format)) => slice(*format)?,
             None if self.slice.is_some() => slice(SliceFormat::Json)?,
             None => workspace.summary,
         };
-        drop(bar);
+        drop(progress);
         match self.output {
             Some(path) => {
                 std::fs::write(&path, bytes).map_err(|error| format!("{}: {error}", path.display()))
@@ -78,26 +78,29 @@ impl WorkspaceCommand {
         }
     }
 
-    /// The format that a file's extension names.
-    fn wanted(&self, path: &Path) -> Result<Wanted, String> {
+    /// The format that the extension of a file names.
+    fn format(&self, path: &Path) -> Result<OutputFormat, String> {
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        let (wanted, known) = if self.slice.is_some() {
-            (SliceFormat::from_str(extension, true).map(Wanted::Slice), ".json, .svg or .dxf (a slice)")
+        let (format, known) = if self.slice.is_some() {
+            (SliceFormat::from_str(extension, true).map(OutputFormat::Slice), ".json, .svg or .dxf (a slice)")
         } else {
-            (MeshFormat::from_str(extension, true).map(Wanted::Mesh), ".glb, .stl, .ply or .json (a mesh)")
+            (
+                MeshFormat::from_str(extension, true).map(OutputFormat::Mesh),
+                ".glb, .stl, .ply or .json (a mesh)",
+            )
         };
-        wanted.map_err(|_| format!("--output {} must end in {known}", path.display()))
+        format.map_err(|_| format!("--output {} must end in {known}", path.display()))
     }
 }
 
 fn print(json: &[u8], out: &mut impl Write, pretty: bool) -> Result<(), String> {
-    let answer: Value = parse_body(json).map_err(in_flags)?;
-    writeln!(out, "{}", written(&answer, pretty)?)
+    let answer: Value = parse_body(json).map_err(with_flags)?;
+    writeln!(out, "{}", to_json(&answer, pretty)?)
         .map_err(|error| format!("cannot write the answer: {error}"))
 }
 
-/// The height is --slice here.
-fn named(error: OperationError) -> OperationError {
+/// Names the height of a slice as the flag does.
+fn with_slice_flag(error: OperationError) -> OperationError {
     let OperationError::Fields(faults) = error else { return error };
     let renamed = faults.into_iter().map(|fault| match fault.pointer.as_str() {
         "/z" => FieldError::new("/slice", fault.detail),

@@ -1,10 +1,10 @@
-//! Settings of a service of many processes: the broker of jobs, and the store that all reach.
+//! The settings of a service with many processes: the job broker and the shared result store.
 
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
 
-/// Where jobs wait that any process may take.
+/// The job broker.
 #[derive(Clone, Debug, Default, Args)]
 pub struct BrokerConfig {
     /// Job broker, NATS with `JetStream`: nats://HOST:4222 or tls://HOST:4222. Separate the servers of a cluster with
@@ -35,7 +35,7 @@ pub struct BrokerConfig {
     pub broker_key: Option<PathBuf>,
 }
 
-/// Where results are kept that any process may read.
+/// The shared result store.
 #[derive(Clone, Debug, Default, Args)]
 pub struct StoreConfig {
     /// Result store that all processes share: s3://BUCKET/PREFIX (endpoint, region and credentials come from the

@@ -1,101 +1,59 @@
-//! A file of settings, in TOML.
+//! The settings file, in TOML.
 
 use std::ffi::OsString;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::parser::ValueSource;
-use clap::{Arg, ArgAction, ArgMatches, Command, Error};
+use clap::{Arg, ArgAction, ArgMatches, Command};
 use toml::{Table, Value};
 
-use crate::process::config::sources::settings_of;
+use crate::limits::toml_error;
+use crate::process::config::layers::{Layer, layer_of_words, settings_of};
 
-/// How alike a key must be to be meant, from 0 to 1.
-const ALIKE: f64 = 0.8;
-
-/// The settings that a file decides: those that neither flags nor the environment name.
+/// The value of a setting in the file.
 #[derive(Debug)]
-pub(crate) struct SettingsInFile {
-    /// The file.
-    pub path: PathBuf,
-    decided: Vec<Setting>,
+pub(crate) struct FileSetting {
+    /// The name of the setting.
+    pub name: String,
+    /// The value as flags of the command.
+    pub flags: Vec<OsString>,
 }
 
-#[derive(Debug)]
-struct Setting {
-    key: String,
-    /// The setting as flags.
-    words: Vec<OsString>,
-    /// How clap calls it in its messages.
-    name: String,
-}
-
-/// Line and fault, without the line's text: there may be a password in it.
-fn told_of(error: &toml::de::Error, text: &str) -> String {
-    let before = error.span().and_then(|span| text.get(..span.start));
-    let line = before.map(|before| format!("line {}: ", before.matches('\n').count() + 1));
-    format!("{}{}", line.unwrap_or_default(), error.message())
-}
-
-impl SettingsInFile {
-    /// Reads a file for a command that has these values already. The error names file and key.
-    pub(crate) fn read(path: &Path, command: &Command, told: &ArgMatches) -> Result<Self, String> {
-        let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let table: Table =
-            text.parse().map_err(|error| format!("{}: {}", path.display(), told_of(&error, &text)))?;
-        let mut decided = Vec::new();
-        for (key, value) in table {
-            let fault = |what: String| format!("{}: {what}", path.display());
-            let setting = settings_of(command).find(|setting| *setting.get_id() == *key);
-            let setting = setting.ok_or_else(|| fault(unknown(&key, command)))?;
-            let words = as_flags(setting, &value).map_err(|what| fault(format!("{key}: {what}")))?;
-            if !matches!(told.value_source(&key), Some(ValueSource::CommandLine | ValueSource::EnvVariable)) {
-                decided.push(Setting { key, words, name: setting.to_string() });
-            }
+/// The settings of a file that neither flags nor environment variables in `matches` override. The error names the file
+/// and the setting.
+pub(crate) fn read(path: &Path, command: &Command, matches: &ArgMatches) -> Result<Vec<FileSetting>, String> {
+    let in_file = |message: String| format!("{}: {message}", path.display());
+    let text = fs::read_to_string(path).map_err(|error| in_file(error.to_string()))?;
+    let table: Table = text.parse().map_err(|error| in_file(toml_error::describe(&error, &text)))?;
+    let mut settings = Vec::new();
+    for (name, value) in table {
+        let setting = settings_of(command).find(|setting| *setting.get_id() == *name);
+        let setting = setting.ok_or_else(|| in_file(unknown(&name, command)))?;
+        let of_setting = |message| in_file(format!("{name}: {message}"));
+        let flags = flags(setting, &value).map_err(of_setting)?;
+        if layer_of_words(matches, &name) < Layer::File {
+            check(setting, &flags).map_err(of_setting)?;
+            settings.push(FileSetting { name, flags });
         }
-        Ok(Self { path: path.to_owned(), decided })
     }
-
-    /// Whether this file decides a setting.
-    pub(crate) fn decides(&self, id: &str) -> bool {
-        self.decided.iter().any(|setting| setting.key == id)
-    }
-
-    /// All of it as flags.
-    pub(crate) fn words(&self) -> Vec<OsString> {
-        self.decided.iter().flat_map(|setting| setting.words.clone()).collect()
-    }
-
-    /// What is wrong with the first setting that fails by itself.
-    pub(crate) fn blame(&self, try_words: impl Fn(&[OsString]) -> Option<Error>) -> Option<String> {
-        self.decided.iter().find_map(|setting| {
-            let error = try_words(&setting.words)?;
-            let said = said(&error, &setting.name);
-            Some(format!("{}: {}: {said}", self.path.display(), setting.key))
-        })
-    }
+    Ok(settings)
 }
 
-/// A key that is no setting, with the one that may be meant.
-fn unknown(key: &str, command: &Command) -> String {
-    let known = settings_of(command).map(|setting| setting.get_id().as_str());
-    let nearest = known
-        .map(|known| (strsim::jaro_winkler(&key.replace('-', "_"), known), known))
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .filter(|(likeness, _)| *likeness > ALIKE);
-    let meant = nearest.map(|(_, known)| format!("; did you mean {known}?")).unwrap_or_default();
-    format!("{key}: no setting has this name{meant}")
+fn unknown(name: &str, command: &Command) -> String {
+    let mut names: Vec<_> = settings_of(command).map(|setting| setting.get_id().as_str()).collect();
+    names.sort_unstable();
+    format!("{name}: no setting has this name; the settings are {}", names.join(", "))
 }
 
-fn as_flags(setting: &Arg, value: &Value) -> Result<Vec<OsString>, String> {
+fn flags(setting: &Arg, value: &Value) -> Result<Vec<OsString>, String> {
     let flag = setting.get_long().unwrap_or_default();
-    let word = |value: &Value| scalar(value).map(|text| OsString::from(format!("--{flag}={text}")));
+    let with_value = |value: &Value| scalar(value).map(|text| OsString::from(format!("--{flag}={text}")));
     match (setting.get_action(), value) {
         (ArgAction::SetTrue, Value::Boolean(true)) => Ok(vec![OsString::from(format!("--{flag}"))]),
         (ArgAction::SetTrue, Value::Boolean(false)) => Ok(Vec::new()),
         (ArgAction::SetTrue, _) => Err("must be true or false".to_owned()),
-        (ArgAction::Append, Value::Array(items)) => items.iter().map(word).collect(),
-        (_, value) => Ok(vec![word(value)?]),
+        (ArgAction::Append, Value::Array(items)) => items.iter().map(with_value).collect(),
+        (_, value) => Ok(vec![with_value(value)?]),
     }
 }
 
@@ -108,9 +66,11 @@ fn scalar(value: &Value) -> Result<String, String> {
     }
 }
 
-/// What clap says of a value, without what belongs to a command line.
-fn said(error: &Error, name: &str) -> String {
+/// Has clap check the value of one setting. Returns clap's message without the name of the flag.
+fn check(setting: &Arg, flags: &[OsString]) -> Result<(), String> {
+    let command = Command::new("verne").no_binary_name(true).arg(setting.clone().required(false));
+    let Err(error) = command.try_get_matches_from(flags) else { return Ok(()) };
     let text = error.to_string();
     let text = text.split("\n\n").next().unwrap_or_default();
-    text.trim_start_matches("error: ").replace(&format!(" for '{name}'"), "").trim().to_owned()
+    Err(text.trim_start_matches("error: ").replace(&format!(" for '{setting}'"), "").trim().to_owned())
 }

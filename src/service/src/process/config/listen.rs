@@ -1,4 +1,4 @@
-//! Where the service listens.
+//! The address on which the service listens.
 
 use std::fmt;
 use std::io;
@@ -7,10 +7,10 @@ use std::str::FromStr;
 
 use tokio::net::TcpListener;
 
-/// The name that means both loopback addresses.
+/// The host name that stands for both loopback addresses.
 const LOOPBACK: &str = "localhost";
 
-/// One address, or a port of both loopback addresses.
+/// One address and port, or a port of both loopback addresses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Listen {
     /// This address.
@@ -20,7 +20,7 @@ pub enum Listen {
 }
 
 impl Listen {
-    /// Whether only this machine can connect.
+    /// Whether only this computer can connect.
     pub(crate) fn is_loopback(self) -> bool {
         match self {
             Self::Address(address) => address.ip().to_canonical().is_loopback(),
@@ -28,7 +28,7 @@ impl Listen {
         }
     }
 
-    /// Opens the listeners. A machine without ::1 has one listener for both loopback addresses.
+    /// Opens the listeners: two for a port of both loopback addresses, or one if the system has no ::1.
     pub(crate) async fn bind(self) -> io::Result<Vec<TcpListener>> {
         let port = match self {
             Self::Address(address) => return Ok(vec![TcpListener::bind(address).await?]),
@@ -38,10 +38,10 @@ impl Listen {
         let port = first.local_addr()?.port();
         match TcpListener::bind((Ipv6Addr::LOCALHOST, port)).await {
             Ok(second) => Ok(vec![first, second]),
-            // Another program's: its clients would be answered by us, and ours by it.
+            // Another program has the port there. Clients of localhost might reach that program or this service.
             Err(error) if error.kind() == io::ErrorKind::AddrInUse => Err(error),
             Err(error) => {
-                tracing::debug!(%error, "this machine has no ::1");
+                tracing::debug!(%error, "this system has no ::1");
                 Ok(vec![first])
             }
         }
@@ -82,17 +82,17 @@ mod tests {
     use super::Listen;
 
     #[tokio::test]
-    async fn localhost_is_found_at_each_of_its_addresses() {
+    async fn localhost_listens_on_both_loopback_addresses() {
         let listeners = Listen::Loopback(0).bind().await.unwrap();
         let port = listeners[0].local_addr().unwrap().port();
         assert!(TcpStream::connect(("127.0.0.1", port)).await.is_ok());
-        let has_six = TcpListener::bind((Ipv6Addr::LOCALHOST, 0)).await.is_ok();
-        assert_eq!(TcpStream::connect((Ipv6Addr::LOCALHOST, port)).await.is_ok(), has_six);
+        let has_ipv6 = TcpListener::bind((Ipv6Addr::LOCALHOST, 0)).await.is_ok();
+        assert_eq!(TcpStream::connect((Ipv6Addr::LOCALHOST, port)).await.is_ok(), has_ipv6);
         assert!(Listen::Loopback(port).bind().await.is_err(), "the port is taken");
     }
 
     #[test]
-    fn an_address_or_both_loopback_addresses() {
+    fn addresses_and_localhost_are_valid() {
         for (text, loopback) in [
             ("localhost:8080", Some(true)),
             ("127.0.0.1:0", Some(true)),

@@ -1,4 +1,4 @@
-//! Settings of `verne worker`.
+//! The settings of `verne worker`.
 
 use std::net::SocketAddr;
 use std::num::NonZeroUsize;
@@ -6,22 +6,22 @@ use std::num::NonZeroUsize;
 use clap::{Args, value_parser};
 
 use crate::process::config::cluster::{BrokerConfig, StoreConfig};
-use crate::process::config::{LONGEST, SettingsFile};
+use crate::process::config::{MAX_SECONDS, SettingsFile};
 use crate::telemetry::TelemetryConfig;
 
-/// Which jobs to run, and with what.
+/// The settings of `verne worker`.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct WorkerConfig {
-    /// The file of settings.
+    /// The settings file.
     #[command(flatten)]
     pub file: SettingsFile,
-    /// What the process tells of itself.
+    /// The log and the traces.
     #[command(flatten)]
     pub telemetry: TelemetryConfig,
-    /// Where jobs come from.
+    /// The broker that has the jobs.
     #[command(flatten)]
     pub broker: BrokerConfig,
-    /// Where results go.
+    /// The store for the results.
     #[command(flatten)]
     pub store: StoreConfig,
     /// Number of cores for jobs. Default: all.
@@ -39,12 +39,12 @@ pub(crate) struct WorkerConfig {
     pub cache_bytes: u64,
     /// Seconds that jobs may take to stop after the worker receives a stop signal. They then return to the queue.
     #[arg(long, env = "VERNE_DRAIN", default_value_t = 10, value_name = "SECONDS",
-        value_parser = value_parser!(u64).range(0..=LONGEST))]
+        value_parser = value_parser!(u64).range(0..=MAX_SECONDS))]
     pub drain: u64,
 }
 
 impl WorkerConfig {
-    /// Cores, and jobs at once.
+    /// The number of cores, and the number of jobs that run at once.
     pub(crate) fn threads_and_slots(&self) -> (usize, usize) {
         let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         let threads = self.job_threads.map_or(cores, NonZeroUsize::get);

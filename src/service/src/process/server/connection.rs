@@ -1,213 +1,230 @@
-//! One connection: the handshake, then HTTP/1 or HTTP/2 within bounds.
+//! One connection: the TLS handshake, then HTTP/1 or HTTP/2 until the connection ends.
+//!
+//! hyper limits the time for the headers of HTTP/1 and the number of streams of HTTP/2. This module limits what hyper
+//! does not: the time until the version of HTTP is known, and the time without a request over HTTP/2.
 
 use std::convert::Infallible;
+use std::future::Future;
+use std::io::{self, Cursor};
 use std::net::SocketAddr;
 use std::pin::pin;
 use std::sync::Arc;
-use std::time::{Duration, SystemTime};
 
 use axum::Router;
-use axum::body::{Body, to_bytes};
+use axum::body::Body;
 use axum::extract::ConnectInfo;
-use axum::http::header::{CONNECTION, CONTENT_LENGTH, ORIGIN};
-use axum::http::{HeaderValue, Request, Response, StatusCode};
-use headers::{Date, HeaderMapExt};
+use axum::http::{Request, Response};
+use hyper::body::Incoming;
+use hyper::server::conn::{http1, http2};
 use hyper::service::service_fn;
 use hyper_util::rt::{TokioExecutor, TokioIo, TokioTimer};
-use hyper_util::server::conn::auto::Builder;
-use tokio::io::{AsyncRead, AsyncWrite};
+use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite};
 use tokio::net::TcpStream;
+use tokio::time::timeout;
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
 use crate::http::request_head;
 use crate::http::request_head::READ_BYTES;
-use crate::process::server::connection_limit::Place;
-use crate::process::server::exchange::Arriving;
-use crate::process::server::refusal::Making;
-use crate::process::server::stall_detection::{Outgoing, UnderWay, Watched};
-use crate::process::server::timeout_stream::Patient;
+use crate::process::server::exchange::Exchange;
+use crate::process::server::http1_stream::Http1Stream;
+use crate::process::server::http2_activity::Http2Activity;
+use crate::process::server::listener_config::Timeouts;
 use crate::process::server::tls::Tls;
 
-/// Most requests at once on one connection.
-const STREAMS: u32 = 100;
+/// The first bytes of a client that speaks HTTP/2 without TLS.
+const HTTP2_PREFACE: &[u8] = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
 
-/// Most requests on one connection that were taken back before they were looked at, or that were answered by a reset;
-/// then the connection is closed.
-const RESETS: usize = 32;
+/// Maximum number of concurrent requests on one connection.
+const MAX_STREAMS: u32 = 100;
 
-/// Most bytes of the document of a refusal.
-const REFUSAL_BYTES: usize = 64 * 1024;
+/// Maximum number of streams of one connection that the client has reset and hyper has not processed yet, or that hyper
+/// has reset. Beyond it hyper closes the connection.
+const MAX_RESETS: usize = 32;
 
-/// How long a peer may take for what.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Bounds {
-    /// For a request's headers, for the handshake, for the next request, for the answer to a ping.
-    pub header: Duration,
-    /// For the next byte of an answer.
-    pub stall: Duration,
-}
-
-/// Attends to connections.
+/// Serves connections.
 #[derive(Clone)]
-pub(crate) struct Attendant {
-    bounds: Bounds,
-    builder: Builder<TokioExecutor>,
+pub(crate) struct ConnectionHandler {
+    timeouts: Timeouts,
+    http1: http1::Builder,
+    http2: http2::Builder<TokioExecutor>,
     router: Router,
     tls: Option<Arc<Tls>>,
     one_request: bool,
     stopping: CancellationToken,
 }
 
-impl Attendant {
-    /// Serves `router`.
+impl ConnectionHandler {
+    /// Serves `router` until `stopping` is cancelled.
     pub(crate) fn new(
-        bounds: Bounds,
+        timeouts: Timeouts,
         router: Router,
         tls: Option<Arc<Tls>>,
         stopping: CancellationToken,
     ) -> Self {
-        let mut builder = Builder::new(TokioExecutor::new());
-        builder
-            .http1()
-            .timer(TokioTimer::new())
-            .header_read_timeout(bounds.header)
-            .max_buf_size(READ_BYTES.into());
-        builder
-            .http2()
+        let mut http1 = http1::Builder::new();
+        http1.timer(TokioTimer::new()).header_read_timeout(timeouts.header).max_buf_size(READ_BYTES.into());
+        let mut http2 = http2::Builder::new(TokioExecutor::new());
+        http2
             .timer(TokioTimer::new())
             .max_header_list_size(READ_BYTES.into())
-            .max_concurrent_streams(STREAMS)
-            .max_pending_accept_reset_streams(RESETS)
-            .max_local_error_reset_streams(RESETS)
-            .keep_alive_interval(bounds.header)
-            .keep_alive_timeout(bounds.header);
-        Self { bounds, builder, router, tls, one_request: false, stopping }
+            .max_concurrent_streams(MAX_STREAMS)
+            .max_pending_accept_reset_streams(MAX_RESETS)
+            .max_local_error_reset_streams(MAX_RESETS)
+            .keep_alive_interval(timeouts.header)
+            .keep_alive_timeout(timeouts.header);
+        Self { timeouts, http1, http2, router, tls, one_request: false, stopping }
     }
 
-    /// Serves `router` in the same way, but one request on a connection, over HTTP/1, and in the time of its headers.
+    /// A handler that serves one HTTP/1 request of `router` per connection, within the time for headers.
     pub(crate) fn for_one_request(&self, router: Router) -> Self {
-        let mut builder = self.builder.clone();
-        builder.http1().keep_alive(false);
-        Self { builder, router, one_request: true, ..self.clone() }
+        let mut http1 = self.http1.clone();
+        http1.keep_alive(false);
+        Self { http1, router, one_request: true, ..self.clone() }
     }
 
-    /// Serves a connection to its end. Failures are the peer's affair.
-    pub(crate) async fn attend(self, stream: TcpStream, peer: SocketAddr, place: Place) {
+    /// Serves one connection until it ends.
+    pub(crate) async fn run(self, stream: TcpStream, peer: SocketAddr) {
+        let header = self.timeouts.header;
         if self.one_request {
-            let limit = self.bounds.header;
-            drop(tokio::time::timeout(limit, self.open(stream, peer)).await);
+            drop(timeout(header, self.accept(stream, peer)).await);
         } else {
-            self.open(stream, peer).await;
+            self.accept(stream, peer).await;
         }
-        drop(place);
     }
 
-    async fn open(self, stream: TcpStream, peer: SocketAddr) {
-        // An answer is written whole: nothing is won by waiting for more of it.
+    async fn accept(self, stream: TcpStream, peer: SocketAddr) {
+        // hyper writes a response in one piece, so a delay would not join packets.
         drop(stream.set_nodelay(true));
         if let Some(tls) = self.tls.clone() {
-            let shaking = tokio::time::timeout(self.bounds.header, tls.accept(stream, !self.one_request));
-            match self.stopping.run_until_cancelled(shaking).await {
-                Some(Ok(Ok((stream, http2)))) => self.serve(stream, Some(http2), peer).await,
-                Some(Ok(Err(error))) => tracing::debug!(%peer, %error, "the TLS handshake failed"),
-                Some(Err(_)) | None => tracing::debug!(%peer, "the TLS handshake timed out"),
+            let handshake = tls.accept(stream, !self.one_request);
+            if let Some((stream, is_http2)) = self.in_header_time(handshake, peer).await {
+                self.serve(stream, is_http2, peer).await;
             }
+            return;
+        }
+        let (mut reader, writer) = stream.into_split();
+        let start = if self.one_request {
+            Some((Vec::new(), false))
         } else {
-            let http2 = self.one_request.then_some(false);
-            self.serve(stream, http2, peer).await;
+            self.in_header_time(read_start(&mut reader), peer).await
+        };
+        if let Some((start, is_http2)) = start {
+            let stream = tokio::io::join(Cursor::new(start).chain(reader), writer);
+            self.serve(stream, is_http2, peer).await;
         }
     }
 
-    /// HTTP/2 or not, where that is settled: over TLS it was agreed on.
-    async fn serve<I>(self, stream: I, http2: Option<bool>, peer: SocketAddr)
+    /// The output of the first step of a connection. `None`: the step failed or took too long, or the service stops.
+    async fn in_header_time<T>(
+        &self,
+        step: impl Future<Output = io::Result<T>>,
+        peer: SocketAddr,
+    ) -> Option<T> {
+        let step = timeout(self.timeouts.header, step);
+        match self.stopping.run_until_cancelled(step).await? {
+            Ok(Ok(output)) => return Some(output),
+            Ok(Err(error)) => tracing::debug!(%peer, %error, "a connection failed at its start"),
+            Err(_) => tracing::debug!(%peer, "a connection took too long to start"),
+        }
+        None
+    }
+
+    async fn serve<I>(self, stream: I, is_http2: bool, peer: SocketAddr)
     where
         I: AsyncRead + AsyncWrite + Unpin + Send + 'static,
     {
-        let Self { bounds, builder, router, stopping, .. } = self;
-        let builder = match http2 {
-            None => builder,
-            Some(true) => builder.http2_only(),
-            Some(false) => builder.http1_only(),
+        // Boxed: a connection then has only the memory of its own version of HTTP.
+        let served = if is_http2 {
+            Box::pin(self.serve_http2(stream, peer)).await
+        } else {
+            Box::pin(self.serve_http1(stream, peer)).await
         };
-        let http2 = CancellationToken::new();
-        let outgoing = Arc::new(Outgoing::default());
-        let (exchange, refusing) = (outgoing.exchange().clone(), router.clone());
-        let answering = Arc::new(move |status, origin| refuse(refusing.clone(), status, origin, peer));
-        let io = TokioIo::new(Patient::new(stream, bounds, http2.clone(), exchange, answering));
-        let watching = Arc::clone(&outgoing);
+        if let Err(error) = served {
+            tracing::debug!(%peer, %error, "a connection failed");
+        }
+    }
+
+    async fn serve_http1<I>(self, stream: I, peer: SocketAddr) -> hyper::Result<()>
+    where
+        I: AsyncRead + AsyncWrite + Unpin,
+    {
+        let exchange = Exchange::default();
+        let stream = Http1Stream::new(stream, self.timeouts.stall, exchange.clone());
+        let router = self.router.clone();
         let service = service_fn(move |request| {
-            // Before anything else is read: the peer may have closed its direction.
-            let (under_way, request) = (watching.begin(), watching.exchange().begin(request));
-            answer(router.clone(), request, peer, Arc::clone(&watching), under_way)
+            // At once: the stream needs to know of the request before it reads the end of the client's direction.
+            let request = exchange.begin(request);
+            let (response, exchange) = (respond(router.clone(), request, peer), exchange.clone());
+            async move { Ok::<_, Infallible>(response.await?.map(|body| exchange.respond(body))) }
         });
-        // Over HTTP/1 hyper watches the time until the next request.
-        let idle = async {
-            http2.cancelled().await;
-            outgoing.idle(bounds.header).await;
+        let mut connection = self.http1.serve_connection(TokioIo::new(stream), service);
+        let served = tokio::select! {
+            served = &mut connection => served,
+            () = self.stopping.cancelled() => {
+                Pin::new(&mut connection).graceful_shutdown();
+                (&mut connection).await
+            }
         };
+        let stream = connection.into_parts().io.into_inner();
+        if let Some((stream, rejected)) = stream.into_rejected() {
+            let answer = rejected.answer(stream, self.router, peer);
+            drop(timeout(self.timeouts.stall, answer).await);
+        }
+        served
+    }
+
+    async fn serve_http2<I>(self, stream: I, peer: SocketAddr) -> hyper::Result<()>
+    where
+        I: AsyncRead + AsyncWrite + Unpin + Send + 'static,
+    {
+        let activity = Arc::new(Http2Activity::default());
+        let (router, requests) = (self.router, Arc::clone(&activity));
+        let service = service_fn(move |request: Request<Incoming>| {
+            let request_in_progress = requests.begin();
+            let response = respond(router.clone(), request.map(Body::new), peer);
+            async move { Ok::<_, Infallible>(response.await?.map(|body| request_in_progress.watch(body))) }
+        });
+        let Timeouts { header, stall } = self.timeouts;
+        let mut connection = pin!(self.http2.serve_connection(TokioIo::new(stream), service));
         let served = async {
-            let mut connection = pin!(builder.serve_connection(io, service));
             tokio::select! {
                 served = connection.as_mut() => return served,
-                () = stopping.cancelled() => {}
-                () = idle => {}
+                () = self.stopping.cancelled() => {}
+                () = activity.idle(header) => {}
             }
             connection.as_mut().graceful_shutdown();
             connection.await
         };
-        // A peer can put off even the end that was announced to it.
-        let unused = async {
-            http2.cancelled().await;
-            outgoing.idle(bounds.header).await;
-            outgoing.idle(bounds.stall).await;
-        };
         tokio::select! {
-            served = served => {
-                if let Err(error) = served {
-                    tracing::debug!(%peer, %error, "a connection failed");
-                }
-            }
-            () = unused => tracing::debug!(%peer, "closed an idle connection"),
-            () = outgoing.stalled(bounds.stall) => tracing::debug!(%peer, "closed a stalled connection"),
+            served = served => return served,
+            // A client can ignore the announcement that the connection ends.
+            () = activity.idle(2 * header) => tracing::debug!(%peer, "closed an idle connection"),
+            () = activity.stalled(stall) => tracing::debug!(%peer, "closed a stalled connection"),
         }
+        Ok(())
     }
 }
 
-async fn answer(
-    router: Router,
-    mut request: Request<Arriving>,
-    peer: SocketAddr,
-    outgoing: Arc<Outgoing>,
-    under_way: UnderWay,
-) -> Result<Response<Watched>, Infallible> {
-    request_head::check(&mut request);
-    request.extensions_mut().insert(ConnectInfo(peer));
-    let response = router.oneshot(request.map(Body::new)).await?;
-    Ok(response.map(|body| outgoing.watch(body, under_way)))
+/// Reads the first bytes of a connection without TLS, and decides whether the client speaks HTTP/2.
+async fn read_start(reader: &mut (impl AsyncRead + Unpin)) -> io::Result<(Vec<u8>, bool)> {
+    let mut start = Vec::with_capacity(HTTP2_PREFACE.len());
+    while start.len() < HTTP2_PREFACE.len() && HTTP2_PREFACE.starts_with(&start) {
+        let missing = (HTTP2_PREFACE.len() - start.len()) as u64;
+        if (&mut *reader).take(missing).read_buf(&mut start).await? == 0 {
+            break;
+        }
+    }
+    let is_http2 = start == HTTP2_PREFACE;
+    Ok((start, is_http2))
 }
 
-/// The bytes of the answer to what hyper has refused over HTTP/1. The connection ends with it.
-fn refuse(router: Router, status: StatusCode, origin: Option<HeaderValue>, peer: SocketAddr) -> Making {
-    let mut request: Request<Body> = request_head::refused(status);
-    request.headers_mut().extend(origin.map(|origin| (ORIGIN, origin)));
+async fn respond(
+    router: Router,
+    mut request: Request<Body>,
+    peer: SocketAddr,
+) -> Result<Response<Body>, Infallible> {
+    request_head::check(&mut request);
     request.extensions_mut().insert(ConnectInfo(peer));
-    Box::pin(async move {
-        let Ok(response) = router.oneshot(request).await;
-        let (mut parts, body) = response.into_parts();
-        let body = to_bytes(body, REFUSAL_BYTES).await.unwrap_or_default();
-        parts.headers.insert(CONNECTION, HeaderValue::from_static("close"));
-        parts.headers.insert(CONTENT_LENGTH, body.len().into());
-        parts.headers.typed_insert(Date::from(SystemTime::now()));
-        let reason = parts.status.canonical_reason().unwrap_or_default();
-        let mut bytes = format!("HTTP/1.1 {} {reason}\r\n", parts.status.as_str()).into_bytes();
-        for (name, value) in &parts.headers {
-            for part in [name.as_str().as_bytes(), b": ", value.as_bytes(), b"\r\n"] {
-                bytes.extend_from_slice(part);
-            }
-        }
-        bytes.extend_from_slice(b"\r\n");
-        bytes.extend_from_slice(&body);
-        bytes
-    })
+    router.oneshot(request).await
 }

@@ -1,110 +1,105 @@
-//! How far the exchange on a connection of HTTP/1 is, as the service tells its stream.
-//!
-//! A client may close its direction of the connection when its request is sent, and wait for the answer. To the system
-//! a client that has gone looks the same, until something is sent to it.
+//! The state of the current request on an HTTP/1 connection. The service reports it to the connection's stream.
 
-use std::pin::Pin;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::task::{Context, Poll, ready};
 
-use axum::body::Bytes;
+use axum::body::{Body, Bytes, HttpBody};
 use axum::http::{Request, Version};
-use hyper::body::{Body, Frame, Incoming, SizeHint};
+use http_body_util::BodyExt;
+use hyper::body::Incoming;
 
-/// Between a request and the last byte of its answer.
+/// Maximum number of bytes of a request's head that are remembered.
+pub(crate) const HEAD_BYTES: usize = 8 * 1024;
+
+/// Progress between a request and the last byte of its response.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// There is no request.
+    /// There is no request, or its head is incomplete.
     #[default]
     Idle,
-    /// The body is still read.
+    /// The service reads the body.
     Receiving(Version),
-    /// The request is whole, the answer has not begun.
-    Awaited(Version),
-    /// The answer has begun.
-    Answered,
+    /// The request is complete, and the response has not begun.
+    Processing(Version),
+    /// The response has begun.
+    Responding,
 }
 
-/// One at a time: over HTTP/1 a request is not begun before the last one is answered.
+/// The current request of a connection. HTTP/1 begins a request after the response to the previous one.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Exchange(Arc<Mutex<(Stage, u64)>>);
+pub(crate) struct Exchange(Arc<Mutex<State>>);
+
+#[derive(Debug, Default)]
+struct State {
+    stage: Stage,
+    /// The first bytes of an incomplete head.
+    head: Vec<u8>,
+}
 
 impl Exchange {
-    /// How far it is.
+    /// The stage of the current request.
     pub(crate) fn stage(&self) -> Stage {
-        self.locked().0
+        self.state().stage
     }
 
-    /// How many requests have begun.
-    pub(crate) fn begun(&self) -> u64 {
-        self.locked().1
+    /// The client has sent more bytes.
+    pub(crate) fn read(&self, bytes: &[u8]) {
+        let mut state = self.state();
+        if state.stage == Stage::Idle {
+            let room = HEAD_BYTES.saturating_sub(state.head.len());
+            state.head.extend_from_slice(bytes.get(..room).unwrap_or(bytes));
+        }
     }
 
-    /// A request has come; over HTTP/2 its answer is independent of the stream's direction.
-    pub(crate) fn begin(&self, request: Request<Incoming>) -> Request<Arriving> {
+    /// The first bytes of the head that hyper has rejected.
+    pub(crate) fn take_head(&self) -> Vec<u8> {
+        std::mem::take(&mut self.state().head)
+    }
+
+    /// hyper has read the head of a request. The request is complete when its body is dropped.
+    pub(crate) fn begin(&self, request: Request<Incoming>) -> Request<Body> {
         let version = request.version();
-        if version < Version::HTTP_2 {
-            let is_whole = request.body().is_end_stream();
-            self.set(if is_whole { Stage::Awaited(version) } else { Stage::Receiving(version) });
-            self.locked().1 += 1;
+        *self.state() = State { stage: Stage::Receiving(version), head: Vec::new() };
+        let next = StageAfterBody { exchange: self.clone(), stage: Stage::Processing(version) };
+        if request.body().is_end_stream() {
+            return request.map(Body::new);
         }
-        request.map(|body| Arriving { body, exchange: self.clone() })
+        request.map(|body| Body::new(with_guard(body, next)))
     }
 
-    /// The answer begins.
-    pub(crate) fn answer(&self) {
-        if self.stage() != Stage::Idle {
-            self.set(Stage::Answered);
-        }
+    /// The response begins. It ends when hyper drops the body.
+    pub(crate) fn respond(&self, body: Body) -> impl HttpBody<Data = Bytes, Error = axum::Error> + use<> {
+        self.state().stage = Stage::Responding;
+        with_guard(body, StageAfterBody { exchange: self.clone(), stage: Stage::Idle })
     }
 
-    /// The answer is handed over, or nobody wants it.
-    pub(crate) fn end(&self) {
-        self.set(Stage::Idle);
-    }
-
-    fn arrived(&self) {
-        if let Stage::Receiving(version) = self.stage() {
-            self.set(Stage::Awaited(version));
-        }
-    }
-
-    fn set(&self, stage: Stage) {
-        self.locked().0 = stage;
-    }
-
-    fn locked(&self) -> MutexGuard<'_, (Stage, u64)> {
+    fn state(&self) -> MutexGuard<'_, State> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// A body that tells when it is whole.
-#[derive(Debug)]
-pub(crate) struct Arriving {
-    body: Incoming,
+/// Sets a stage when it is dropped.
+struct StageAfterBody {
     exchange: Exchange,
+    stage: Stage,
 }
 
-impl Body for Arriving {
-    type Data = Bytes;
-    type Error = hyper::Error;
-
-    fn poll_frame(
-        mut self: Pin<&mut Self>,
-        context: &mut Context<'_>,
-    ) -> Poll<Option<Result<Frame<Bytes>, hyper::Error>>> {
-        let frame = ready!(Pin::new(&mut self.body).poll_frame(context));
-        if frame.is_none() || self.body.is_end_stream() {
-            self.exchange.arrived();
+impl Drop for StageAfterBody {
+    fn drop(&mut self) {
+        let mut state = self.exchange.state();
+        // A request's body may outlive the beginning of the response.
+        if self.stage == Stage::Idle || matches!(state.stage, Stage::Receiving(_)) {
+            state.stage = self.stage;
         }
-        Poll::Ready(frame)
     }
+}
 
-    fn is_end_stream(&self) -> bool {
-        self.body.is_end_stream()
-    }
-
-    fn size_hint(&self) -> SizeHint {
-        self.body.size_hint()
-    }
+/// The same body; it drops `guard` when it is dropped itself.
+fn with_guard<B: HttpBody>(
+    body: B,
+    guard: StageAfterBody,
+) -> impl HttpBody<Data = B::Data, Error = B::Error> {
+    body.map_err(move |error| {
+        let _ = &guard;
+        error
+    })
 }

@@ -1,15 +1,15 @@
-//! Every connection is an open file, and a process may usually open 1024.
+//! The limit of open files. Every connection is an open file, and a process may usually open 1024.
 
-use crate::process::server::connection_limit::SPARE;
+use crate::process::server::connection_limit::PROBE_CONNECTIONS;
 
-/// Files beside the connections: jobs, results, and what is read in passing.
-const OTHERS: u64 = 1024;
+/// Files for jobs, results and everything else that is no connection.
+const OTHER_FILES: u64 = 1024;
 
-/// Asks the system for as many files as so many connections may need. How many there may be: fewer where it gives fewer
-/// files, and it is warned of.
-pub(crate) fn room_for(connections: usize) -> usize {
-    let others = OTHERS + u64::try_from(SPARE).unwrap_or(u64::MAX);
-    let wanted = u64::try_from(connections).unwrap_or(u64::MAX).saturating_add(others);
+/// Raises the limit of open files for `connections`. Returns fewer connections, with a warning, if the system allows
+/// too few files.
+pub(crate) fn raise_for(connections: usize) -> usize {
+    let others = OTHER_FILES + PROBE_CONNECTIONS as u64;
+    let wanted = (connections as u64).saturating_add(others);
     let allowed = match rlimit::increase_nofile_limit(wanted) {
         Ok(allowed) => allowed,
         Err(error) => {
@@ -17,36 +17,36 @@ pub(crate) fn room_for(connections: usize) -> usize {
             return connections;
         }
     };
-    let room = within(allowed, others, connections);
-    if room < connections {
+    let possible = possible(allowed, others, connections);
+    if possible < connections {
         tracing::warn!(
             allowed,
             wanted,
-            connections = room,
+            connections = possible,
             "the limit of open files is too low for --max-connections, jobs and results, so the service accepts fewer \
              connections: raise the limit (ulimit -n), or lower --max-connections"
         );
     }
-    room
+    possible
 }
 
-/// So many connections, or what others leave of the files; where others would leave little, half.
-fn within(allowed: u64, others: u64, connections: usize) -> usize {
+/// The connections that are possible besides other files; at least half of the files are for connections.
+fn possible(allowed: u64, others: u64, connections: usize) -> usize {
     let left = allowed.saturating_sub(others).max(allowed / 2).max(1);
     connections.min(usize::try_from(left).unwrap_or(usize::MAX))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::within;
+    use super::possible;
 
     #[test]
-    fn connections_leave_files_to_others() {
-        assert_eq!(within(20_000, 1_000, 10_000), 10_000);
-        assert_eq!(within(11_000, 1_000, 10_000), 10_000);
-        assert_eq!(within(4_096, 1_000, 10_000), 3_096);
-        assert_eq!(within(4_096, 1_000, 100), 100);
-        assert_eq!(within(1_024, 1_000, 10_000), 512);
-        assert_eq!(within(1, 1_000, 10_000), 1);
+    fn connections_leave_files_for_other_uses() {
+        assert_eq!(possible(20_000, 1_000, 10_000), 10_000);
+        assert_eq!(possible(11_000, 1_000, 10_000), 10_000);
+        assert_eq!(possible(4_096, 1_000, 10_000), 3_096);
+        assert_eq!(possible(4_096, 1_000, 100), 100);
+        assert_eq!(possible(1_024, 1_000, 10_000), 512);
+        assert_eq!(possible(1, 1_000, 10_000), 1);
     }
 }

@@ -1,8 +1,9 @@
-//! A peer that has closed its direction of the connection, and may wait for its answer.
+//! A client that has closed its direction of an HTTP/1 connection. It may wait for the response, or it may have gone.
 //!
-//! It is answered as any other. Whether it is still there shows when something is sent: a peer that has gone resets the
-//! connection, and the next write fails. So, while an answer is awaited, `100 Continue` is sent now and again, which a
-//! client of HTTP/1.1 reads over; a client of HTTP/1.0 would take it for the answer, and has a bounded time instead.
+//! The system reports both in the same way until the service sends something: a client that has gone resets the
+//! connection, and the next write fails. So the service sends `100 Continue` at intervals while it processes the
+//! request; a client of HTTP/1.1 ignores it. A client of HTTP/1.0 would take it for the response, so its time is
+//! limited instead.
 
 use std::io;
 use std::pin::Pin;
@@ -15,14 +16,13 @@ use tokio::time::{Sleep, sleep};
 
 use crate::process::server::exchange::{Exchange, Stage};
 
-/// What is sent to see whether the peer is there.
-const INTERIM: &[u8] = b"HTTP/1.1 100 Continue\r\n\r\n";
+const INTERIM_RESPONSE: &[u8] = b"HTTP/1.1 100 Continue\r\n\r\n";
 
-/// After so many pauses, 9 s together, a client of HTTP/1.0 is taken to have gone. Less than the usual time for which a
-/// request waits for its job: the job of a client that has gone must not be left to itself.
-const PAUSES_OF_OLD: u32 = 4;
+/// After so many pauses, 9 s together, the service assumes that a client of HTTP/1.0 has gone. This is less than the
+/// usual time for which a request waits for its job, so the service cancels the job of a client that has gone.
+const HTTP10_PAUSES: u32 = 4;
 
-/// Since when the peer is silent for good.
+/// The pauses since the client has closed its direction.
 #[derive(Debug, Default)]
 pub(crate) struct HalfClosed {
     pauses: u32,
@@ -30,7 +30,7 @@ pub(crate) struct HalfClosed {
 }
 
 impl HalfClosed {
-    /// Ready when the end of the stream is to be told to who reads it, or an error that was found.
+    /// Ready when hyper may read the end of the client's direction, or when a write has failed.
     pub(crate) fn poll_end<I: AsyncWrite + Unpin>(
         &mut self,
         context: &mut Context<'_>,
@@ -41,26 +41,26 @@ impl HalfClosed {
             let stage = exchange.stage();
             match stage {
                 Stage::Idle => return Poll::Ready(Ok(())),
-                // Sending it shows whether the peer is there.
-                Stage::Answered => return Poll::Pending,
-                Stage::Receiving(_) | Stage::Awaited(_) => {}
+                // The response itself shows whether the client is there.
+                Stage::Responding => return Poll::Pending,
+                Stage::Receiving(_) | Stage::Processing(_) => {}
             }
             let pauses = self.pauses;
             let pause = self.pause.get_or_insert_with(|| Box::pin(sleep(length(pauses))));
             ready!(pause.as_mut().poll(context));
             (self.pause, self.pauses) = (None, pauses + 1);
             match stage {
-                Stage::Awaited(Version::HTTP_11) => probe(context, io)?,
-                Stage::Awaited(_) if self.pauses < PAUSES_OF_OLD => {}
-                // What is missing of a body does not come any more.
+                Stage::Processing(Version::HTTP_11) => send_interim_response(context, io)?,
+                Stage::Processing(_) if self.pauses < HTTP10_PAUSES => {}
+                // The rest of the body cannot arrive any more.
                 _ => return Poll::Ready(Ok(())),
             }
         }
     }
 }
 
-/// Most answers are there within the first pause. The second is short: what is sent then fails if the peer has reset
-/// the connection since.
+/// Most responses are ready within the first pause. The second is short: its write fails if the client has reset the
+/// connection after the first.
 fn length(pauses: u32) -> Duration {
     Duration::from_secs(match pauses {
         0 | 2 => 2,
@@ -70,15 +70,15 @@ fn length(pauses: u32) -> Duration {
     })
 }
 
-fn probe<I: AsyncWrite + Unpin>(context: &mut Context<'_>, mut io: &mut I) -> io::Result<()> {
-    match Pin::new(&mut io).poll_write(context, INTERIM) {
-        Poll::Ready(Ok(sent)) if sent == INTERIM.len() => {}
-        // What follows would be no HTTP.
+fn send_interim_response<I: AsyncWrite + Unpin>(context: &mut Context<'_>, io: &mut I) -> io::Result<()> {
+    match Pin::new(&mut *io).poll_write(context, INTERIM_RESPONSE) {
+        Poll::Ready(Ok(sent)) if sent == INTERIM_RESPONSE.len() => {}
+        // The rest of the interim response would be lost.
         Poll::Ready(Ok(_)) => return Err(io::ErrorKind::WriteZero.into()),
         Poll::Ready(Err(error)) => return Err(error),
         Poll::Pending => return Ok(()),
     }
-    match Pin::new(&mut io).poll_flush(context) {
+    match Pin::new(io).poll_flush(context) {
         Poll::Ready(flushed) => flushed,
         Poll::Pending => Ok(()),
     }

@@ -1,8 +1,8 @@
-//! What an operator should know before others can reach the service.
+//! Warnings for the operator if other machines can reach a listener.
 
 use std::net::IpAddr;
 
-/// Warns of a service that others can reach and that asks nobody who they are, or in clear.
+/// Warns if other machines can reach the service without a key or without encryption.
 pub(crate) fn warn_if_open(listen: IpAddr, has_keys: bool, has_tls: bool) {
     if listen.to_canonical().is_loopback() {
         return;
@@ -18,8 +18,8 @@ pub(crate) fn warn_if_open(listen: IpAddr, has_keys: bool, has_tls: bool) {
     }
 }
 
-/// Warns of probes and metrics that others can read: nobody is asked who they are, and there is no TLS.
-pub(crate) fn warn_of_probes(listen: IpAddr) {
+/// Warns if other machines can reach the probes and metrics of a worker, which need no key and use no TLS.
+pub(crate) fn warn_if_probes_are_open(listen: IpAddr) {
     if !listen.to_canonical().is_loopback() {
         tracing::warn!(
             "ANYBODY who can connect to {listen} can read this worker's probes and metrics, without encryption: \
@@ -32,26 +32,26 @@ pub(crate) fn warn_of_probes(listen: IpAddr) {
 mod tests {
     use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 
-    use super::{warn_if_open, warn_of_probes};
-    use crate::telemetry::logged::Logged;
+    use super::{warn_if_open, warn_if_probes_are_open};
+    use crate::telemetry::captured_log::CapturedLog;
 
-    /// What is warned of by `warn`.
-    fn warned(warn: impl Fn()) -> usize {
-        let logged = Logged::begin();
+    /// The number of warnings that `warn` logs.
+    fn warnings(warn: impl Fn()) -> usize {
+        let log = CapturedLog::begin();
         warn();
-        logged.text().lines().filter(|line| line.contains("\"WARN\"")).count()
+        log.text().lines().filter(|line| line.contains("\"WARN\"")).count()
     }
 
     #[test]
-    fn what_others_can_reach_is_warned_of() {
+    fn listeners_that_other_machines_can_reach_cause_warnings() {
         for listen in [IpAddr::V4(Ipv4Addr::UNSPECIFIED), IpAddr::V6(Ipv6Addr::UNSPECIFIED)] {
-            assert_eq!(warned(|| warn_of_probes(listen)), 1);
-            assert_eq!(warned(|| warn_if_open(listen, false, false)), 2);
-            assert_eq!(warned(|| warn_if_open(listen, true, true)), 0);
+            assert_eq!(warnings(|| warn_if_probes_are_open(listen)), 1);
+            assert_eq!(warnings(|| warn_if_open(listen, false, false)), 2);
+            assert_eq!(warnings(|| warn_if_open(listen, true, true)), 0);
         }
         for listen in [IpAddr::V4(Ipv4Addr::LOCALHOST), Ipv4Addr::LOCALHOST.to_ipv6_mapped().into()] {
-            assert_eq!(warned(|| warn_of_probes(listen)), 0);
-            assert_eq!(warned(|| warn_if_open(listen, false, false)), 0);
+            assert_eq!(warnings(|| warn_if_probes_are_open(listen)), 0);
+            assert_eq!(warnings(|| warn_if_open(listen, false, false)), 0);
         }
     }
 }

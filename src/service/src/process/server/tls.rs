@@ -1,12 +1,12 @@
-//! TLS: the certificate, read again when its file changes.
+//! TLS of the listener: the certificate, and its reload when a file changes.
 
-use std::fmt;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use thiserror::Error;
 use tokio::net::TcpStream;
 use tokio::sync::watch;
 use tokio_rustls::TlsAcceptor;
@@ -16,68 +16,57 @@ use tokio_rustls::rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use tokio_rustls::rustls::{self, ServerConfig};
 use tokio_rustls::server::TlsStream;
 
-/// The files are looked at this often: whatever renews a certificate need not tell us.
-const FRESH: Duration = Duration::from_mins(1);
+/// How often the service reads the files. So a program that renews the certificate need not notify the service.
+const RELOAD_INTERVAL: Duration = Duration::from_mins(1);
 
-/// HTTP/2 as ALPN calls it.
+/// The name of HTTP/2 in ALPN.
 const H2: &[u8] = b"h2";
 
-/// And HTTP/1.
+/// The name of HTTP/1.1 in ALPN.
 const H1: &[u8] = b"http/1.1";
 
-/// Why there is no TLS.
-#[derive(Debug)]
+/// Why TLS cannot be used.
+#[derive(Debug, Error)]
 pub enum TlsError {
-    /// This file cannot be read.
+    /// This file is unreadable.
+    #[error("{path}: {1}", path = .0.display())]
     File(PathBuf, io::Error),
-    /// This file holds no certificates, or no key.
+    /// This file contains no certificate, or no key.
+    #[error("{path}: {1}", path = .0.display())]
     Pem(PathBuf, rustls::pki_types::pem::Error),
-    /// The certificate and the key of this file cannot be used.
+    /// The certificate in this file and its key cannot be used.
+    #[error("{path}: cannot use this certificate and its key: {1}", path = .0.display())]
     Pair(PathBuf, rustls::Error),
 }
 
-impl fmt::Display for TlsError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::File(path, error) => write!(f, "{}: {error}", path.display()),
-            Self::Pem(path, error) => write!(f, "{}: {error}", path.display()),
-            Self::Pair(path, error) => {
-                write!(f, "{}: cannot use this certificate and its key: {error}", path.display())
-            }
-        }
-    }
-}
-
-impl std::error::Error for TlsError {}
-
-/// What is in the two files, as PEM: the certificate with those that vouch for it, and its key.
-type Pair = [Vec<u8>; 2];
+/// The contents of the two files in PEM: the certificate with its chain, and its key.
+type Contents = [Vec<u8>; 2];
 
 /// The certificate in use.
 pub(crate) struct Tls {
     files: [PathBuf; 2],
     /// What was read last, usable or not.
-    read: watch::Sender<Pair>,
-    /// What is in use.
-    used: watch::Sender<Arc<ServerConfig>>,
+    contents: watch::Sender<Contents>,
+    /// The configuration for new connections.
+    config: watch::Sender<Arc<ServerConfig>>,
 }
 
 impl Tls {
     /// Reads the certificate and its key.
     pub(crate) fn read(certificate: &Path, key: &Path) -> Result<Self, TlsError> {
         let files = [certificate.to_owned(), key.to_owned()];
-        let pair = read(&files)?;
-        let used = watch::Sender::new(Arc::new(usable(&files, &pair)?));
-        Ok(Self { files, read: watch::Sender::new(pair), used })
+        let contents = read(&files)?;
+        let config = watch::Sender::new(Arc::new(server_config(&files, &contents)?));
+        Ok(Self { files, contents: watch::Sender::new(contents), config })
     }
 
-    /// Shakes hands, and offers HTTP/2 or not; with the stream, whether it was agreed on.
+    /// Performs the handshake, and offers HTTP/2 if `http2`. Returns the stream and whether the client chose HTTP/2.
     pub(crate) async fn accept(
         &self,
         stream: TcpStream,
         http2: bool,
     ) -> io::Result<(TlsStream<TcpStream>, bool)> {
-        let mut config = Arc::clone(&self.used.borrow());
+        let mut config = Arc::clone(&self.config.borrow());
         if !http2 {
             Arc::make_mut(&mut config).alpn_protocols = vec![H1.to_vec()];
         }
@@ -87,28 +76,28 @@ impl Tls {
         Ok((stream, http2))
     }
 
-    /// Looks at the files. What cannot be used is refused once, and what was in use stays.
-    fn refresh(&self) -> Result<bool, TlsError> {
-        let pair = read(&self.files)?;
-        let changed = self.read.send_if_modified(|read| {
-            let changed = *read != pair;
-            read.clone_from(&pair);
+    /// Loads the files if they have changed, and returns whether they have. After an error the previous certificate
+    /// stays in use, and the next call ignores the same contents.
+    fn reload(&self) -> Result<bool, TlsError> {
+        let new = read(&self.files)?;
+        let changed = self.contents.send_if_modified(|contents| {
+            let changed = *contents != new;
+            contents.clone_from(&new);
             changed
         });
         if changed {
-            self.used.send_replace(Arc::new(usable(&self.files, &pair)?));
+            self.config.send_replace(Arc::new(server_config(&self.files, &new)?));
         }
         Ok(changed)
     }
 }
 
-/// Looks at the files now and again.
-pub(crate) async fn keep_fresh(tls: Option<Arc<Tls>>) {
-    let Some(tls) = tls else { return };
+/// Reloads the files whenever they have changed.
+pub(crate) async fn reload_on_change(tls: Arc<Tls>) {
     loop {
-        tokio::time::sleep(FRESH).await;
+        tokio::time::sleep(RELOAD_INTERVAL).await;
         let tls = Arc::clone(&tls);
-        match tokio::task::spawn_blocking(move || tls.refresh()).await {
+        match tokio::task::spawn_blocking(move || tls.reload()).await {
             Ok(Ok(true)) => tracing::info!("loaded a new certificate"),
             Ok(Err(error)) => {
                 tracing::error!(%error, "cannot load the new certificate; the previous one stays in use");
@@ -118,18 +107,21 @@ pub(crate) async fn keep_fresh(tls: Option<Arc<Tls>>) {
     }
 }
 
-fn read(files: &[PathBuf; 2]) -> Result<Pair, TlsError> {
+fn read(files: &[PathBuf; 2]) -> Result<Contents, TlsError> {
     let read = |path: &PathBuf| fs::read(path).map_err(|error| TlsError::File(path.clone(), error));
     Ok([read(&files[0])?, read(&files[1])?])
 }
 
-fn usable([certificate, key]: &[PathBuf; 2], [chain, secret]: &Pair) -> Result<ServerConfig, TlsError> {
+fn server_config(
+    [certificate, key]: &[PathBuf; 2],
+    [chain, secret]: &Contents,
+) -> Result<ServerConfig, TlsError> {
     let chain = CertificateDer::pem_slice_iter(chain)
         .collect::<Result<Vec<_>, _>>()
         .map_err(|error| TlsError::Pem(certificate.clone(), error))?;
     let secret = PrivateKeyDer::from_pem_slice(secret).map_err(|error| TlsError::Pem(key.clone(), error))?;
     let unusable = |error| TlsError::Pair(certificate.clone(), error);
-    // Named, not left to the process: a second provider among the dependencies would make rustls refuse to choose.
+    // Explicit: if the dependencies contain two providers, rustls does not choose one.
     let mut config = ServerConfig::builder_with_provider(Arc::new(aws_lc_rs::default_provider()))
         .with_safe_default_protocol_versions()
         .map_err(unusable)?
@@ -160,24 +152,24 @@ mod tests {
     }
 
     #[test]
-    fn a_new_certificate_is_taken_up_and_a_bad_one_is_not() {
-        let place = TempDir::new().unwrap();
-        let [certificate, key] = ["certificate.pem", "key.pem"].map(|name| place.path().join(name));
+    fn a_new_certificate_is_loaded_and_a_broken_one_is_not() {
+        let directory = TempDir::new().unwrap();
+        let [certificate, key] = ["certificate.pem", "key.pem"].map(|name| directory.path().join(name));
         assert!(matches!(Tls::read(&certificate, &key), Err(TlsError::File(..))));
         write(&certificate, &key);
         let tls = Tls::read(&certificate, &key).unwrap();
-        let first = Arc::clone(&tls.used.borrow());
-        assert!(!tls.refresh().unwrap());
+        let first = Arc::clone(&tls.config.borrow());
+        assert!(!tls.reload().unwrap());
 
-        // Another certificate whose key is not there yet, then a broken key, then both files.
-        write(&certificate, &place.path().join("other.pem"));
-        assert!(matches!(tls.refresh(), Err(TlsError::Pair(..))));
-        assert!(!tls.refresh().unwrap(), "the same failure is told once");
+        // First another certificate without its key, then a broken key, then the right key.
+        write(&certificate, &directory.path().join("other.pem"));
+        assert!(matches!(tls.reload(), Err(TlsError::Pair(..))));
+        assert!(!tls.reload().unwrap(), "the same failure is reported once");
         fs::write(&key, "no key").unwrap();
-        assert!(matches!(tls.refresh(), Err(TlsError::Pem(..))));
-        assert!(Arc::ptr_eq(&first, &tls.used.borrow()));
-        fs::copy(place.path().join("other.pem"), &key).unwrap();
-        assert!(tls.refresh().unwrap());
-        assert!(!Arc::ptr_eq(&first, &tls.used.borrow()));
+        assert!(matches!(tls.reload(), Err(TlsError::Pem(..))));
+        assert!(Arc::ptr_eq(&first, &tls.config.borrow()));
+        fs::copy(directory.path().join("other.pem"), &key).unwrap();
+        assert!(tls.reload().unwrap());
+        assert!(!Arc::ptr_eq(&first, &tls.config.borrow()));
     }
 }

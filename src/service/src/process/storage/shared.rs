@@ -1,40 +1,43 @@
-//! Results and jobs of a service of many processes.
+//! Opens the broker and the result store of a service with many processes.
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use verne_jobs::JetStream;
-use verne_jobs::jetstream::{self, ConnectError, Setting};
+use verne_jobs::jetstream::{self, ConnectError};
 use verne_store::Store;
 
 use crate::operations::results::Results;
 use crate::process::config::cluster::{BrokerConfig, StoreConfig};
-use crate::process::storage::{ATTEMPTS, StorageError};
+use crate::process::storage::error::StorageError;
 
-/// How long the broker waits for a sign of life of who runs a job. A sign comes every third of it.
+/// A job that was running this many times when its process died is likely the cause.
+pub(crate) const MAX_ATTEMPTS: u32 = 10;
+
+/// The broker gives a job to another worker if the first one has not confirmed for so long that it still runs. Workers
+/// confirm three times as often.
 const ACK_WAIT: Duration = Duration::from_secs(15);
 
-/// How long a broker that is not there is waited for when a process starts: both may have been started together.
-const PATIENCE: Duration = Duration::from_mins(1);
+/// How long a process that starts waits for the broker, which may start at the same time.
+const CONNECT_TIMEOUT: Duration = Duration::from_mins(1);
 
-/// How soon it is tried again.
-const RETRY: Duration = Duration::from_secs(1);
+/// Pause between two attempts to connect to the broker.
+const RETRY_PAUSE: Duration = Duration::from_secs(1);
 
-/// Connects to the broker and opens the store that the settings name. What of the broker's cannot be used is told before
-/// either is waited for.
+/// Connects to the broker and opens the store. Checks the settings of the broker before it waits for either.
 pub(crate) async fn open(
     broker: &BrokerConfig,
     store: &StoreConfig,
     memory_bytes: u64,
     queue: usize,
 ) -> Result<(Results, Arc<JetStream>), StorageError> {
-    let broker = settings(broker, queue)?;
+    let broker = broker_config(broker, queue)?;
     broker.check().await.map_err(StorageError::Broker)?;
     let results = open_store(store, memory_bytes).await?.ok_or(StorageError::NoStore)?;
     Ok((results, connect(broker).await?))
 }
 
-/// Opens the store that the settings name, if they name one.
+/// Opens the store, if the settings name one.
 pub(crate) async fn open_store(
     config: &StoreConfig,
     memory_bytes: u64,
@@ -55,14 +58,14 @@ async fn connect(config: jetstream::Config) -> Result<Arc<JetStream>, StorageErr
                 }
                 Err(error) => return Err(StorageError::Broker(error)),
             }
-            tokio::time::sleep(RETRY).await;
+            tokio::time::sleep(RETRY_PAUSE).await;
         }
     };
-    let missing = |_| StorageError::BrokerMissing(PATIENCE);
-    tokio::time::timeout(PATIENCE, connected).await.map_err(missing)?
+    let missing = |_| StorageError::BrokerMissing(CONNECT_TIMEOUT);
+    tokio::time::timeout(CONNECT_TIMEOUT, connected).await.map_err(missing)?
 }
 
-fn settings(config: &BrokerConfig, queue: usize) -> Result<jetstream::Config, StorageError> {
+fn broker_config(config: &BrokerConfig, queue: usize) -> Result<jetstream::Config, StorageError> {
     let url = config.broker.clone().ok_or(StorageError::NoBroker)?;
     Ok(jetstream::Config {
         credentials: config.broker_credentials.clone(),
@@ -73,24 +76,7 @@ fn settings(config: &BrokerConfig, queue: usize) -> Result<jetstream::Config, St
         replicas: usize::from(config.broker_replicas),
         queue,
         ack_wait: ACK_WAIT,
-        max_attempts: ATTEMPTS,
+        max_attempts: MAX_ATTEMPTS,
         ..jetstream::Config::at(url)
     })
-}
-
-/// The key of what cannot be used.
-pub(crate) fn key(error: &ConnectError) -> &'static str {
-    match error {
-        ConnectError::Unusable { setting, .. } => match setting {
-            Setting::Url => "broker",
-            Setting::Name => "broker_name",
-            Setting::Credentials => "broker_credentials",
-            Setting::Nkey => "broker_nkey",
-            Setting::Authorities => "broker_ca",
-            Setting::Certificate => "broker_certificate",
-            Setting::Key => "broker_key",
-        },
-        ConnectError::Broker(_) | ConnectError::Refused(_) => "broker",
-        ConnectError::Threads(_) => "job_threads",
-    }
 }

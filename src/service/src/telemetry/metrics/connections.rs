@@ -1,49 +1,49 @@
-//! Connections: how many are open, and how many were turned away.
+//! Metrics of connections: how many are open, and how many were rejected.
 
 use prometheus_client::metrics::counter::Counter;
 use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::registry::Registry;
 
-use crate::telemetry::metrics::number;
+use crate::telemetry::metrics::encoding::number;
 
-/// Counts the connections of a listener. Its clones are one.
+/// Counts the connections of a listener. Clones share their counts.
 #[derive(Clone, Default)]
-pub(crate) struct Connections {
+pub(crate) struct ConnectionMetrics {
     open: Gauge,
     limit: Gauge,
-    refused: Counter,
+    rejected: Counter,
 }
 
-/// A connection that is open.
-pub(crate) struct Open(Gauge);
+/// An open connection. It is counted until it is dropped.
+pub(crate) struct OpenConnection(Gauge);
 
-impl Connections {
-    /// Told of in a registry.
+impl ConnectionMetrics {
+    /// Adds the metrics to a registry.
     pub(crate) fn register(&self, registry: &mut Registry) {
         registry.register("connections_open", "Open connections", self.open.clone());
         registry.register("connections_limit", "Limit of open connections", self.limit.clone());
-        let refused = "Connections rejected because of the total limit or the limit per address";
-        registry.register("connections_refused", refused, self.refused.clone());
+        let rejected = "Connections rejected because of the total limit or the limit per address";
+        registry.register("connections_refused", rejected, self.rejected.clone());
     }
 
-    /// At most so many are open.
-    pub(crate) fn limit(&self, connections: usize) {
+    /// Sets the maximum number of open connections.
+    pub(crate) fn set_limit(&self, connections: usize) {
         self.limit.set(number(connections));
     }
 
-    /// One has come; it is open until the answer is dropped.
-    pub(crate) fn open(&self) -> Open {
+    /// Counts an open connection.
+    pub(crate) fn open(&self) -> OpenConnection {
         self.open.inc();
-        Open(self.open.clone())
+        OpenConnection(self.open.clone())
     }
 
-    /// One has come for which there is no place.
-    pub(crate) fn refuse(&self) {
-        self.refused.inc();
+    /// Counts a rejected connection.
+    pub(crate) fn count_rejection(&self) {
+        self.rejected.inc();
     }
 }
 
-impl Drop for Open {
+impl Drop for OpenConnection {
     fn drop(&mut self) {
         self.0.dec();
     }

@@ -1,48 +1,48 @@
-//! More connections than places.
+//! More connections than --max-connections.
 
 use tokio::io::AsyncWriteExt;
 use tokio::net::TcpStream;
 
-use super::{Served, asked, in_time, rest, serve};
+use super::{Served, in_time, probe, rest, serve};
 
-/// The answer to a request for this path on a connection of its own, until its end.
+/// The response to a request for this path on a new connection.
 async fn answer(served: &Served, path: &str) -> String {
     let mut stream = served.connect().await;
     stream.write_all(format!("GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n").as_bytes()).await.unwrap();
     rest(&mut stream).await
 }
 
-/// A service all of whose places, two of them, are taken.
+/// A service that allows two connections, which are open.
 async fn full(flags: &str) -> (Served, [TcpStream; 2]) {
     let served = serve(&format!("--max-connections 2 {flags}")).await;
     let (mut one, mut two) = (served.connect().await, served.connect().await);
-    assert!(asked(&mut one).await && asked(&mut two).await);
+    assert!(probe(&mut one).await && probe(&mut two).await);
     (served, [one, two])
 }
 
 #[tokio::test]
-async fn no_more_connections_are_open_than_allowed() {
+async fn a_full_service_rejects_requests_on_further_connections() {
     let (served, [mut one, two]) = full("").await;
     let refused = answer(&served, "/fk?rho=674,685,250").await;
     assert!(refused.starts_with("HTTP/1.1 503 "), "{refused}");
     for part in ["retry-after: 1\r\n", "connection: close\r\n", "application/problem+json", "overloaded"] {
         assert!(refused.contains(part), "{refused}");
     }
-    assert!(asked(&mut one).await, "those that are open stay");
+    assert!(probe(&mut one).await, "open connections stay open");
     drop(two);
     let mut again = served.connect().await;
     in_time(async {
-        while !(asked(&mut again).await && asked(&mut again).await) {
+        while !(probe(&mut again).await && probe(&mut again).await) {
             again = served.connect().await;
         }
     })
     .await;
     drop((one, again));
-    served.end().await;
+    served.stop().await;
 }
 
 #[tokio::test]
-async fn probes_are_answered_all_the_same() {
+async fn a_full_service_answers_probes() {
     let (served, open) = full("").await;
     for path in ["/livez", "/readyz", "/metrics"] {
         let answer = answer(&served, path).await;
@@ -50,11 +50,11 @@ async fn probes_are_answered_all_the_same() {
         assert!(answer.contains("connection: close\r\n"), "{answer}");
     }
     drop(open);
-    served.end().await;
+    served.stop().await;
 }
 
 #[tokio::test]
-async fn connections_are_counted() {
+async fn metrics_count_connections() {
     let (served, open) = full("").await;
     for refused in 1..=2 {
         let metrics = answer(&served, "/metrics").await;
@@ -69,11 +69,11 @@ async fn connections_are_counted() {
     drop(open);
     in_time(async { while !answer(&served, "/metrics").await.contains("verne_connections_open 1\n") {} })
         .await;
-    served.end().await;
+    served.stop().await;
 }
 
 #[tokio::test]
-async fn what_is_kept_for_probes_is_held_for_no_longer_than_a_header() {
+async fn silent_connections_beyond_the_limit_are_closed() {
     let (served, _open) = full("--header-timeout 2").await;
     let mut silent = Vec::new();
     for _ in 0..16 {
@@ -84,5 +84,5 @@ async fn what_is_kept_for_probes_is_held_for_no_longer_than_a_header() {
         assert_eq!(rest(&mut silent).await, "");
     }
     in_time(async { while !answer(&served, "/livez").await.starts_with("HTTP/1.1 200 OK") {} }).await;
-    served.end().await;
+    served.stop().await;
 }

@@ -1,18 +1,18 @@
-//! A service on a socket that is told to stop.
+//! The end of the service.
 
 use tempfile::TempDir;
 use tokio::io::AsyncWriteExt;
 use tokio::net::TcpListener;
 
-use super::{asked, in_time, rest, serve};
+use super::{in_time, probe, rest, serve};
 use crate::cli::verne;
 
 #[tokio::test]
-async fn idle_connections_are_closed_and_requests_under_way_are_finished() {
+async fn a_stopping_service_closes_idle_connections_and_finishes_requests() {
     let served = serve("--drain 60 --header-timeout 60 --timeout 60").await;
     let (mut idle, mut silent, mut busy) =
         (served.connect().await, served.connect().await, served.connect().await);
-    assert!(asked(&mut idle).await && asked(&mut busy).await);
+    assert!(probe(&mut idle).await && probe(&mut busy).await);
     let body = r#"{"joints": {"rho": [674, 685, 250]}}"#;
     let (first, second) = body.split_at(10);
     let length = body.len();
@@ -20,7 +20,7 @@ async fn idle_connections_are_closed_and_requests_under_way_are_finished() {
         "POST /fk HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: {length}"
     );
     busy.write_all(format!("{head}\r\nExpect: 100-continue\r\n\r\n").as_bytes()).await.unwrap();
-    // That it asks for the body shows that the request is under way.
+    // The service asks for the body, so the request is in progress.
     let mut expected = [0; 25];
     in_time(tokio::io::AsyncReadExt::read_exact(&mut busy, &mut expected)).await.unwrap();
     assert_eq!(&expected, b"HTTP/1.1 100 Continue\r\n\r\n");
@@ -37,34 +37,34 @@ async fn idle_connections_are_closed_and_requests_under_way_are_finished() {
 }
 
 #[tokio::test]
-async fn a_client_that_does_not_go_on_keeps_nothing_open() {
+async fn an_unfinished_request_does_not_keep_a_stopping_service() {
     let served = serve("--drain 1 --header-timeout 600 --timeout 600").await;
     let mut stream = served.connect().await;
-    assert!(asked(&mut stream).await);
+    assert!(probe(&mut stream).await);
     stream.write_all(b"GET /livez HTTP/1.1\r\nx-slow: ").await.unwrap();
-    served.end().await;
+    served.stop().await;
     assert_eq!(rest(&mut stream).await, "");
 }
 
 #[tokio::test]
-async fn who_waits_for_the_broker_stops_at_once() {
-    // Nobody listens there.
+async fn a_service_that_waits_for_the_broker_stops_at_once() {
+    // No program listens there.
     let broker = TcpListener::bind("127.0.0.1:0").await.unwrap().local_addr().unwrap();
-    let place = TempDir::new().unwrap();
-    let store = format!("file://{}", place.path().display());
+    let directory = TempDir::new().unwrap();
+    let store = format!("file://{}", directory.path().display());
     verne(&format!("store init {store}")).unwrap();
-    serve(&format!("--broker nats://{broker} --store {store}")).await.end().await;
+    serve(&format!("--broker nats://{broker} --store {store}")).await.stop().await;
 }
 
 #[cfg(unix)]
 #[tokio::test]
-async fn a_hangup_harms_nobody_without_keys() {
+async fn sighup_does_not_end_a_service_without_keys() {
     let served = serve("").await;
     let mut stream = served.connect().await;
-    assert!(asked(&mut stream).await);
+    assert!(probe(&mut stream).await);
     let process = std::process::id().to_string();
     assert!(std::process::Command::new("kill").args(["-HUP", &process]).status().unwrap().success());
-    assert!(asked(&mut stream).await);
+    assert!(probe(&mut stream).await);
     drop(stream);
-    served.end().await;
+    served.stop().await;
 }

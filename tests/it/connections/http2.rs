@@ -10,18 +10,26 @@ use tokio::task::JoinHandle;
 
 use super::{in_time, serve};
 
-/// Speaks HTTP/2 over a stream, and takes little of an answer that nobody reads; with the connection's end.
+/// An HTTP/2 client with a small flow-control window, and the end of its connection.
 pub(super) async fn http2(
     io: impl AsyncRead + AsyncWrite + Unpin + Send + 'static,
 ) -> (SendRequest<Body>, JoinHandle<hyper::Result<()>>) {
+    http2_with_window(io, 65_535).await
+}
+
+/// An HTTP/2 client with this flow-control window, in bytes, and the end of its connection.
+pub(super) async fn http2_with_window(
+    io: impl AsyncRead + AsyncWrite + Unpin + Send + 'static,
+    window: u32,
+) -> (SendRequest<Body>, JoinHandle<hyper::Result<()>>) {
     let mut builder = Builder::new(TokioExecutor::new());
-    let handshake = builder.initial_stream_window_size(65_535).handshake(TokioIo::new(io));
+    let handshake = builder.initial_stream_window_size(window).handshake(TokioIo::new(io));
     let (client, connection) = handshake.await.unwrap();
     (client, tokio::spawn(connection))
 }
 
-/// Asks whether the service lives.
-pub(super) fn question() -> Request<Body> {
+/// The request of a liveness probe.
+pub(super) fn liveness_probe() -> Request<Body> {
     Request::get("http://localhost/livez").body(Body::empty()).unwrap()
 }
 
@@ -34,7 +42,7 @@ async fn http2_answers_many_requests_on_one_connection() {
             let mut client = client.clone();
             tokio::spawn(async move {
                 client.ready().await.unwrap();
-                let answer = client.send_request(question()).await.unwrap();
+                let answer = client.send_request(liveness_probe()).await.unwrap();
                 (answer.status(), answer.into_body().collect().await.unwrap().to_bytes())
             })
         })
@@ -42,19 +50,19 @@ async fn http2_answers_many_requests_on_one_connection() {
     for answer in answers {
         assert_eq!(in_time(answer).await.unwrap(), (StatusCode::OK, "{\"status\":\"ok\"}".into()));
     }
-    served.end().await;
+    served.stop().await;
 }
 
 #[tokio::test]
-async fn headers_have_a_bound_here_too() {
+async fn large_headers_are_rejected_over_http2() {
     let served = serve("").await;
     let (mut client, _) = http2(served.connect().await).await;
-    let mut request = question();
+    let mut request = liveness_probe();
     request.headers_mut().insert("x-long", "x".repeat(100_000).parse().unwrap());
     let refused = in_time(client.send_request(request)).await;
     assert!(
         refused.is_err()
             || refused.is_ok_and(|answer| answer.status() == StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE)
     );
-    served.end().await;
+    served.stop().await;
 }
