@@ -1,4 +1,4 @@
-//! A directory of the test's own, and what lies in it.
+//! A directory for one test, and its files.
 
 use std::fs;
 use std::path::PathBuf;
@@ -10,22 +10,22 @@ use rusqlite::Connection;
 use tempfile::TempDir;
 use verne_store::{Config, Key, Store};
 
-use crate::objects::Objects;
+use crate::controlled_objects::ControlledObjects;
 
-/// What the object of a content of one chunk is longer than the content.
+/// The size of the header of an object with one chunk.
 pub(crate) const HEADER: u64 = 148;
 
-/// The same of no content.
+/// The size of the header of an object with an empty content.
 pub(crate) const EMPTY: u64 = 116;
 
-/// Memory for every content of a test that does not ask for less.
+/// Memory for every content of most tests.
 const MEMORY: u64 = 64 << 20;
 
-pub(crate) struct Place {
+pub(crate) struct TestDirectory {
     root: TempDir,
 }
 
-impl Place {
+impl TestDirectory {
     pub(crate) fn new() -> Self {
         Self { root: tempfile::tempdir().unwrap() }
     }
@@ -40,27 +40,27 @@ impl Place {
 
     /// A store with room for everything.
     pub(crate) async fn open(&self) -> Store {
-        self.open_bounded(1 << 30).await
+        self.open_with_limit(1 << 30).await
     }
 
-    pub(crate) async fn open_bounded(&self, disk_bytes: u64) -> Store {
+    pub(crate) async fn open_with_limit(&self, disk_bytes: u64) -> Store {
         Store::open(&self.config(disk_bytes)).await.unwrap()
     }
 
-    /// A store whose memory holds nothing: every read goes to the disk, unless somebody holds the content.
+    /// A store without a memory cache: every read goes to the disk, unless the test holds the content.
     pub(crate) async fn open_without_memory(&self) -> Store {
         Store::open(&Config { memory_bytes: 0, ..self.config(1 << 30) }).await.unwrap()
     }
 
-    /// The directory's objects, behind a layer that the test commands.
-    pub(crate) fn objects(&self) -> Arc<Objects> {
+    /// The directory's objects, as the test controls them.
+    pub(crate) fn objects(&self) -> Arc<ControlledObjects> {
         let root = self.path().join("objects");
         fs::create_dir_all(&root).unwrap();
-        Objects::over(LocalFileSystem::new_with_prefix(root).unwrap())
+        ControlledObjects::over(LocalFileSystem::new_with_prefix(root).unwrap())
     }
 
-    /// A store over such objects, with no memory.
-    pub(crate) async fn open_over(&self, objects: &Arc<Objects>, disk_bytes: u64) -> Store {
+    /// A store of such objects without a memory cache.
+    pub(crate) async fn open_over(&self, objects: &Arc<ControlledObjects>, disk_bytes: u64) -> Store {
         Store::open_over(Arc::clone(objects) as _, &self.path(), 0, disk_bytes).await.unwrap()
     }
 
@@ -75,7 +75,7 @@ impl Place {
         Connection::open(self.path().join("index.sqlite3")).unwrap().execute_batch(statement).unwrap();
     }
 
-    /// How many rows the index has.
+    /// The number of rows of the index.
     pub(crate) fn rows(&self) -> u32 {
         let index = Connection::open(self.path().join("index.sqlite3")).unwrap();
         index.query_row("SELECT count(*) FROM objects", [], |row| row.get(0)).unwrap()
@@ -86,7 +86,7 @@ pub(crate) fn key(number: u8) -> Key {
     Key::from([number; 32])
 }
 
-/// So many bytes that are not those of another number.
+/// Bytes that differ from those of every other number.
 pub(crate) fn bytes(number: u8, length: usize) -> Bytes {
     let mut all = (0..251).map(|byte| byte ^ number).collect::<Vec<u8>>().repeat(length / 251 + 1);
     all.truncate(length);

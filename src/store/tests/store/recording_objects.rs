@@ -1,4 +1,4 @@
-//! A store of objects that says what was asked of it, and refuses some of it when it is told to.
+//! Objects in memory that record their requests and refuse some of them.
 
 use std::fmt;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -17,48 +17,48 @@ use object_store::{
 use verne_store::{Key, Store};
 
 #[derive(Debug, Default)]
-pub(crate) struct Watched {
+pub(crate) struct RecordingObjects {
     inner: InMemory,
     record: Arc<Record>,
 }
 
-/// What was asked, and what is refused.
+/// The requests, and which of them are refused.
 #[derive(Debug, Default)]
 pub(crate) struct Record {
-    /// First and end of each range that was fetched.
+    /// Start and end of each range that was fetched.
     fetched: Mutex<Vec<(u64, u64)>>,
-    /// Each place that was written to in one piece.
+    /// The location of each object that was written in one request.
     pub(crate) put: Mutex<Vec<Path>>,
     /// Lengths of the parts of uploads.
     pub(crate) parts: Mutex<Vec<usize>>,
     pub(crate) aborted: AtomicUsize,
-    /// The last part of an upload is refused.
+    /// Whether the last part of an upload is refused.
     pub(crate) last_part_fails: AtomicBool,
     pub(crate) all_fail: AtomicBool,
-    /// One question in so many is refused; 0: none.
+    /// One request in so many is refused; 0: none.
     pub(crate) one_in: AtomicUsize,
-    asked: AtomicUsize,
+    requests: AtomicUsize,
     pub(crate) refused: AtomicUsize,
 }
 
 impl Record {
-    fn ask(&self) -> Result<()> {
-        let asked = self.asked.fetch_add(1, Ordering::Relaxed) + 1;
+    fn count(&self) -> Result<()> {
+        let requests = self.requests.fetch_add(1, Ordering::Relaxed) + 1;
         let one_in = self.one_in.load(Ordering::Relaxed);
-        if self.all_fail.load(Ordering::Relaxed) || (one_in > 0 && asked.is_multiple_of(one_in)) {
+        if self.all_fail.load(Ordering::Relaxed) || (one_in > 0 && requests.is_multiple_of(one_in)) {
             self.refused.fetch_add(1, Ordering::Relaxed);
             return Err(Error::Generic { store: "test", source: "slow down".into() });
         }
         Ok(())
     }
 
-    /// The ranges that were fetched since this was asked last.
+    /// The ranges that were fetched since the last call.
     pub(crate) fn take_fetched(&self) -> Vec<(u64, u64)> {
         std::mem::take(&mut self.fetched.lock().unwrap())
     }
 }
 
-impl Watched {
+impl RecordingObjects {
     pub(crate) fn new() -> Arc<Self> {
         Arc::default()
     }
@@ -67,59 +67,59 @@ impl Watched {
         &self.record
     }
 
-    /// A store over it that remembers nothing.
+    /// A store of these objects without a memory cache.
     pub(crate) async fn open(self: &Arc<Self>) -> Store {
         Store::open_shared_over(Arc::clone(self) as _, 0).await.unwrap()
     }
 
-    pub(crate) fn place(key: Key) -> Path {
+    pub(crate) fn location(key: Key) -> Path {
         let digits = key.to_string();
         Path::from_iter([&digits[..2], &digits[2..]])
     }
 
-    /// A key's object.
+    /// The bytes of a key's object.
     pub(crate) async fn object(&self, key: Key) -> Vec<u8> {
-        self.inner.get(&Self::place(key)).await.unwrap().bytes().await.unwrap().to_vec()
+        self.inner.get(&Self::location(key)).await.unwrap().bytes().await.unwrap().to_vec()
     }
 
-    /// Puts something in the place of a key's object.
+    /// Replaces a key's object.
     pub(crate) async fn replace(&self, key: Key, object: Vec<u8>) {
-        self.inner.put(&Self::place(key), Bytes::from(object).into()).await.unwrap();
+        self.inner.put(&Self::location(key), Bytes::from(object).into()).await.unwrap();
     }
 
-    /// Everything that can be seen.
-    pub(crate) async fn places(&self) -> Vec<Path> {
+    /// The locations of all objects.
+    pub(crate) async fn locations(&self) -> Vec<Path> {
         self.inner.list(None).map_ok(|meta| meta.location).try_collect().await.unwrap()
     }
 }
 
-impl fmt::Display for Watched {
+impl fmt::Display for RecordingObjects {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.inner.fmt(f)
     }
 }
 
 #[async_trait]
-impl ObjectStore for Watched {
-    async fn put_opts(&self, place: &Path, payload: PutPayload, options: PutOptions) -> Result<PutResult> {
-        self.record.ask()?;
-        self.record.put.lock().unwrap().push(place.clone());
-        self.inner.put_opts(place, payload, options).await
+impl ObjectStore for RecordingObjects {
+    async fn put_opts(&self, location: &Path, payload: PutPayload, options: PutOptions) -> Result<PutResult> {
+        self.record.count()?;
+        self.record.put.lock().unwrap().push(location.clone());
+        self.inner.put_opts(location, payload, options).await
     }
 
     async fn put_multipart_opts(
         &self,
-        place: &Path,
+        location: &Path,
         options: PutMultipartOptions,
     ) -> Result<Box<dyn MultipartUpload>> {
-        self.record.ask()?;
-        let upload = self.inner.put_multipart_opts(place, options).await?;
+        self.record.count()?;
+        let upload = self.inner.put_multipart_opts(location, options).await?;
         Ok(Box::new(Upload { upload, record: Arc::clone(&self.record) }))
     }
 
-    async fn get_opts(&self, place: &Path, options: GetOptions) -> Result<GetResult> {
-        self.record.ask()?;
-        let found = self.inner.get_opts(place, options).await?;
+    async fn get_opts(&self, location: &Path, options: GetOptions) -> Result<GetResult> {
+        self.record.count()?;
+        let found = self.inner.get_opts(location, options).await?;
         self.record.fetched.lock().unwrap().push((found.range.start, found.range.end));
         Ok(found)
     }
@@ -153,14 +153,14 @@ impl MultipartUpload for Upload {
         let last = part.content_length() < 8 << 20;
         self.record.parts.lock().unwrap().push(part.content_length());
         if last && self.record.last_part_fails.load(Ordering::Relaxed) {
-            let fault = Error::Generic { store: "test", source: "the part is lost".into() };
-            return async { Err(fault) }.boxed();
+            let error = Error::Generic { store: "test", source: "the part is lost".into() };
+            return async { Err(error) }.boxed();
         }
         self.upload.put_part(part)
     }
 
     async fn complete(&mut self) -> Result<PutResult> {
-        self.record.ask()?;
+        self.record.count()?;
         self.upload.complete().await
     }
 

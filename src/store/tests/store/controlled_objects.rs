@@ -1,4 +1,4 @@
-//! A directory of objects that fails, or stops half-way, when it is told to.
+//! A directory of objects that fails or pauses when a test wants it to.
 
 use std::fmt;
 use std::sync::Arc;
@@ -16,19 +16,19 @@ use object_store::{
 use tokio::sync::Semaphore;
 
 #[derive(Debug)]
-pub(crate) struct Objects {
+pub(crate) struct ControlledObjects {
     inner: Arc<LocalFileSystem>,
     pub(crate) puts_fail: AtomicBool,
     pub(crate) gets_fail: AtomicBool,
     pub(crate) deletes_fail: AtomicBool,
-    /// A put, a get or a deletion of an object that is done is answered when it gets a permit.
+    /// A put, a get or a deletion returns, after it is done, when it gets a permit.
     pub(crate) gate: Arc<Semaphore>,
-    /// One permit for each that waits, or has waited, at the gate.
+    /// One permit for each operation that waits, or has waited, at the gate.
     pub(crate) arrived: Arc<Semaphore>,
     pub(crate) gets: AtomicUsize,
 }
 
-impl Objects {
+impl ControlledObjects {
     pub(crate) fn over(inner: LocalFileSystem) -> Arc<Self> {
         Arc::new(Self {
             inner: Arc::new(inner),
@@ -41,7 +41,7 @@ impl Objects {
         })
     }
 
-    /// From now on nothing that is done is answered.
+    /// From now on no operation returns.
     pub(crate) fn close_gate(&self) {
         self.gate.forget_permits(Semaphore::MAX_PERMITS);
         self.arrived.forget_permits(Semaphore::MAX_PERMITS);
@@ -51,7 +51,7 @@ impl Objects {
         self.gate.add_permits(Semaphore::MAX_PERMITS / 2);
     }
 
-    /// Waits for the next to arrive at the gate.
+    /// Waits until the next operation arrives at the gate.
     pub(crate) async fn arrival(&self) {
         self.arrived.acquire().await.unwrap().forget();
     }
@@ -67,40 +67,40 @@ fn refused(refuses: &AtomicBool) -> Result<()> {
     if refuses.load(Ordering::Relaxed) { Err(Error::Generic { store: "test", source }) } else { Ok(()) }
 }
 
-impl fmt::Display for Objects {
+impl fmt::Display for ControlledObjects {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.inner.fmt(f)
     }
 }
 
 #[async_trait]
-impl ObjectStore for Objects {
-    async fn put_opts(&self, place: &Path, payload: PutPayload, options: PutOptions) -> Result<PutResult> {
+impl ObjectStore for ControlledObjects {
+    async fn put_opts(&self, location: &Path, payload: PutPayload, options: PutOptions) -> Result<PutResult> {
         refused(&self.puts_fail)?;
-        let done = self.inner.put_opts(place, payload, options).await;
+        let done = self.inner.put_opts(location, payload, options).await;
         pass(&self.gate, &self.arrived).await;
         done
     }
 
     async fn put_multipart_opts(
         &self,
-        place: &Path,
+        location: &Path,
         options: PutMultipartOptions,
     ) -> Result<Box<dyn MultipartUpload>> {
-        self.inner.put_multipart_opts(place, options).await
+        self.inner.put_multipart_opts(location, options).await
     }
 
-    async fn get_opts(&self, place: &Path, options: GetOptions) -> Result<GetResult> {
+    async fn get_opts(&self, location: &Path, options: GetOptions) -> Result<GetResult> {
         refused(&self.gets_fail)?;
         self.gets.fetch_add(1, Ordering::Relaxed);
-        let done = self.inner.get_opts(place, options).await;
+        let done = self.inner.get_opts(location, options).await;
         pass(&self.gate, &self.arrived).await;
         done
     }
 
     fn delete_stream(&self, places: BoxStream<'static, Result<Path>>) -> BoxStream<'static, Result<Path>> {
-        if let Err(fault) = refused(&self.deletes_fail) {
-            return futures_util::stream::once(async { Err(fault) }).boxed();
+        if let Err(error) = refused(&self.deletes_fail) {
+            return futures_util::stream::once(async { Err(error) }).boxed();
         }
         let (gate, arrived) = (Arc::clone(&self.gate), Arc::clone(&self.arrived));
         let done = self.inner.delete_stream(places).then(move |done| {

@@ -1,4 +1,4 @@
-//! One buffer for all who read a content at once, however large.
+//! All readers of a content share one buffer.
 
 use std::sync::atomic::Ordering;
 
@@ -6,14 +6,14 @@ use futures_util::poll;
 use tokio::task::JoinSet;
 use verne_store::{Content, Store};
 
-use crate::place::{Place, bytes, key};
+use crate::directory::{TestDirectory, bytes, key};
 
 fn same_buffer(a: &Content, b: &Content) -> bool {
     a.bytes.as_ptr() == b.bytes.as_ptr()
 }
 
 #[tokio::test]
-async fn hits_are_clones_of_one_buffer_which_is_the_one_that_was_put() {
+async fn all_readers_share_the_buffer_that_was_stored() {
     let store = Store::in_memory(64 << 20);
     let given = bytes(1, 20 << 20);
     let (put, _) = store.put(&key(1), given.clone()).await;
@@ -23,10 +23,10 @@ async fn hits_are_clones_of_one_buffer_which_is_the_one_that_was_put() {
 }
 
 #[tokio::test]
-async fn readers_of_what_memory_has_no_room_for_share_it_while_one_of_them_holds_it() {
-    let place = Place::new();
-    place.open().await.put(&key(1), bytes(1, 1 << 20)).await;
-    let store = place.open_without_memory().await;
+async fn readers_share_an_uncached_content_while_one_of_them_holds_it() {
+    let directory = TestDirectory::new();
+    directory.open().await.put(&key(1), bytes(1, 1 << 20)).await;
+    let store = directory.open_without_memory().await;
     let first = store.get(&key(1)).await.unwrap();
     let second = store.get(&key(1)).await.unwrap();
     drop(first);
@@ -34,22 +34,16 @@ async fn readers_of_what_memory_has_no_room_for_share_it_while_one_of_them_holds
     assert!(same_buffer(&second, &third));
     assert_eq!(store.stats().disk_hits, 1);
     drop((second, third));
-    // Let go at the latest when other tests' threads let go of moka's garbage: then the disk is read again.
-    for _ in 0..1_000_000 {
-        assert_eq!(store.get(&key(1)).await.unwrap().bytes.len(), 1 << 20);
-        if store.stats().disk_hits == 2 {
-            return;
-        }
-    }
-    panic!("the buffer outlives its readers");
+    assert_eq!(store.get(&key(1)).await.unwrap().bytes.len(), 1 << 20);
+    assert_eq!(store.stats().disk_hits, 2, "the buffer ends with its readers");
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 4)]
-async fn first_readers_at_once_read_the_disk_once() {
-    let place = Place::new();
-    place.open().await.put(&key(1), bytes(1, 1 << 20)).await;
-    let objects = place.objects();
-    let store = place.open_over(&objects, 1 << 30).await;
+async fn concurrent_first_readers_read_the_disk_once() {
+    let directory = TestDirectory::new();
+    directory.open().await.put(&key(1), bytes(1, 1 << 20)).await;
+    let objects = directory.objects();
+    let store = directory.open_over(&objects, 1 << 30).await;
     objects.close_gate();
     let mut readers = JoinSet::new();
     for number in 0..100 {
@@ -70,11 +64,11 @@ async fn first_readers_at_once_read_the_disk_once() {
 }
 
 #[tokio::test]
-async fn a_reader_whose_turn_comes_late_finds_what_is_held_by_then() {
-    let place = Place::new();
-    place.open().await.put(&key(1), bytes(1, 1000)).await;
-    let objects = place.objects();
-    let (store, key) = (place.open_over(&objects, 1 << 30).await, key(1));
+async fn a_waiting_reader_finds_a_buffer_that_came_alive_meanwhile() {
+    let directory = TestDirectory::new();
+    directory.open().await.put(&key(1), bytes(1, 1000)).await;
+    let objects = directory.objects();
+    let (store, key) = (directory.open_over(&objects, 1 << 30).await, key(1));
     objects.close_gate();
     let mut first = Box::pin(store.get(&key));
     tokio::select! {
@@ -82,7 +76,7 @@ async fn a_reader_whose_turn_comes_late_finds_what_is_held_by_then() {
         () = objects.arrival() => {}
     }
     let mut second = Box::pin(store.get(&key));
-    assert!(poll!(&mut second).is_pending(), "it has looked, and waits for the first");
+    assert!(poll!(&mut second).is_pending(), "it waits for the first");
     let mut writer = Box::pin(store.put(&key, bytes(1, 1000)));
     tokio::select! {
         _ = &mut writer => panic!("the gate is closed"),
@@ -91,7 +85,7 @@ async fn a_reader_whose_turn_comes_late_finds_what_is_held_by_then() {
     drop(first);
     objects.open_gate();
     let found = second.await.unwrap();
-    assert_eq!(objects.gets.load(Ordering::Relaxed), 1, "of the first");
+    assert_eq!(objects.gets.load(Ordering::Relaxed), 1, "that of the first reader");
     assert!(same_buffer(&found, &writer.await.0));
     assert_eq!(store.stats().memory_hits, 1);
 }
