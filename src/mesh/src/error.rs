@@ -4,7 +4,7 @@ use std::fmt;
 
 /// The reason why vertices, triangles and tags are not a [`Mesh`](crate::Mesh).
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum MeshFault {
+pub enum MeshError {
     /// More vertices or corners than 32-bit indices can count.
     TooLarge,
     /// The number of tags differs from the number of triangles.
@@ -40,7 +40,7 @@ pub enum MeshFault {
     },
 }
 
-impl fmt::Display for MeshFault {
+impl fmt::Display for MeshError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooLarge => write!(f, "more vertices or triangles than 32-bit indices can count"),
@@ -57,4 +57,4 @@ impl fmt::Display for MeshFault {
     }
 }
 
-impl std::error::Error for MeshFault {}
+impl std::error::Error for MeshError {}
