@@ -1,4 +1,4 @@
-//! The command line, as its users type it.
+//! The command line.
 
 use std::ffi::OsString;
 use std::io::{Read, Write};
@@ -23,7 +23,7 @@ fn json(line: &str) -> Value {
 }
 
 #[tokio::test]
-async fn answers_are_those_of_http() {
+async fn commands_print_the_answers_of_http() {
     for (line, uri) in [
         ("fk --rho 674,685,250 --solutions all", "/fk?rho=674,685,250&solutions=all"),
         ("fk --rho=674,685,250 --theta1 -10 --theta2 -20.5", "/fk?rho=674,685,250&theta1=-10&theta2=-20.5"),
@@ -41,7 +41,7 @@ async fn answers_are_those_of_http() {
 }
 
 #[test]
-fn a_machine_may_be_a_file() {
+fn a_machine_can_be_a_file() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/reference/machine-verne.json");
     let by_file = json(&format!("fk --rho 674,685,250 --machine {file}"));
     assert_eq!(by_file, json("fk --rho 674,685,250"));
@@ -66,7 +66,7 @@ fn errors_name_the_flag() {
 
 /// `--help` shows in its line of usage what a command demands.
 #[test]
-fn what_the_line_of_usage_shows_is_enough() {
+fn the_arguments_in_the_usage_line_suffice() {
     for command in ["fk", "ik", "key new", "workspace", "openapi"] {
         let help = verne(&format!("{command} --help")).unwrap_err();
         let usage = help.lines().find_map(|line| line.strip_prefix("Usage: verne ")).unwrap();
@@ -84,7 +84,7 @@ fn what_the_line_of_usage_shows_is_enough() {
 }
 
 #[test]
-fn serving_is_the_default() {
+fn serve_is_the_default_command() {
     let without_command = Cli::try_parse_from(["verne", "--listen", "127.0.0.1:0"]);
     assert!(without_command.is_ok());
     assert!(Cli::try_parse_from(["verne", "serve", "--machines", "somewhere"]).is_ok());
@@ -106,7 +106,7 @@ fn answering(bytes: &'static [u8]) -> (SocketAddr, JoinHandle<String>) {
 }
 
 #[test]
-fn health_is_what_readyz_says() {
+fn the_health_command_reports_readyz() {
     let (address, question) = answering(b"HTTP/1.1 200 OK\r\ncontent-length: 0\r\n\r\n");
     assert_eq!(verne(&format!("health --url http://{address}/readyz")), Ok(String::new()));
     assert!(question.join().unwrap().starts_with("GET /readyz HTTP/1.1\r\n"));

@@ -1,12 +1,12 @@
-//! The service on a socket: what clients may do to it, and how it ends.
+//! A service on a socket: its clients, its limits and its shutdown.
 
-mod ending;
-mod full;
+mod connection_limit;
 mod half_closed;
-mod refused;
-mod slow;
+mod http2;
+mod invalid_heads;
+mod shutdown;
+mod slow_clients;
 mod tls;
-mod versions;
 
 use std::future::Future;
 use std::net::SocketAddr;
@@ -51,7 +51,7 @@ impl Served {
     }
 }
 
-/// What should come to an end does, or the test fails in place of hanging.
+/// Waits for a future, but fails after a limit instead of hanging.
 async fn in_time<T>(future: impl Future<Output = T>) -> T {
     tokio::time::timeout(Duration::from_mins(1), future).await.expect("it comes to an end")
 }
@@ -80,7 +80,7 @@ async fn asked(stream: &mut TcpStream) -> bool {
 }
 
 #[tokio::test]
-async fn what_is_no_http_harms_nobody() {
+async fn bytes_that_are_not_http_do_not_affect_other_clients() {
     let served = serve("").await;
     for garbage in [
         b"\0\0\0\0\xff\xff\xff\xff".as_slice(),

@@ -18,7 +18,7 @@ fn file(text: &str) -> (TempDir, PathBuf) {
 }
 
 #[test]
-fn a_file_gives_what_flags_do_not() {
+fn flags_override_the_settings_file() {
     let (_place, path) = file("queue = 7\nwait = 3\nmemory_only = true\n");
     for command in ["serve", ""] {
         let printed =
@@ -37,7 +37,7 @@ fn a_file_gives_what_flags_do_not() {
 }
 
 #[test]
-fn what_is_printed_can_be_used_as_a_file() {
+fn the_printed_settings_are_a_valid_settings_file() {
     let printed = verne("serve --queue 3 --data /somewhere --print-config").unwrap();
     let (_place, path) = file(&printed);
     let again = verne(&format!("serve --config {} --print-config", path.display())).unwrap();
@@ -49,7 +49,7 @@ fn what_is_printed_can_be_used_as_a_file() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused_at_once() {
+fn invalid_settings_are_refused_at_the_start() {
     for (setting, expected) in [
         ("queue = 0", "queue: invalid value '0'"),
         ("queue = 'many'", "queue: invalid value 'many'"),
@@ -86,7 +86,7 @@ fn what_makes_no_sense_is_refused_at_once() {
 }
 
 #[test]
-fn what_a_layer_above_takes_away_is_no_mistake() {
+fn an_overridden_setting_is_not_checked() {
     let (_place, path) = file("rate = 5\nrate_burst = 9");
     let serve = format!("serve --config {} --print-config", path.display());
     assert!(verne(&serve).is_ok());
@@ -98,7 +98,7 @@ fn what_a_layer_above_takes_away_is_no_mistake() {
 }
 
 #[tokio::test]
-async fn what_cannot_be_used_is_refused_by_its_key() {
+async fn an_unusable_setting_is_named() {
     let shared = TempDir::new().unwrap();
     let with_broker = format!("--broker nats://127.0.0.1:1 --store file://{}", shared.path().display());
     for (flags, expected) in [

@@ -19,7 +19,7 @@ pub enum Durability {
     /// It is flushed to disk and survives a restart, until it is evicted. Or it is in the shared store, where every
     /// process finds it until it expires.
     Durable,
-    /// It is in memory until it is evicted: the store has no disk, the disk or the shared store refused it, or it is larger
-    /// than the limit of the disk. An older object of the key still exists.
+    /// It is in memory until it is evicted: the store has no disk, the disk or the shared store refused it, or it is
+    /// larger than the limit of the disk. An older object of the key still exists.
     MemoryOnly,
 }

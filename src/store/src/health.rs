@@ -22,8 +22,8 @@ struct State {
 }
 
 impl Health {
-    /// The outcome of a probe, or that of the last one if it is a few seconds old. An error if the probe takes longer than
-    /// `limit`.
+    /// The outcome of a probe, or that of the last one if it is a few seconds old. An error if the probe takes longer
+    /// than `limit`.
     ///
     /// One probe runs at a time. It continues when its callers have gone: otherwise callers with a short timeout would
     /// never learn the outcome.

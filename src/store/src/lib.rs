@@ -38,8 +38,8 @@
 //! ```
 //!
 //! There is no index and no lock. Two writers of one key write the same bytes, so either may win. Objects of more than
-//! 8 MiB are uploaded to S3 in parts of 8 MiB, four at a time. An operation that the store refuses is repeated for up to
-//! 30 s, and a single request to S3 ten times in up to 10 s. After that, a content that could not be written is
+//! 8 MiB are uploaded to S3 in parts of 8 MiB, four at a time. An operation that the store refuses is repeated for up
+//! to 30 s, and a single request to S3 ten times in up to 10 s. After that, a content that could not be written is
 //! [`Durability::MemoryOnly`], and an object that could not be read counts as absent. A request to S3 may take 5 s to
 //! connect and 30 s in all (`AWS_CONNECT_TIMEOUT`, `AWS_TIMEOUT`).
 //!

@@ -30,8 +30,8 @@ struct Entries {
 impl MemoryCache {
     /// A cache of `limit` bytes, the overhead of its entries included.
     ///
-    /// The policy is least recently used, not least frequently used: clients fetch the newest result next, and without a
-    /// backing store it exists nowhere else.
+    /// The policy is least recently used, not least frequently used: clients fetch the newest result next, and without
+    /// a backing store it exists nowhere else.
     pub(crate) fn new(limit: u64) -> Self {
         Self { limit, entries: Arc::default() }
     }

@@ -74,9 +74,9 @@ impl Store {
         Ok(Self::in_memory(memory_bytes).backed_by(Kind::Shared(shared)))
     }
 
-    /// Prepares the directory at an address `file:///shared/directory`: creates it, and the marker file without which no
-    /// store is opened there. The marker distinguishes the directory from the mount point of a file system that is not
-    /// mounted. Returns whether the marker was created; if it exists, nothing changes. Blocks on files.
+    /// Prepares the directory at an address `file:///shared/directory`: creates it, and the marker file without which
+    /// no store is opened there. The marker distinguishes the directory from the mount point of a file system that is
+    /// not mounted. Returns whether the marker was created; if it exists, nothing changes. Blocks on files.
     pub fn init_shared(address: &str) -> Result<bool, OpenError> {
         Shared::init(address)
     }
@@ -138,9 +138,9 @@ impl Store {
         reader
     }
 
-    /// Stores bytes under a key, in place of the old ones. A disk that fails is logged and counted, and the content is in
-    /// memory all the same. A content that a shared store refuses is not in memory either: this process would take it for
-    /// stored, while other processes do not find it.
+    /// Stores bytes under a key, in place of the old ones. A disk that fails is logged and counted, and the content is
+    /// in memory all the same. A content that a shared store refuses is not in memory either: this process would take
+    /// it for stored, while other processes do not find it.
     pub async fn put(&self, key: &Key, bytes: Bytes) -> (Content, Durability) {
         let content = self.live.share(*key, Content::hashed(bytes).await);
         if !self.is_shared() {
@@ -158,9 +158,9 @@ impl Store {
 
     /// The content of a key; if it does not exist, `make` makes it.
     ///
-    /// If several callers ask at once, one makes the content and all get it; if that caller is dropped, another one takes
-    /// over. An error goes to those who wait now and is not stored. Callers whose errors have different types do not wait
-    /// for each other.
+    /// If several callers ask at once, one makes the content and all get it; if that caller is dropped, another one
+    /// takes over. An error goes to those who wait now and is not stored. Callers whose errors have different types do
+    /// not wait for each other.
     pub async fn get_or_make<E: Clone + Send + 'static>(
         &self,
         key: &Key,
@@ -226,8 +226,8 @@ impl Store {
         Some(content)
     }
 
-    /// Reads a content from the backing store and caches it, unless it has come into memory meanwhile. Sets `was_read` if
-    /// it looks there.
+    /// Reads a content from the backing store and caches it, unless it has come into memory meanwhile. Sets `was_read`
+    /// if it looks there.
     async fn read(&self, key: Key, was_read: &mut bool) -> Option<Content> {
         if let Some(content) = self.live.get(&key) {
             return Some(content);

@@ -1,4 +1,4 @@
-//! Arbitrary text as a file of settings.
+//! Arbitrary text as a settings file.
 
 use std::ffi::OsString;
 use std::fmt::Write;
@@ -13,7 +13,7 @@ use crate::draw::Draw;
 
 static PLACE: LazyLock<TempDir> = LazyLock::new(|| TempDir::new().unwrap());
 
-/// The keys that the service has, as it prints them.
+/// The keys of all settings, as the service prints them.
 static KEYS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let path = PLACE.path().join("empty.toml");
     fs::write(&path, "").unwrap();
@@ -29,7 +29,7 @@ static KEYS: LazyLock<Vec<String>> = LazyLock::new(|| {
         .collect()
 });
 
-/// The settings in force with a file, or what is wrong with it.
+/// The settings with a file, or the error of the file.
 fn read(path: &Path, command: &str) -> Result<String, String> {
     let words = [
         "verne".into(),
@@ -47,7 +47,8 @@ fn read(path: &Path, command: &str) -> Result<String, String> {
     Ok(String::from_utf8(out).unwrap())
 }
 
-/// Bytes as a file, or settings with any values. What is printed is a file that gives the same.
+/// Bytes as a file, or settings with arbitrary values. The printed settings must be a file that gives the same
+/// settings.
 pub(crate) fn settings(bytes: &[u8]) {
     let mut draw = Draw::new(bytes);
     let command = draw.pick(&["serve", "worker"]);

@@ -1,4 +1,4 @@
-//! Clients that close their direction of the connection: some wait for the answer, some have gone.
+//! Clients that close their sending direction: some wait for the answer, some have disconnected.
 
 use serde_json::{Value, json};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
@@ -23,7 +23,7 @@ async fn answered(served: &Served, request: &str) -> String {
 }
 
 #[tokio::test]
-async fn who_closes_its_direction_is_answered() {
+async fn a_half_closed_client_is_answered() {
     let served = serve("").await;
     for version in ["1.1", "1.0"] {
         for path in ["/livez", "/fk?rho=674,685,250", "/workspace?tolerance=20", "/docs/swagger-ui-bundle.js"]
@@ -43,7 +43,7 @@ async fn who_closes_its_direction_is_answered() {
 }
 
 #[tokio::test]
-async fn a_body_that_breaks_off_is_told_at_once() {
+async fn an_incomplete_body_is_refused_at_once() {
     let served = serve("--timeout 600").await;
     let request = posted("/fk", "1.1", &json!({"joints": {"rho": [674, 685, 250]}}));
     let answer = answered(&served, request.strip_suffix("}").unwrap()).await;
@@ -52,7 +52,7 @@ async fn a_body_that_breaks_off_is_told_at_once() {
 }
 
 #[tokio::test]
-async fn who_waits_is_answered_the_job_and_who_has_gone_waits_no_more() {
+async fn a_half_closed_client_gets_its_job_and_a_disconnected_one_stops_waiting() {
     let served = serve("--wait 20 --job-threads 1").await;
     // Each of minutes.
     let question = |first: u32| {

@@ -13,7 +13,7 @@ use tokio_rustls::client::TlsStream;
 use tokio_rustls::rustls::crypto::aws_lc_rs;
 use tokio_rustls::rustls::{ClientConfig, RootCertStore};
 
-use super::versions::{http2, question};
+use super::http2::{http2, question};
 use super::{Served, in_time, rest, serve};
 use crate::cli::verne;
 
@@ -46,7 +46,7 @@ async fn secured(flags: &str) -> (Served, impl AsyncFn(&[&str]) -> TlsStream<Tcp
 }
 
 #[tokio::test]
-async fn both_versions_are_spoken() {
+async fn tls_serves_http1_and_http2() {
     let (served, connect) = secured("").await;
     for protocols in [&["http/1.1"] as &[&str], &[]] {
         let mut stream = connect(protocols).await;
@@ -67,7 +67,7 @@ async fn both_versions_are_spoken() {
 }
 
 #[tokio::test]
-async fn who_closes_its_direction_is_answered() {
+async fn a_half_closed_tls_client_is_answered() {
     let (served, connect) = secured("").await;
     let mut stream = connect(&["http/1.1"]).await;
     stream.write_all(b"GET /workspace?tolerance=20 HTTP/1.1\r\nHost: localhost\r\n\r\n").await.unwrap();
@@ -78,7 +78,7 @@ async fn who_closes_its_direction_is_answered() {
 }
 
 #[tokio::test]
-async fn who_does_not_shake_hands_or_say_anything_after_is_cut() {
+async fn silent_tls_clients_are_disconnected() {
     let (served, connect) = secured("--header-timeout 1").await;
     let mut silent = served.connect().await;
     let mut plain = served.connect().await;
@@ -92,7 +92,7 @@ async fn who_does_not_shake_hands_or_say_anything_after_is_cut() {
 }
 
 #[tokio::test]
-async fn probes_are_answered_when_all_connections_are_taken() {
+async fn tls_probes_are_answered_at_the_connection_limit() {
     let (served, connect) = secured("--max-connections 1").await;
     let (mut first, _) = http2(connect(&["h2"]).await).await;
     assert_eq!(in_time(first.send_request(question())).await.unwrap().status(), StatusCode::OK);
@@ -109,7 +109,7 @@ async fn probes_are_answered_when_all_connections_are_taken() {
 }
 
 #[tokio::test]
-async fn health_is_asked_by_https_as_well() {
+async fn the_health_command_uses_https() {
     let (served, _connect) = secured("").await;
     let line = format!("health --url https://{}/readyz", served.address);
     assert_eq!(tokio::task::spawn_blocking(move || verne(&line)).await.unwrap(), Ok(String::new()));

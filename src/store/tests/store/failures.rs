@@ -1,4 +1,4 @@
-//! A disk that is full, read-only or broken: answers go on, and the error is counted and told.
+//! A full, read-only or broken disk: memory answers, and the errors are counted and logged.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;

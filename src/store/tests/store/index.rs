@@ -39,7 +39,7 @@ async fn a_row_without_an_object_is_deleted() {
 async fn a_lost_damaged_or_foreign_index_is_created_anew() {
     let lose = |directory: &TestDirectory| fs::remove_file(directory.path().join("index.sqlite3")).unwrap();
     let overwrite = |directory: &TestDirectory| {
-        fs::write(directory.path().join("index.sqlite3"), "no data base").unwrap()
+        fs::write(directory.path().join("index.sqlite3"), "no data base").unwrap();
     };
     let shorten = |directory: &TestDirectory| {
         let index = fs::File::options().write(true).open(directory.path().join("index.sqlite3")).unwrap();

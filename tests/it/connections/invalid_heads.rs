@@ -1,0 +1,100 @@
+//! Requests that no route sees: their heads cannot be read, or are too large.
+
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+
+use super::{Served, in_time, rest, serve};
+
+/// The answer to these bytes, after which the client sends and closes nothing.
+async fn answered(served: &Served, request: impl AsRef<[u8]>) -> String {
+    let mut stream = served.connect().await;
+    stream.write_all(request.as_ref()).await.unwrap();
+    rest(&mut stream).await
+}
+
+fn asked(path: &str, headers: &str) -> String {
+    format!("GET {path} HTTP/1.1\r\nOrigin: https://example.org\r\n{headers}Connection: close\r\n\r\n")
+}
+
+/// Checks for a problem document with this status and code, an id, and CORS headers.
+#[track_caller]
+fn assert_problem(answer: &str, status: u16, code: &str) {
+    let (head, body) = answer.split_once("\r\n\r\n").unwrap_or_else(|| panic!("{answer}"));
+    assert!(head.starts_with(&format!("HTTP/1.1 {status} ")), "{head}");
+    for line in [
+        "content-type: application/problem+json",
+        "x-request-id: ",
+        "access-control-allow-origin: https://example.org",
+        "connection: close",
+        &format!("content-length: {}", body.len()),
+    ] {
+        assert!(head.contains(line), "{line}: {head}");
+    }
+    let problem: serde_json::Value = serde_json::from_str(body).unwrap();
+    assert_eq!((&problem["status"], &problem["code"]), (&status.into(), &code.into()), "{problem}");
+}
+
+#[tokio::test]
+async fn an_invalid_request_head_is_answered_with_a_problem() {
+    let served = serve("--cors-origin https://example.org").await;
+    for (path, headers) in [
+        ("/fk", ""),
+        ("/fk", "Host: \r\n"),
+        ("/fk", "Host: a b\r\n"),
+        ("/fk", "Host: me@localhost\r\n"),
+        ("/fk", "Host: localhost\r\nHost: localhost\r\n"),
+        ("/fk", "Host: localhost\r\nbad header: x\r\n"),
+        ("/fk", "Host: localhost\r\nContent-Length: x\r\n"),
+        ("fk", "Host: localhost\r\n"),
+    ] {
+        assert_problem(&answered(&served, asked(path, headers)).await, 400, "bad_request");
+    }
+    let [before, after] = ["GET /fk", " HTTP/1.1\r\nHost: localhost\r\nOrigin: https://example.org\r\n\r\n"];
+    let request = [before.as_bytes(), b"\xff\xfe", after.as_bytes()].concat();
+    assert_problem(&answered(&served, request).await, 400, "bad_request");
+    served.end().await;
+}
+
+#[tokio::test]
+async fn large_request_heads_are_refused() {
+    let served = serve("--cors-origin https://example.org").await;
+    let localhost = "Host: localhost\r\n";
+    let uri = format!("/fk?rho={}", "1".repeat(20_000));
+    assert_problem(&answered(&served, asked(&uri, localhost)).await, 414, "uri_too_long");
+    let long = |bytes: usize| format!("{localhost}x-long: {}\r\n", "x".repeat(bytes));
+    for headers in [long(40_000), long(100_000), format!("{localhost}{}", "x: y\r\n".repeat(200))] {
+        let answer = answered(&served, asked("/fk", &headers)).await;
+        assert_problem(&answer, 431, "headers_too_large");
+    }
+    // The origin comes too late to be read.
+    let uri = format!("/fk?rho={}", "1".repeat(100_000));
+    let answer = answered(&served, asked(&uri, localhost)).await;
+    assert!(answer.starts_with("HTTP/1.1 414 ") && answer.contains("uri_too_long"), "{answer}");
+    served.end().await;
+}
+
+#[tokio::test]
+async fn an_invalid_request_closes_the_connection_after_earlier_answers() {
+    let served = serve("--cors-origin https://example.org").await;
+    let mut stream = served.connect().await;
+    assert!(super::asked(&mut stream).await);
+    stream.write_all(b"GET / HTTP/9.9\r\nOrigin: https://example.org\r\n\r\n").await.unwrap();
+    assert_problem(&rest(&mut stream).await, 400, "bad_request");
+    served.end().await;
+}
+
+#[tokio::test]
+async fn a_body_declared_too_large_is_refused_before_it_is_sent() {
+    let served = serve("--cors-origin https://example.org --max-body-bytes 1000000").await;
+    for (path, bytes) in [("/fk", 70_000), ("/fk/batch", 2_000_000)] {
+        let head = format!(
+            "POST {path} HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: {bytes}\r\n\
+             Expect: 100-continue\r\nOrigin: https://example.org\r\n\r\n"
+        );
+        let mut stream = served.connect().await;
+        stream.write_all(head.as_bytes()).await.unwrap();
+        let mut begin = [0; 12];
+        in_time(stream.read_exact(&mut begin)).await.unwrap();
+        assert_eq!(&begin, b"HTTP/1.1 413", "{path}");
+    }
+    served.end().await;
+}
