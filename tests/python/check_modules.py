@@ -82,6 +82,8 @@ def check_crate(name, library, file, root, graph):
         ring = [*way, way[0]]
         yield "\n".join([f"{name}: cycle {' -> '.join(map(repr, ring))}", *map(at, ring, ring[1:])])
     if name == "service":
+        for folder in crate.root.children.keys() - set(SERVICE_ORDER):
+            yield f"{name}: {folder} does not stand in SERVICE_ORDER"
         for module, target in every:
             here, there = module.folder(), target.folder()
             if {here, there} <= set(SERVICE_ORDER) and SERVICE_ORDER.index(here) < SERVICE_ORDER.index(there):

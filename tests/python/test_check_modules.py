@@ -64,6 +64,7 @@ class Order(unittest.TestCase):
         self.assertEqual(faults({**files, "http/page.rs": "use crate::wire::W;"}, "service"), [])
         found = faults({**files, "http/page.rs": "", "wire.rs": "use crate::http::H;"}, "service")
         self.assertEqual(found, ["service: wire must not import http"])
+        self.assertEqual(faults({"lib.rs": "mod misc {}"}, "service"), ["service: misc does not stand in SERVICE_ORDER"])
 
 
 class Sizes(unittest.TestCase):
