@@ -19,7 +19,7 @@ CREDENTIALS = {"AWS_ACCESS_KEY_ID": "key", "AWS_SECRET_ACCESS_KEY": "secret", "A
 
 
 def answers(port, path="/"):
-    """What is at a port answers there, in the end."""
+    """The answer of the server at a port; waits until it answers."""
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline:
         try:
@@ -69,7 +69,7 @@ class Broker:
 
 
 class Brokers:
-    """NATS servers, each of which has all that is kept. One after the other is killed."""
+    """NATS servers, each of which replicates everything. kill_one kills them in turn."""
 
     def __init__(self, program, directory, count):
         routes = [f"127.0.0.1:{free_port()}" for _ in range(count if count > 1 else 0)]
@@ -77,8 +77,8 @@ class Brokers:
         self.url = ",".join(broker.url for broker in self.all)
         self.next = 0
 
-    def lose_one(self):
-        """It dies, and comes again."""
+    def kill_one(self):
+        """Kills a broker and starts it again."""
         broker = self.all[self.next % len(self.all)]
         self.next += 1
         broker.kill()
@@ -90,7 +90,7 @@ class Brokers:
 
 
 class Objects:
-    """An S3 store that refuses a part of all writes."""
+    """An S3 store that refuses a fraction of all writes."""
 
     def __init__(self, share):
         self.port = free_port()
@@ -112,7 +112,7 @@ class Objects:
 
 
 class Cluster:
-    """API nodes and workers at one broker and one store; gone with this program."""
+    """API nodes and workers with one broker and one store. They end with this program."""
 
     def __init__(self, verne, nats, directory, nodes, workers, share=0.0, brokers=1):
         self.verne, self.nodes, self.workers = verne, [], []
@@ -141,8 +141,8 @@ class Cluster:
         return Process(port, self.verne, "worker", "--listen", f"127.0.0.1:{port}", "--job-threads", "1",
                        *self.shared(), environment=self.environment)
 
-    def lose_a_worker(self):
-        """One dies, another comes."""
+    def kill_a_worker(self):
+        """Kills a worker and starts another."""
         i = random.randrange(len(self.workers))
         self.workers[i].kill()
         self.workers[i] = self.worker().launch()

@@ -16,7 +16,7 @@ def connected(port, timeout=20):
 
 
 def status(stream):
-    """Of the answer, if there is one before the connection ends."""
+    """The status of the answer, if there is one before the connection ends."""
     answer = b""
     try:
         while b"\r\n" not in answer:
@@ -31,7 +31,7 @@ def status(stream):
 
 
 def posted(port, path, body, headers="", length=None):
-    """The status of a body that is sent as it is, however long."""
+    """The status of the answer to a body."""
     length = len(body) if length is None else length
     head = f"POST {path} HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: {length}\r\n{headers}\r\n"
     with connected(port) as stream:
@@ -39,7 +39,7 @@ def posted(port, path, body, headers="", length=None):
             stream.sendall(head.encode())
             stream.sendall(body)
         except OSError:
-            pass  # It has answered and closed, or will have.
+            pass  # The service has answered and closed the connection.
         return status(stream)
 
 
@@ -53,7 +53,7 @@ def garbage(port):
 
 
 def disconnects(port):
-    """Leaves in the midst of a request, or of its answer."""
+    """Disconnects during a request, or during its answer."""
     with connected(port) as stream:
         try:
             stream.sendall(random.choice([
@@ -67,7 +67,7 @@ def disconnects(port):
 
 
 def stalls(port, seconds):
-    """Asks for much, and reads a little now and then."""
+    """Requests a large answer and reads it slowly."""
     with connected(port) as stream:
         stream.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         path = "/workspace?kind=part&tool_length=50&tolerance=0.05&format=ply"
@@ -81,7 +81,7 @@ def stalls(port, seconds):
 
 
 def trickles(port, seconds):
-    """A header, a byte at a time; the seconds after which the service has had enough."""
+    """Sends a header byte by byte; returns the seconds until the service disconnects."""
     began = time.monotonic()
     with connected(port) as stream:
         try:
@@ -95,7 +95,7 @@ def trickles(port, seconds):
 
 
 def crowd(port, connections, seconds):
-    """Opens very many connections, asks nothing, and leaves; how many the service has taken."""
+    """Opens many idle connections; returns how many the service has accepted."""
     open_ones = []
     try:
         for _ in range(connections):
@@ -111,7 +111,7 @@ def crowd(port, connections, seconds):
 
 
 def bomb(port):
-    """A hundred megabytes of JSON in 100 kB; bodies are not unpacked."""
+    """A hundred megabytes of JSON, compressed to 100 kB."""
     return posted(port, "/ik", gzip.compress(b"[" + b"1," * (50 * MEBI) + b"1]"), "Content-Encoding: gzip\r\n")
 
 
@@ -124,7 +124,7 @@ def nested_batch(port):
 
 
 def huge(port):
-    """A hundred megabytes of JSON as they are."""
+    """A hundred megabytes of JSON, uncompressed."""
     return posted(port, "/ik/batch", b'{"poses":[' + b"[1,2,3,4,5]," * (8 * MEBI) + b"[1,2,3,4,5]]}")
 
 
@@ -133,7 +133,7 @@ def frame(kind, flags, stream, payload=b""):
 
 
 def rapid_resets(port, streams):
-    """HTTP/2: asks and takes it back at once, over and over; how many before the service ends the connection."""
+    """HTTP/2 rapid reset: opens and resets streams; returns how many before the service closes the connection."""
     get = b"\x82\x86\x84\x41\x01x"  # :method GET, :scheme http, :path /, :authority x
     with connected(port) as stream:
         try:

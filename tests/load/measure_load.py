@@ -46,8 +46,8 @@ def start(client, question):
     return path
 
 
-def busy(service):
-    """Seconds of a core that the process has used."""
+def cpu_seconds(service):
+    """CPU time of the process, seconds."""
     with open(f"/proc/{service.process.pid}/stat") as stat:
         fields = stat.read().rsplit(")", 1)[1].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
@@ -61,9 +61,9 @@ def cancel(service, client, path):
         time.sleep(0.001)
     ended = time.perf_counter() - began
     while True:
-        since, used = time.perf_counter() - began, busy(service)
+        since, used = time.perf_counter() - began, cpu_seconds(service)
         time.sleep(0.2)
-        if busy(service) - used < 0.02:
+        if cpu_seconds(service) - used < 0.02:
             return ended, since
 
 

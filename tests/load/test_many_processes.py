@@ -21,25 +21,26 @@ SHARE = 0.1
 
 
 def run(ports, jobs, clients, disturb=None):
-    """All answers, and those to the questions that are cut into parts."""
+    """All answers, and those to the requests that are split into subtasks."""
     clients_at_work = ConcurrentClients(ports, jobs, clients)
     over = threading.Event()
     disturbing = threading.Thread(target=disturb, args=(clients_at_work, over), daemon=True) if disturb else None
     for thread in [*clients_at_work.threads, *([disturbing] if disturbing else [])]:
         thread.start()
     client = Client(ports[0])
-    wholes = [whole(client, "/workspace/dexterity", MAP, ["cells", "mesh?set=reachable", "mesh?set=dexterous"]),
-              whole(client, "/workspace", FAMILY, [])]
+    files = ["cells", "mesh?set=reachable", "mesh?set=dexterous"]
+    split_answers = [whole_answer(client, "/workspace/dexterity", MAP, files),
+                     whole_answer(client, "/workspace", FAMILY, [])]
     for thread in clients_at_work.threads:
         thread.join()
     over.set()
     if disturbing:
         disturbing.join()
-    return clients_at_work, wholes
+    return clients_at_work, split_answers
 
 
-def whole(client, path, question, parts):
-    """The hash of an answer with its parts, asked for until it is there."""
+def whole_answer(client, path, question, parts):
+    """The hash of an answer with its files; repeats the request until it is answered."""
     while True:
         try:
             replies = [client.ask("POST", path, question, Prefer="wait=20")]
@@ -55,22 +56,22 @@ def whole(client, path, question, parts):
 
 
 class Disturbance:
-    """What happens to a cluster while it is asked."""
+    """Kills workers and brokers of a cluster while clients send requests."""
 
     def __init__(self, cluster, jobs, every):
-        self.cluster, self.jobs, self.every, self.lost, self.brokers = cluster, jobs, every, 0, 0
+        self.cluster, self.jobs, self.every, self.killed, self.brokers = cluster, jobs, every, 0, 0
 
     def __call__(self, clients_at_work, over):
         while not over.wait(self.every):
-            self.cluster.lose_a_worker()
-            self.lost += 1
+            self.cluster.kill_a_worker()
+            self.killed += 1
             if self.brokers < 2 and len(clients_at_work.answers) > self.jobs * (self.brokers + 1) // 4:
-                self.cluster.brokers.lose_one()
+                self.cluster.brokers.kill_one()
                 self.brokers += 1
 
 
 def cancelled_after(cluster):
-    """Seconds from DELETE until a running job has ended and its worker's place is free."""
+    """Seconds from DELETE until a running job has ended and its worker is idle."""
     client = Client(cluster.nodes[0].port)
     path = client.ask("POST", "/workspace", LONG, Prefer="respond-async").headers["Location"]
     while client.ask("GET", path).json()["progress"] == 0:
@@ -94,7 +95,7 @@ def busy(worker):
 
 
 def stopped(cluster):
-    """Stops a worker in the midst of a long job, which another takes; seconds until it is gone."""
+    """Stops a worker during a long job, which another worker continues; returns the seconds until the worker exits."""
     client = Client(cluster.nodes[0].port)
     path = client.ask("POST", "/workspace", {**LONG, "phi1": 1}, Prefer="respond-async").headers["Location"]
     while not busy(cluster.workers[0]):
@@ -121,19 +122,19 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as place:
         alone = Service(options.verne, os.path.join(place, "alone")).start()
-        undisturbed, wholes = run([alone.port], options.jobs, options.clients)
+        undisturbed, split_answers = run([alone.port], options.jobs, options.clients)
         alone.kill()
         cluster = Cluster(options.verne, options.nats_server, place, 2, options.workers, SHARE, options.brokers)
         disturbance = Disturbance(cluster, options.jobs, options.every)
         began = time.monotonic()
-        asked, same_wholes = run(cluster.ports(), options.jobs, options.clients, disturbance)
+        asked, same_split_answers = run(cluster.ports(), options.jobs, options.clients, disturbance)
         print(f"{options.jobs} jobs on {options.workers} workers in {time.monotonic() - began:.1f} s: "
-              f"{disturbance.lost} workers and {disturbance.brokers} brokers lost, "
+              f"{disturbance.killed} workers and {disturbance.brokers} brokers lost, "
               f"{cluster.objects.refused()} writes refused")
-        check(disturbance.lost and disturbance.brokers and cluster.objects.refused(), "nothing was disturbed")
+        check(disturbance.killed and disturbance.brokers and cluster.objects.refused(), "nothing was disturbed")
         check(not undisturbed.faults + asked.faults, f"faults: {undisturbed.faults[:3]} {asked.faults[:3]}")
         check(asked.answers == undisturbed.answers, "answers differ from those of one process")
-        check(same_wholes == wholes, "what was merged differs from what one process makes")
+        check(same_split_answers == split_answers, "what was merged differs from what one process makes")
         for worker in cluster.workers:
             worker.ready()
         for process in cluster.nodes + cluster.workers:

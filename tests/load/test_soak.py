@@ -22,7 +22,7 @@ from verne_process import Client, Service
 QUESTIONS = 2000
 CHECKERS = 2
 MEBI = 1 << 20
-# Memory after the first fifth may not exceed that at its end by more: what the allocator keeps moves by some.
+# Greatest growth of resident memory after the first fifth of the time; the allocator causes some.
 GROWTH = 48 * MEBI
 
 
@@ -34,7 +34,7 @@ def question(i):
 
 
 def round_trip(client, seed):
-    """A pose that the inverse problem is asked for and the forward problem gives back."""
+    """Whether the forward problem returns the pose of an inverse solution."""
     chance = random.Random(seed)
     pose = [chance.uniform(-200, 200), chance.uniform(-150, 150), chance.uniform(900, 1200)]
     found = client.ask("GET", "/ik?frame=platform&solutions=all&x={}&y={}&z={}".format(*pose)).json()["solutions"]
@@ -59,8 +59,8 @@ def checker(port, expected, until, seed, reports):
                     wrong.append("round trip")
                 continue
             reply = client.ask("GET", question(i))
-        except OSError as fault:
-            wrong.append(repr(fault))
+        except OSError as error:
+            wrong.append(repr(error))
             continue
         times.append(time.perf_counter() - began)
         if reply.status in (429, 503):
@@ -91,48 +91,48 @@ def jobs(port, until, seed, reports):
     reports.put(([], wrong, 0))
 
 
-def harm(port, until, seed):
+def attack(port, until, seed):
     random.seed(seed)
-    # Threads would wait for each other; a misdeed more or less at a time is no matter.
+    # One attack at a time: threads would wait for each other.
     while time.time() < until:
         left = until - time.time()
-        deed = random.choices([hostile.garbage, hostile.disconnects, hostile.nested, hostile.nested_batch, hostile.bomb,
-                               hostile.huge, "stalls", "trickles", "crowd", "resets"],
-                              [20, 20, 5, 2, 1, 1, 4, 2, 1, 2])[0]
+        attacks = [hostile.garbage, hostile.disconnects, hostile.nested, hostile.nested_batch, hostile.bomb, hostile.huge,
+                   "stalls", "trickles", "crowd", "resets"]
+        chosen = random.choices(attacks, [20, 20, 5, 2, 1, 1, 4, 2, 1, 2])[0]
         try:
-            if deed == "stalls":
+            if chosen == "stalls":
                 hostile.stalls(port, min(5, left))
-            elif deed == "trickles":
+            elif chosen == "trickles":
                 hostile.trickles(port, min(5, left))
-            elif deed == "crowd":
+            elif chosen == "crowd":
                 hostile.crowd(port, 2000, min(3, left))
-            elif deed == "resets":
+            elif chosen == "resets":
                 hostile.rapid_resets(port, 2000)
             else:
-                deed(port)
+                chosen(port)
         except OSError:
-            pass  # No place for one more: the next may have one.
+            pass  # The service is at its connection limit.
 
 
 def files(service):
     return len(os.listdir(f"/proc/{service.process.pid}/fd"))
 
 
-def deeds(service):
-    """What is answered to each misdeed on its own, and what memory it costs."""
+def attack_once_each(service):
+    """Prints the answer to each attack, and the memory that it costs."""
     port = service.port
-    for name, deed in [("gzip bomb", lambda: hostile.bomb(port)), ("10,000 deep", lambda: hostile.nested(port)),
+    for name, run in [("gzip bomb", lambda: hostile.bomb(port)), ("10,000 deep", lambda: hostile.nested(port)),
                        ("4,000,000 deep, batch", lambda: hostile.nested_batch(port)),
                        ("100 MB of JSON", lambda: hostile.huge(port)),
                        ("slow header, s", lambda: hostile.trickles(port, 30)),
                        ("HTTP/2 resets taken of 20,000", lambda: hostile.rapid_resets(port, 20_000)),
                        ("connections taken of 2,000", lambda: hostile.crowd(port, 2000, 1))]:
-        before, answer = service.rss(), deed()
+        before, answer = service.rss(), run()
         print(f"{name}: {answer}; resident {before / MEBI:.0f} -> {service.rss() / MEBI:.0f} MiB", flush=True)
 
 
-def quiet(service, baseline):
-    """The number of files when what was left open has gone."""
+def files_at_rest(service, baseline):
+    """The number of open files, when the files of the attacks have been closed."""
     for _ in range(300):
         if files(service) <= baseline:
             break
@@ -154,32 +154,32 @@ def main():
         client.ask("GET", "/workspace?kind=part&tool_length=50&tolerance=0.05&format=ply")
         client.close()
         baseline = files(service)
-        deeds(service)
+        attack_once_each(service)
         began, seconds = time.time(), 60 * options.minutes
         until, reports = began + seconds, multiprocessing.Queue()
         workers = [multiprocessing.Process(target=checker, args=(service.port, expected, until, seed, reports))
                    for seed in range(CHECKERS)]
         workers.append(multiprocessing.Process(target=jobs, args=(service.port, until, 99, reports)))
         reporting = len(workers)
-        workers += [multiprocessing.Process(target=harm, args=(service.port, until, seed)) for seed in (7, 8)]
+        workers += [multiprocessing.Process(target=attack, args=(service.port, until, seed)) for seed in (7, 8)]
         for worker in workers:
             worker.start()
         memory = []
         while time.time() < until:
             time.sleep(min(seconds / 60, 5))
-            check(service.process.poll() is None, "the service is gone")
+            check(service.process.poll() is None, "the service has ended")
             memory.append(service.rss())
-        told = [reports.get() for _ in range(reporting)]
+        reported = [reports.get() for _ in range(reporting)]
         for worker in workers:
             worker.join()
-        times = sorted(time for report in told for time in report[0])
-        wrong = [fault for report in told for fault in report[1]]
+        times = sorted(time for report in reported for time in report[0])
+        wrong = [error for report in reported for error in report[1]]
         warm = memory[len(memory) // 5:]
-        print(f"{len(times)} answers checked, {len(wrong)} wrong, {sum(report[2] for report in told)} refused; "
+        print(f"{len(times)} answers checked, {len(wrong)} wrong, {sum(report[2] for report in reported)} refused; "
               f"p50 {1000 * times[len(times) // 2]:.2f} ms, p99 {1000 * times[len(times) * 99 // 100]:.2f} ms")
         print(f"resident after warm-up: {warm[0] / MEBI:.0f} MiB, then {min(warm) / MEBI:.0f} to {max(warm) / MEBI:.0f}, "
               f"at the end {warm[-1] / MEBI:.0f} MiB")
-        after = quiet(service, baseline)
+        after = files_at_rest(service, baseline)
         print(f"files: {baseline} before, {after} after")
         check(not wrong, wrong[:3])
         check(after <= baseline, "files stay open")
