@@ -46,7 +46,7 @@ async fn an_unusable_data_directory_is_named() {
     let config = ServeConfig { data: Some(file.clone()), memory_only: false, ..config(None) };
     let refusal = refusal(&config).await;
     assert!(refusal.contains(file.to_str().unwrap()), "{refusal}");
-    assert_eq!(refusal.matches("cannot be kept").count(), 1, "{refusal}");
+    assert_eq!(refusal.matches("cannot store results").count(), 1, "{refusal}");
     assert_eq!(std::fs::read(&file).unwrap(), b"not a directory");
 }
 
