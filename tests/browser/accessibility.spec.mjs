@@ -20,7 +20,7 @@ for (const colorScheme of ["light", "dark"]) {
     test.describe(`${colorScheme}, ${name}`, () => {
       test.use({ colorScheme, viewport, provoked: [/status of 422/] });
 
-      test("has no violations, with everything shown", async ({ page }) => {
+      test("has no accessibility violations with everything shown", async ({ page }) => {
         await open(page, "#joints=20,690,400,0,0&ghosts=assembly&workspace=tool&section=1200");
         await expect(page.getByTestId("slice-area")).toBeVisible();
         await expect(page.getByTestId("ghost-count")).toBeVisible();

@@ -28,7 +28,7 @@ test.afterAll(() => {
 
 test.use({ baseURL: `http://${ADDRESS}`, provoked: [/status of 401/] });
 
-test("a key is asked for, and opens machines, jobs, meshes and files", async ({ page }) => {
+test("the viewer asks for a key and uses it for machines, jobs, meshes and files", async ({ page }) => {
   await page.goto("/#workspace=tool&section=1200");
   const dialog = page.getByRole("dialog", { name: "This service asks for a key" });
   await dialog.getByLabel("Key").fill("wrong");

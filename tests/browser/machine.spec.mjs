@@ -4,7 +4,7 @@ import { drop, expect, open, test, value, verne } from "./viewer.mjs";
 test.describe("a broken machine file", () => {
   test.use({ provoked: [/status of 422/] });
 
-  test("is refused, with its faults at the fields, and the machine stays", async ({ page, request }) => {
+  test("is refused with errors at the fields, and the machine does not change", async ({ page, request }) => {
     await open(page);
     const machine = await verne(request);
     machine.geometry.L1 = -5;
@@ -20,13 +20,13 @@ test.describe("a broken machine file", () => {
   });
 });
 
-test("a file that is not JSON is told so", async ({ page }) => {
+test("a file that is not JSON is refused", async ({ page }) => {
   await open(page);
   await drop(page, "notes.json", "rods: 6");
   await expect(page.getByRole("dialog", { name: "notes.json makes no machine" })).toContainText("not JSON");
 });
 
-test("a good file becomes the machine, and the link carries it", async ({ page, request, browser }) => {
+test("a valid file becomes the machine, and the link contains it", async ({ page, request, browser }) => {
   await open(page);
   const volume = page.getByTestId("volume");
   await expect(volume).toBeVisible();

@@ -1,7 +1,7 @@
 // The machine moves as it is told, and says why it does not.
 import { ask, expect, figure, open, test } from "./viewer.mjs";
 
-test("the machine stands in its workspace when the page opens", async ({ page }) => {
+test("the page opens with the machine in its workspace", async ({ page }) => {
   await open(page);
   await expect(page.getByTestId("volume")).toHaveText(/^0\.300444.m³$/);
   await expect(page.getByTestId("margins").getByRole("listitem").first()).toHaveText(
@@ -10,7 +10,7 @@ test("the machine stands in its workspace when the page opens", async ({ page })
   await expect(page.getByText("invented round dimensions, not Fatronik’s")).toBeVisible();
 });
 
-test("a slider moves the machine through /fk, by keyboard too", async ({ page, request }) => {
+test("a slider moves the machine through /fk, also by keyboard", async ({ page, request }) => {
   await open(page, "#joints=400,450,420,0,0");
   const before = await page.locator("canvas").getAttribute("data-pictures");
   await page.getByRole("slider", { name: "Slider 2, mm" }).press("ArrowRight");
@@ -24,7 +24,7 @@ test("a slider moves the machine through /fk, by keyboard too", async ({ page, r
   await expect(page).toHaveURL(/#joints=400,451,420,0,0/);
 });
 
-test("a typed pose moves the machine through /ik; one out of reach leaves it and says why", async ({
+test("a typed pose moves the machine through /ik; an unreachable pose shows the reason", async ({
   page,
   request,
 }) => {
@@ -47,7 +47,7 @@ test("a typed pose moves the machine through /ik; one out of reach leaves it and
   expect(await rho1.inputValue()).toBe(stood);
 });
 
-test("the tool is dragged by its arrows", async ({ page }) => {
+test("a user drags the tool by its arrows", async ({ page }) => {
   await open(page);
   const canvas = page.locator("canvas");
   const { x, y, width, height } = await canvas.boundingBox();

@@ -1,7 +1,7 @@
 // The workspace on the page is the one that the service computes.
 import { ask, drop, expect, open, test, value, verne } from "./viewer.mjs";
 
-test("another tool length gives another volume: the API's", async ({ page, request }) => {
+test("another tool length shows the volume of the API", async ({ page, request }) => {
   await open(page, "#phi=30,0");
   const volume = page.getByTestId("volume");
   await expect(volume).toBeVisible();
@@ -18,7 +18,7 @@ test("another tool length gives another volume: the API's", async ({ page, reque
   expect(await value(volume)).toBe(asked.volume);
 });
 
-test("the workspace ends at the table, and the height over it is a control", async ({ page, request }) => {
+test("the workspace ends at the table, and a control sets the clearance", async ({ page, request }) => {
   await open(page, "#tool=400");
   const volume = page.getByTestId("volume");
   await expect(volume).toBeVisible();
@@ -37,7 +37,7 @@ test("the workspace ends at the table, and the height over it is a control", asy
   await expect(page).toHaveURL(/clearance=60/);
 });
 
-test("a tip below the table is not allowed", async ({ page }) => {
+test("a tool end below the table is refused", async ({ page }) => {
   await open(page, "#tool=400");
   const z = page.getByLabel("Z above the table, mm");
   await z.fill("-20");
@@ -49,7 +49,7 @@ test("a tip below the table is not allowed", async ({ page }) => {
   await expect(page.getByTestId("margins")).toContainText(/the tool’s end can come [\d.]+.mm nearer to the table/);
 });
 
-test("the section plane shows the slice and its area; all files are there", async ({ page, request }) => {
+test("the section plane shows the slice and its area, and all files can be downloaded", async ({ page, request }) => {
   await open(page, "#workspace=platform");
   await page.getByLabel("Section plane").check();
   const height = page.getByLabel("Height of the section, z down, typed, mm");
@@ -65,7 +65,7 @@ test("the section plane shows the slice and its area; all files are there", asyn
   }
 });
 
-test("the legend names what limits the boundary, and its shares are the whole", async ({ page }) => {
+test("the legend names the limits of the boundary, and its fractions sum to one", async ({ page }) => {
   await open(page);
   const entries = page.locator(".legend li");
   await expect(entries.first()).toBeVisible();
@@ -76,7 +76,7 @@ test("the legend names what limits the boundary, and its shares are the whole", 
   expect(sum).toBeLessThan(101);
 });
 
-test("a long computation shows its progress and is cancelled", async ({ page, request }) => {
+test("a long computation shows its progress and can be cancelled", async ({ page, request }) => {
   await open(page);
   const machine = await verne(request);
   // Nine times the machine, meshed to a hundredth of a millimetre: minutes of work.

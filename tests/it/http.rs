@@ -1,41 +1,41 @@
-//! The service through HTTP: requests go through the whole router, layers included.
+//! The service through HTTP: requests pass the whole router with its middleware, without a socket.
 
 mod admission;
 mod bad_input;
 mod batch;
-mod browsers;
+mod client_quotas;
+mod cross_origin_requests;
 mod dexterity;
-mod documented;
-mod encoded_bodies;
+mod documented_failures;
+mod etags_and_ranges;
+mod job_fairness;
 mod jobs;
 mod jobs_cancelled;
 mod jobs_events;
 mod jobs_families;
-mod jobs_kept;
 mod jobs_listed;
-mod jobs_of_one_client;
 mod jobs_refused;
-mod jobs_stopped;
+mod key_files;
 mod keys;
-mod keys_files;
 mod kinematics;
 mod machines;
-mod pages;
+mod mesh_size_limit;
 mod part_frame;
 mod proxies;
 mod query_parameters;
-mod rates;
-mod shares;
+mod rate_limits;
+mod request_bodies;
+mod restart;
+mod security_headers;
+mod shutdown;
 mod table;
 mod table_workspaces;
 mod transport;
 mod viewer;
 mod workspace;
 mod workspace_contains;
-mod workspace_delivery;
 mod workspace_files;
 mod workspace_slices;
-mod workspace_too_large;
 
 use std::path::PathBuf;
 
@@ -101,7 +101,7 @@ pub(crate) async fn send_to(service: Router, request: Request<Body>) -> Reply {
     let bytes = body.collect().await.unwrap().to_bytes().to_vec();
     let json = serde_json::from_slice(&bytes).unwrap_or(Value::Null);
     let reply = Reply { status: parts.status, headers: parts.headers, bytes, json };
-    documented::assert_documented(&method, &path, &reply);
+    documented_failures::assert_documented(&method, &path, &reply);
     reply
 }
 

@@ -1,4 +1,4 @@
-//! The OpenAPI document: committed as generated, and true.
+//! The OpenAPI document: the committed one is the generated one, and its examples are true.
 
 use axum::Router;
 use axum::body::Body;
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::http::{Reply, get, json_request, send_to, service};
 
 #[tokio::test]
-async fn the_committed_document_is_the_generated_one() {
+async fn the_committed_document_equals_the_generated_one() {
     let committed = get("/openapi.json").await.json;
     let generated = verne_service::document();
     let difference = difference("", &generated, &committed);
@@ -34,7 +34,7 @@ fn the_api_guide_lists_every_problem_code_as_the_service_does() {
 }
 
 #[tokio::test]
-async fn every_example_gets_its_documented_answer() {
+async fn every_example_has_its_documented_answer() {
     let document = get("/openapi.json").await.json;
     // One service for all: results are asked for after /workspace has computed them.
     let service = service().await;
@@ -88,7 +88,7 @@ async fn send_example(service: &Router, path: &str, method: &str, operation: &Va
     send_to(service.clone(), Request::builder().method(method).uri(uri).body(Body::empty()).unwrap()).await
 }
 
-/// Where two documents differ. Numbers may differ by rounding: sines are not the same everywhere.
+/// The differences of two documents. Numbers may differ by rounding: sines differ between platforms.
 fn difference(at: &str, a: &Value, b: &Value) -> Option<String> {
     match (a, b) {
         (Value::Number(a), Value::Number(b)) => {
@@ -107,7 +107,7 @@ fn difference(at: &str, a: &Value, b: &Value) -> Option<String> {
 
 /// Two types of one name would be one schema, the last one's.
 #[tokio::test]
-async fn a_rows_status_and_the_services_are_two_schemas() {
+async fn the_status_of_a_row_and_of_the_service_are_two_schemas() {
     let document = get("/openapi.json").await.json;
     let schemas = &document["components"]["schemas"];
     let of_health = schemas["Health"]["properties"]["status"]["$ref"].as_str().unwrap();
@@ -125,7 +125,7 @@ fn codes(operation: &Value) -> Vec<&str> {
 }
 
 #[tokio::test]
-async fn what_waits_for_a_job_documents_how_that_fails() {
+async fn operations_that_wait_for_jobs_document_their_failures() {
     let document = get("/openapi.json").await.json;
     let operations =
         document["paths"].as_object().unwrap().values().flat_map(|item| item.as_object().unwrap().values());

@@ -3,19 +3,19 @@
 //! ignorant of how the solver works: of a machine it reads the plain data only.
 
 mod agreement;
-pub(crate) mod built;
-mod circle;
+mod angle_roots;
 mod comparison;
+pub(crate) mod constructed_postures;
 mod forward;
-mod found;
 mod inverse;
 mod legs;
+mod oracle_tests;
 mod polish;
-mod truth;
+mod solution;
 
 pub(crate) use agreement::{distance, listed};
 pub(crate) use comparison::Comparison;
 pub(crate) use forward::forward;
-pub(crate) use found::{Answer, Found, wrapped};
 pub(crate) use inverse::{Path, inverse};
 pub(crate) use legs::Legs;
+pub(crate) use solution::{Answer, Found, wrapped};

@@ -1,26 +1,26 @@
-//! The solver against the reference sets, the oracle and the laws of the machine.
+//! The solver against the reference sets, the oracle and laws of the machine.
 
+mod arbitrary_numbers;
 mod axis;
+mod common_lift;
 mod conditioning;
-mod counts;
 mod degenerate_angles;
-mod fuzz;
 mod interference;
+mod invalid_machines;
 mod leg_limits;
 mod level_leg;
-mod machine_faults;
 mod margins;
 mod parallel_singularity;
 mod proportional_machine;
 mod proportions;
 mod reference_sets;
-mod refusals;
 mod round_trip;
-mod several_working;
+mod several_working_postures;
+mod solution_counts;
 mod symmetric_sliders;
 mod symmetry_plane;
-mod translation;
+mod unreachable;
 mod velocities;
 mod windings;
-mod working;
+mod working_mode;
 mod worst_margin;

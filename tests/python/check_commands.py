@@ -1,6 +1,6 @@
 """Runs every command that the documents print, and compares its answer with the one that the document prints: in a copy
-of the repository, as a reader would who has `verne` in the path. What is not run stands in not_run.toml with the
-reason.
+of the repository, as a reader would who has `verne` in the path. commands_not_run.toml lists the commands that are not run,
+with the reason.
 
 - `127.0.0.1:8080` is a fresh service; `verne serve` in a block is started, and is the service until the block ends.
 - `cargo run -- ...` is the binary that is given.
@@ -19,8 +19,10 @@ import sys
 import tempfile
 import tomllib
 
-from documented import blocks
-from served import Client, Process, free_port
+from markdown_commands import blocks
+
+sys.path.append(str(pathlib.Path(__file__).parents[1] / "load"))
+from verne_process import Client, Process, free_port  # noqa: E402
 
 ROOT = pathlib.Path(__file__).parents[2]
 # Directories of the reader's: they are made below the one where all this runs.
@@ -219,7 +221,7 @@ def main():
     options = parser.parse_args()
     os.chdir(ROOT)
     documents = options.documents or [name for name in listed("*.md") if name != "CHANGELOG.md"]
-    not_run = tomllib.loads((pathlib.Path(__file__).parent / "not_run.toml").read_text())["command"]
+    not_run = tomllib.loads((pathlib.Path(__file__).parent / "commands_not_run.toml").read_text())["command"]
     used, faults, count = set(), 0, 0
     with tempfile.TemporaryDirectory() as place:
         reader = Reader(options.verne, place)
@@ -232,7 +234,7 @@ def main():
             reader.service.kill()
     for entry in not_run:
         if not options.documents and entry["command"] not in used:
-            print(f"not_run.toml: no document has a command like {entry['command']} any more")
+            print(f"commands_not_run.toml: no document has a command like {entry['command']} any more")
     print(f"{count} commands, {faults} faults")
     return 1 if faults else 0
 

@@ -11,21 +11,21 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use serde_json::json;
-use solids::Parts;
+use solids::SolidBuilder;
 use verne_mesh::glb::{Options, Up};
 use verne_mesh::{Mesh, glb, ply, stl};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let directory = PathBuf::from(std::env::args().nth(1).ok_or("the directory is missing")?);
     std::fs::create_dir_all(&directory)?;
-    let two = Parts::default().block([-400.0, -500.0, 900.0], [0.0, 500.0, 1600.0], false);
+    let two = SolidBuilder::default().block([-400.0, -500.0, 900.0], [0.0, 500.0, 1600.0], false);
     let solids = [
-        ("sphere", Parts::default().ball([10.0, -20.0, 1250.0], 400.0, 79).mesh()),
+        ("sphere", SolidBuilder::default().ball([10.0, -20.0, 1250.0], 400.0, 79).mesh()),
         ("box", solids::block()),
         ("two", two.ball([300.0, 0.0, 1200.0], 200.0, 30).mesh()),
-        ("ring", Parts::default().ring(300.0, 100.0, 40).mesh()),
+        ("ring", SolidBuilder::default().ring(300.0, 100.0, 40).mesh()),
         ("empty", solids::empty()),
-        ("million", Parts::default().ball([0.0, 0.0, 1250.0], 500.0, 354).mesh()),
+        ("million", SolidBuilder::default().ball([0.0, 0.0, 1250.0], 500.0, 354).mesh()),
     ];
     for (name, mesh) in solids {
         write(&directory.join(name), &mesh)?;

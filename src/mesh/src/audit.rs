@@ -1,7 +1,7 @@
 //! Examination of a mesh: is it a closed surface?
 
 use crate::edges::{Edges, Side};
-use crate::forest::Forest;
+use crate::union_find::UnionFind;
 use crate::{Mesh, facet};
 
 /// The defects of a mesh, and its topology.
@@ -19,7 +19,7 @@ pub struct Audit {
     pub pinched_vertices: usize,
     /// Vertices less edges plus triangles.
     pub euler_characteristic: i64,
-    /// Pieces of the surface that share no edge with each other.
+    /// Connected components: parts of the surface that share no edge with each other.
     pub components: usize,
 }
 
@@ -30,16 +30,9 @@ impl Audit {
     /// # Examples
     ///
     /// ```
-    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
-    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-    /// # }
-    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    #[doc = include_str!("doctest/tetrahedron.md")]
     /// assert!(mesh.audit().is_watertight());
-    /// # Ok::<(), MeshFault>(())
+    /// # Ok::<(), MeshError>(())
     /// ```
     pub fn is_watertight(&self) -> bool {
         self.boundary_edges == 0 && self.non_manifold_edges == 0 && self.inconsistent_edges == 0
@@ -57,34 +50,27 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
-    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-    /// # }
-    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    #[doc = include_str!("doctest/tetrahedron.md")]
     /// let audit = mesh.audit();
     /// assert_eq!((audit.boundary_edges, audit.components, audit.euler_characteristic), (0, 1, 2));
-    /// # Ok::<(), MeshFault>(())
+    /// # Ok::<(), MeshError>(())
     /// ```
     pub fn audit(&self) -> Audit {
         let mut audit = Audit::default();
-        let mut pieces = Forest::new(self.corner_count() / 3);
-        let mut fans = Forest::new(self.corner_count());
+        let mut components = UnionFind::new(self.corner_count() / 3);
+        let mut fans = UnionFind::new(self.corner_count());
         let mut edges: usize = 0;
         for sides in Edges::of(self).iter() {
             edges += 1;
-            audit.judge(sides);
+            audit.count_edge(sides);
             for pair in sides.windows(2) {
-                pieces.join(pair[0].corner / 3, pair[1].corner / 3);
-                fans.join(pair[0].ends()[0], pair[1].ends()[0]);
-                fans.join(pair[0].ends()[1], pair[1].ends()[1]);
+                components.union(pair[0].corner / 3, pair[1].corner / 3);
+                fans.union(pair[0].ends()[0], pair[1].ends()[0]);
+                fans.union(pair[0].ends()[1], pair[1].ends()[1]);
             }
         }
-        audit.components = pieces.count();
-        audit.pinched_vertices = self.pinched(&mut fans);
+        audit.components = components.count();
+        audit.pinched_vertices = self.pinched_vertices(&mut fans);
         audit.degenerate_triangles = self
             .triangles()
             .iter()
@@ -95,22 +81,19 @@ impl Mesh {
     }
 
     /// Counts the vertices with corners in more than one fan.
-    fn pinched(&self, fans: &mut Forest) -> usize {
-        let mut first = vec![u32::MAX; self.positions().len()];
+    fn pinched_vertices(&self, fans: &mut UnionFind) -> usize {
+        let mut first: Vec<Option<u32>> = vec![None; self.positions().len()];
         let mut pinched = vec![false; self.positions().len()];
         for (corner, &vertex) in (0..).zip(self.triangles().as_flattened()) {
-            let (fan, vertex) = (fans.root(corner), vertex as usize);
-            if first[vertex] == u32::MAX {
-                first[vertex] = fan;
-            }
-            pinched[vertex] |= first[vertex] != fan;
+            let (fan, vertex) = (fans.find(corner), vertex as usize);
+            pinched[vertex] |= *first[vertex].get_or_insert(fan) != fan;
         }
         pinched.into_iter().filter(|&several| several).count()
     }
 }
 
 impl Audit {
-    fn judge(&mut self, sides: &[Side]) {
+    fn count_edge(&mut self, sides: &[Side]) {
         match sides {
             [_] => self.boundary_edges += 1,
             [a, b] => self.inconsistent_edges += usize::from(a.rising == b.rising),

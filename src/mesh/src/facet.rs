@@ -32,7 +32,7 @@ mod tests {
     use super::{angle, area, normal};
 
     #[test]
-    fn right_triangle() {
+    fn a_right_triangle_has_exact_normal_area_and_angles() {
         let corners = [[5.0, 0.0, 7.0], [9.0, 0.0, 7.0], [5.0, 3.0, 7.0]];
         assert_eq!(normal(corners), Some([0.0, 0.0, 1.0]));
         assert_eq!(area(corners), 6.0);

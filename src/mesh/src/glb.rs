@@ -6,33 +6,20 @@
 
 mod document;
 mod layout;
+mod options;
 mod placement;
 
 use std::io::{self, BufWriter, Write};
 
 use gltf_json::Root;
-use serde_json::Value;
 
-use self::layout::{Layout, Part, STRIDE};
+use self::layout::{Layout, PrimitiveLayout, STRIDE};
+pub use self::options::Options;
 use self::placement::Placement;
 pub use self::placement::Up;
 use crate::groups::Groups;
 use crate::shading::{ShadedVertex, Shading};
 use crate::{Bounds, Mesh};
-
-/// The contents of a GLB besides the mesh.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// The name of the mesh in a viewer's list of objects.
-    pub name: String,
-    /// The direction that is up in the mesh's frame.
-    pub up: Up,
-    /// The angle between two triangles, in radians, from which their edge is shown sharp. Edges between two tags
-    /// always are.
-    pub crease: f64,
-    /// The scene's `extras`; omitted if null.
-    pub extras: Value,
-}
 
 /// Writes the mesh as a GLB. An empty mesh becomes a scene without nodes, because glTF has no empty buffers.
 ///
@@ -52,14 +39,7 @@ pub struct Options {
 /// # Examples
 ///
 /// ```
-/// # use verne_mesh::{Mesh, MeshFault, Swatch};
-/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-/// # }
-/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+#[doc = include_str!("doctest/tetrahedron.md")]
 /// use verne_mesh::glb::{self, Options, Up};
 ///
 /// let options = Options {
@@ -91,8 +71,8 @@ fn write_scene(mesh: &Mesh, bounds: Bounds, options: &Options, out: &mut impl Wr
     for vertex in &shading.vertices {
         out.write_all(&record(vertex, mesh, &placement))?;
     }
-    for part in &layout.parts {
-        write_indices(part, &shading, layout.short_indices(), out)?;
+    for primitive in &layout.primitives {
+        write_indices(primitive, &shading, layout.short_indices(), out)?;
     }
     out.write_all(&[0; 3][..layout.padding()])
 }
@@ -108,8 +88,13 @@ fn record(vertex: &ShadedVertex, mesh: &Mesh, placement: &Placement) -> [u8; STR
     bytes
 }
 
-fn write_indices(part: &Part, shading: &Shading, short: bool, out: &mut impl Write) -> io::Result<()> {
-    let corners = &shading.corners[part.indices.clone()];
+fn write_indices(
+    primitive: &PrimitiveLayout,
+    shading: &Shading,
+    short: bool,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let corners = &shading.corners[primitive.indices.clone()];
     // The first corner of a tag refers to its first vertex.
     for index in corners.iter().map(|corner| corner - corners[0]) {
         match u16::try_from(index) {

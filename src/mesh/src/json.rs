@@ -22,14 +22,7 @@ use crate::{Mesh, Swatch};
 /// # Examples
 ///
 /// ```
-/// # use verne_mesh::{Mesh, MeshFault, Swatch};
-/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-/// # }
-/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+#[doc = include_str!("doctest/tetrahedron.md")]
 /// let mut file = Vec::new();
 /// verne_mesh::json::write(&mesh, &serde_json::Value::Null, &mut file)?;
 /// let read: serde_json::Value = serde_json::from_slice(&file)?;

@@ -6,9 +6,8 @@
 
 mod audit;
 mod edges;
+mod error;
 mod facet;
-mod fault;
-mod forest;
 pub mod glb;
 mod groups;
 pub mod json;
@@ -21,10 +20,11 @@ mod section;
 mod shading;
 pub mod stl;
 mod sum;
+mod union_find;
 mod vector;
 
 pub use audit::Audit;
-pub use fault::MeshFault;
+pub use error::MeshError;
 pub use measure::Bounds;
 pub use mesh::Mesh;
 pub use palette::Swatch;

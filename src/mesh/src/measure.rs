@@ -42,22 +42,15 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
-    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-    /// # }
-    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    #[doc = include_str!("doctest/tetrahedron.md")]
     /// assert_eq!(mesh.bounds().map(|bounds| bounds.max), Some([6.0; 3]));
-    /// # Ok::<(), MeshFault>(())
+    /// # Ok::<(), MeshError>(())
     /// ```
     pub fn bounds(&self) -> Option<Bounds> {
         let (first, rest) = self.positions().split_first()?;
-        Some(rest.iter().fold(Bounds { min: *first, max: *first }, |held, p| Bounds {
-            min: [held.min[0].min(p[0]), held.min[1].min(p[1]), held.min[2].min(p[2])],
-            max: [held.max[0].max(p[0]), held.max[1].max(p[1]), held.max[2].max(p[2])],
+        Some(rest.iter().fold(Bounds { min: *first, max: *first }, |bounds, p| Bounds {
+            min: [bounds.min[0].min(p[0]), bounds.min[1].min(p[1]), bounds.min[2].min(p[2])],
+            max: [bounds.max[0].max(p[0]), bounds.max[1].max(p[1]), bounds.max[2].max(p[2])],
         }))
     }
 
@@ -75,16 +68,9 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
-    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-    /// # }
-    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    #[doc = include_str!("doctest/tetrahedron.md")]
     /// assert!((mesh.volume() - 36.0).abs() < 1e-12);
-    /// # Ok::<(), MeshFault>(())
+    /// # Ok::<(), MeshError>(())
     /// ```
     pub fn volume(&self) -> f64 {
         // The tetrahedra have their apex at the centre of the mesh, not at the frame's origin: a mesh far from the
@@ -106,17 +92,10 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
-    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-    /// # }
-    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    #[doc = include_str!("doctest/tetrahedron.md")]
     /// let (wall, slope) = (18.0, 18.0 * 3_f64.sqrt());
     /// assert!((mesh.area() - 3.0 * wall - slope).abs() < 1e-12);
-    /// # Ok::<(), MeshFault>(())
+    /// # Ok::<(), MeshError>(())
     /// ```
     pub fn area(&self) -> f64 {
         sum::compensated(self.triangles().iter().map(|triangle| facet::area(self.corners(triangle))))

@@ -4,30 +4,30 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Mesh, MeshFault, Swatch};
+use crate::{Mesh, MeshError, Swatch};
 
 /// Identifies the format and its layout.
 const LAYOUT: [u8; 8] = *b"verneM01";
 
 /// The reason why bytes cannot be decoded.
 #[derive(Debug)]
-pub enum Unreadable {
+pub enum UnpackError {
     /// The bytes are not a packed mesh of this layout, or are damaged.
     Bytes(postcard::Error),
     /// The bytes decode to data that is not a mesh.
-    Mesh(MeshFault),
+    Mesh(MeshError),
 }
 
-impl std::fmt::Display for Unreadable {
+impl std::fmt::Display for UnpackError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Bytes(error) => write!(f, "not a packed mesh: {error}"),
-            Self::Mesh(fault) => fault.fmt(f),
+            Self::Mesh(error) => error.fmt(f),
         }
     }
 }
 
-impl std::error::Error for Unreadable {}
+impl std::error::Error for UnpackError {}
 
 #[derive(Serialize, Deserialize)]
 struct Packed<'a> {
@@ -52,14 +52,7 @@ struct Packed<'a> {
 /// # Examples
 ///
 /// ```
-/// # use verne_mesh::{Mesh, MeshFault, Swatch};
-/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-/// # }
-/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+#[doc = include_str!("doctest/tetrahedron.md")]
 /// use verne_mesh::packed::{pack, unpack};
 ///
 /// assert_eq!(unpack(&pack(&mesh)?)?, mesh);
@@ -79,8 +72,8 @@ pub fn pack(mesh: &Mesh) -> Result<Vec<u8>, postcard::Error> {
 ///
 /// # Errors
 ///
-/// - [`Unreadable::Bytes`]: `bytes` are not a packed mesh of this layout, or are damaged.
-/// - [`Unreadable::Mesh`]: they decode to data that is not a mesh.
+/// - [`UnpackError::Bytes`]: `bytes` are not a packed mesh of this layout, or are damaged.
+/// - [`UnpackError::Mesh`]: they decode to data that is not a mesh.
 ///
 /// # References
 ///
@@ -89,18 +82,18 @@ pub fn pack(mesh: &Mesh) -> Result<Vec<u8>, postcard::Error> {
 /// # Examples
 ///
 /// ```
-/// use verne_mesh::packed::{Unreadable, unpack};
+/// use verne_mesh::packed::{UnpackError, unpack};
 ///
-/// assert!(matches!(unpack(b"{}"), Err(Unreadable::Bytes(_))));
+/// assert!(matches!(unpack(b"{}"), Err(UnpackError::Bytes(_))));
 /// ```
-pub fn unpack(bytes: &[u8]) -> Result<Mesh, Unreadable> {
-    let packed: Packed<'_> = postcard::from_bytes(bytes).map_err(Unreadable::Bytes)?;
+pub fn unpack(bytes: &[u8]) -> Result<Mesh, UnpackError> {
+    let packed: Packed<'_> = postcard::from_bytes(bytes).map_err(UnpackError::Bytes)?;
     if packed.layout != LAYOUT {
-        return Err(Unreadable::Bytes(postcard::Error::DeserializeBadEncoding));
+        return Err(UnpackError::Bytes(postcard::Error::DeserializeBadEncoding));
     }
     let Packed { positions, triangles, tags, palette, .. } = packed;
     Mesh::new(positions.into_owned(), triangles.into_owned(), tags.into_owned(), palette.into_owned())
-        .map_err(Unreadable::Mesh)
+        .map_err(UnpackError::Mesh)
 }
 
 #[cfg(test)]
@@ -116,14 +109,14 @@ mod tests {
     }
 
     #[test]
-    fn what_was_packed_comes_back() {
+    fn a_packed_mesh_unpacks_to_itself() {
         for mesh in [triangle(), Mesh::new(vec![], vec![], vec![], vec![]).unwrap()] {
             assert_eq!(unpack(&pack(&mesh).unwrap()).unwrap(), mesh);
         }
     }
 
     #[test]
-    fn other_bytes_are_refused() {
+    fn damaged_bytes_are_refused() {
         let bytes = pack(&triangle()).unwrap();
         for end in 0..bytes.len() {
             assert!(unpack(&bytes[..end]).is_err(), "{end}");

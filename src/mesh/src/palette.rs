@@ -28,7 +28,7 @@ mod tests {
     use super::Swatch;
 
     #[test]
-    fn ends_are_kept_and_middle_grey_is_darkened() {
+    fn srgb_grey_188_is_linear_grey_128() {
         let swatch = Swatch { name: "grey".to_owned(), rgb: [0, 188, 255] };
         let bytes = swatch.linear().map(|intensity| (intensity * 255.0).round());
         assert_eq!(bytes, [0.0, 128.0, 255.0]);

@@ -31,14 +31,7 @@ use crate::groups::Groups;
 /// # Examples
 ///
 /// ```
-/// # use verne_mesh::{Mesh, MeshFault, Swatch};
-/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-/// # }
-/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+#[doc = include_str!("doctest/tetrahedron.md")]
 /// let mut file = Vec::new();
 /// verne_mesh::ply::write(&mesh, "a tetrahedron", &mut file)?;
 /// let text = String::from_utf8_lossy(&file);
@@ -92,8 +85,8 @@ fn comment(header: &mut String, text: &str) {
     let ascii: Vec<char> =
         text.chars().map(|c| if c == ' ' || c.is_ascii_graphic() { c } else { '?' }).collect();
     header.push_str("comment ");
-    for (part, characters) in ascii.chunks(COMMENT).enumerate() {
-        header.push_str(if part == 0 { "" } else { "\ncomment +" });
+    for (line, characters) in ascii.chunks(COMMENT).enumerate() {
+        header.push_str(if line == 0 { "" } else { "\ncomment +" });
         header.extend(characters);
     }
     header.push('\n');

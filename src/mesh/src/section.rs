@@ -51,18 +51,11 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// # use verne_mesh::{Mesh, MeshFault, Swatch};
-    /// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-    /// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-    /// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-    /// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-    /// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-    /// # }
-    /// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+    #[doc = include_str!("doctest/tetrahedron.md")]
     /// let contours = mesh.section(3.0);
     /// assert_eq!(contours.len(), 1);
     /// assert!((contours[0].area() - 4.5).abs() < 1e-12, "half a square of 3 mm");
-    /// # Ok::<(), MeshFault>(())
+    /// # Ok::<(), MeshError>(())
     /// ```
     pub fn section(&self, z: f64) -> Vec<Contour> {
         let mut following = self.following(z);
@@ -80,7 +73,7 @@ impl Mesh {
             if points.first() == points.last() {
                 points.pop();
             }
-            // A part that only touches the plane leaves a point or a line.
+            // A region that only touches the plane leaves a point or a line.
             if points.len() > 2 {
                 contours.push(Contour { points });
             }
@@ -119,7 +112,7 @@ impl Mesh {
     /// The point where a side that goes down meets the plane; exactly its start if that is in the plane.
     fn crossing(&self, corner: u32, z: f64) -> [f64; 2] {
         let [from, to] = self.side(corner).map(|vertex| self.positions()[vertex as usize]);
-        let part = (from[2] - z) / (from[2] - to[2]);
-        [from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1])]
+        let fraction = (from[2] - z) / (from[2] - to[2]);
+        [from[0] + fraction * (to[0] - from[0]), from[1] + fraction * (to[1] - from[1])]
     }
 }

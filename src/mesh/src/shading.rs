@@ -1,8 +1,8 @@
 //! Normals for display: smooth on the surface, discontinuous at its creases.
 
 use crate::edges::{Edges, Side};
-use crate::forest::Forest;
 use crate::groups::Groups;
+use crate::union_find::UnionFind;
 use crate::vector::{add, dot, norm, scale};
 use crate::{Mesh, facet};
 
@@ -25,8 +25,6 @@ pub(crate) struct Shading {
     pub(crate) corners: Vec<u32>,
 }
 
-const NONE: u32 = u32::MAX;
-
 impl Shading {
     /// Splits the vertices along edges that bend by more than `crease` (radians) or that separate two tags.
     ///
@@ -36,11 +34,11 @@ impl Shading {
         let normals: Vec<_> =
             mesh.triangles().iter().map(|triangle| facet::normal(mesh.corners(triangle))).collect();
         let mut shading = split(mesh, &mut fans(mesh, &normals, crease), groups);
-        for (place, &triangle) in groups.order().iter().enumerate() {
+        for (position, &triangle) in groups.order().iter().enumerate() {
             let Some(normal) = normals[triangle as usize] else { continue };
             let corners = mesh.corners(&mesh.triangles()[triangle as usize]);
             for at in 0..3 {
-                let patch = &mut shading.vertices[shading.corners[3 * place + at] as usize].normal;
+                let patch = &mut shading.vertices[shading.corners[3 * position + at] as usize].normal;
                 *patch = add(*patch, scale(normal, facet::angle(corners, at)));
             }
         }
@@ -52,43 +50,42 @@ impl Shading {
 }
 
 /// The corners that share a normal: joined across every smooth edge, at both of its ends.
-fn fans(mesh: &Mesh, normals: &[Option<[f64; 3]>], crease: f64) -> Forest {
+fn fans(mesh: &Mesh, normals: &[Option<[f64; 3]>], crease: f64) -> UnionFind {
     let flattest = crease.cos();
     let smooth = |a: Side, b: Side| {
-        let bend = match (normals[a.triangle()], normals[b.triangle()]) {
+        let is_flat = match (normals[a.triangle()], normals[b.triangle()]) {
             (Some(n), Some(m)) => dot(n, m) >= flattest,
             // A triangle without a normal cannot make a crease; it takes its neighbours' normal.
             _ => true,
         };
-        bend && a.rising != b.rising && mesh.tags()[a.triangle()] == mesh.tags()[b.triangle()]
+        is_flat && a.rising != b.rising && mesh.tags()[a.triangle()] == mesh.tags()[b.triangle()]
     };
-    let mut fans = Forest::new(mesh.corner_count());
+    let mut fans = UnionFind::new(mesh.corner_count());
     for sides in Edges::of(mesh).iter() {
         if let [a, b] = *sides
             && smooth(a, b)
         {
-            fans.join(a.ends()[0], b.ends()[0]);
-            fans.join(a.ends()[1], b.ends()[1]);
+            fans.union(a.ends()[0], b.ends()[0]);
+            fans.union(a.ends()[1], b.ends()[1]);
         }
     }
     fans
 }
 
 /// One vertex for each fan, its normal still zero.
-fn split(mesh: &Mesh, fans: &mut Forest, groups: &Groups) -> Shading {
-    let mut number = vec![NONE; mesh.triangles().len() * 3];
-    let mut shading = Shading { vertices: Vec::new(), corners: Vec::with_capacity(number.len()) };
+fn split(mesh: &Mesh, fans: &mut UnionFind, groups: &Groups) -> Shading {
+    let mut split_vertex: Vec<Option<u32>> = vec![None; mesh.triangles().len() * 3];
+    let mut shading = Shading { vertices: Vec::new(), corners: Vec::with_capacity(split_vertex.len()) };
     let mut next = 0;
     for &triangle in groups.order() {
         for (corner, &vertex) in (3 * triangle..).zip(&mesh.triangles()[triangle as usize]) {
-            let fan = &mut number[fans.root(corner) as usize];
-            if *fan == NONE {
-                *fan = next;
-                next += 1;
+            let number = split_vertex[fans.find(corner) as usize].get_or_insert_with(|| {
                 let tag = mesh.tags()[triangle as usize];
                 shading.vertices.push(ShadedVertex { vertex, normal: [0.0; 3], tag });
-            }
-            shading.corners.push(*fan);
+                next += 1;
+                next - 1
+            });
+            shading.corners.push(*number);
         }
     }
     shading
@@ -132,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_crease_splits_and_a_bend_does_not() {
+    fn only_a_sharp_edge_splits_its_vertices() {
         let creased = shaded([0; 4], 30.0);
         assert_eq!(creased.vertices.len(), 8);
         assert_near(creased.vertices[0].normal, [0.0, 0.0, 1.0]);
@@ -145,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_of_tag_splits_a_flat_square() {
+    fn an_edge_between_two_tags_splits_its_vertices() {
         let shading = shaded([0, 1, 1, 1], 100.0);
         assert_eq!(shading.vertices.len(), 8);
         assert_eq!(shading.vertices[0].tag, 0);

@@ -24,14 +24,7 @@ const HEADER: usize = 80;
 /// # Examples
 ///
 /// ```
-/// # use verne_mesh::{Mesh, MeshFault, Swatch};
-/// # fn tetrahedron() -> Result<Mesh, MeshFault> {
-/// #     let corners = vec![[0.0, 0.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 6.0]];
-/// #     let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-/// #     let palette = ["walls", "slope"].map(|name| Swatch { name: name.to_owned(), rgb: [80, 80, 80] });
-/// #     Mesh::new(corners, triangles, vec![0, 0, 1, 0], palette.to_vec())
-/// # }
-/// let mesh = tetrahedron()?; // corners at the origin and at 6 mm on each axis
+#[doc = include_str!("doctest/tetrahedron.md")]
 /// let mut file = Vec::new();
 /// verne_mesh::stl::write(&mesh, "tetrahedron", &mut file)?;
 /// assert_eq!(file.len(), 80 + 4 + 50 * mesh.triangles().len());
@@ -77,7 +70,7 @@ mod tests {
     use super::header;
 
     #[test]
-    fn the_header_is_text_of_eighty_bytes_and_not_solid() {
+    fn the_header_is_ascii_and_does_not_begin_with_solid() {
         let short = header("solid, \u{e9}t\u{e9}\n");
         assert_eq!(short.trim_ascii_end(), b"binary STL, mm; solid,  t");
         let long = header(&"x".repeat(200));

@@ -16,7 +16,7 @@ mod tests {
     use super::compensated;
 
     #[test]
-    fn keeps_what_a_plain_sum_loses() {
+    fn compensation_recovers_what_a_plain_sum_loses() {
         assert_eq!(compensated([1.0, 1e100, 1.0, -1e100].into_iter()), 2.0);
         assert_eq!(compensated(std::iter::empty()), 0.0);
     }

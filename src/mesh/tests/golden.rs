@@ -49,7 +49,7 @@ fn json(mesh: &Mesh) -> Vec<u8> {
 }
 
 #[test]
-fn bytes_are_the_golden_ones() {
+fn files_equal_the_golden_files() {
     for (name, mesh) in solids() {
         for (extension, bytes) in
             [("glb", glb(&mesh)), ("stl", stl(&mesh)), ("ply", ply(&mesh)), ("json", json(&mesh))]
@@ -61,13 +61,17 @@ fn bytes_are_the_golden_ones() {
             if std::env::var_os("VERNE_BLESS").is_some() {
                 std::fs::write(&file, &bytes).unwrap();
             }
-            assert!(std::fs::read(&file).unwrap() == bytes, "{} is not what is written now", file.display());
+            assert!(
+                std::fs::read(&file).unwrap() == bytes,
+                "{} differs from the bytes written now",
+                file.display()
+            );
         }
     }
 }
 
 #[test]
-fn gltf_reads_the_glb() {
+fn the_gltf_crate_reads_the_glb() {
     let bytes = glb(&solids::block());
     let gltf = gltf::Gltf::from_slice(&bytes).unwrap();
     let scene = gltf.default_scene().unwrap();
@@ -109,7 +113,7 @@ fn triple(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
 }
 
 #[test]
-fn gltf_reads_an_empty_scene() {
+fn the_gltf_crate_reads_an_empty_scene() {
     // Only the chunks: the reader wants a list of nodes, which glTF lets a scene leave out but not leave
     // empty.
     let bytes = glb(&solids::empty());
@@ -121,7 +125,7 @@ fn gltf_reads_an_empty_scene() {
 }
 
 #[test]
-fn the_ball_is_smooth_but_for_its_equator() {
+fn a_ball_of_two_tags_is_smooth_except_at_its_equator() {
     let gltf = gltf::Gltf::from_slice(&glb(&solids::ball())).unwrap();
     let primitives = gltf.meshes().next().unwrap().primitives();
     let normals: Vec<usize> =
@@ -131,7 +135,7 @@ fn the_ball_is_smooth_but_for_its_equator() {
 }
 
 #[test]
-fn stl_io_reads_the_stl() {
+fn the_stl_io_crate_reads_the_stl() {
     let mesh = solids::ball();
     let read = stl_io::read_stl(&mut Cursor::new(stl(&mesh))).unwrap();
     assert_eq!((read.vertices.len(), read.faces.len()), (18, 32));
@@ -140,7 +144,7 @@ fn stl_io_reads_the_stl() {
 }
 
 #[test]
-fn ply_rs_reads_the_ply() {
+fn the_ply_rs_crate_reads_the_ply() {
     use ply_rs_bw::ply::{DefaultElement, Property};
     for (_, mesh) in solids() {
         let parser = ply_rs_bw::parser::Parser::<DefaultElement>::new();
@@ -179,7 +183,7 @@ fn faces_of(comment: &str) -> Option<[usize; 3]> {
 
 /// MeshLab, VTK and Open3D allow 512, 4,096 and 1,024 bytes for a line.
 #[test]
-fn a_long_comment_is_continued() {
+fn a_long_ply_comment_continues_in_the_next_one() {
     let text = "0123456789 ".repeat(500);
     let mut bytes = Vec::new();
     ply::write(&solids::block(), &text, &mut bytes).unwrap();
@@ -190,7 +194,7 @@ fn a_long_comment_is_continued() {
 }
 
 #[test]
-fn json_reads_back() {
+fn json_reads_back_exactly() {
     let mesh = solids::block();
     let read: Value = serde_json::from_slice(&json(&mesh)).unwrap();
     assert_eq!(read["positions"], json!(mesh.positions().as_flattened()));

@@ -5,7 +5,7 @@
 #[path = "support/solids.rs"]
 mod solids;
 
-use solids::{Parts, ball, block, empty};
+use solids::{SolidBuilder, ball, block, empty};
 use verne_mesh::Audit;
 
 #[test]
@@ -19,21 +19,21 @@ fn a_box_is_measured_exactly() {
 }
 
 #[test]
-fn a_box_turned_inside_out_has_a_negative_volume() {
-    assert_eq!(Parts::default().block([0.0; 3], [1.0, 2.0, 3.0], true).mesh().volume(), -6.0);
+fn an_inverted_box_has_a_negative_volume() {
+    assert_eq!(SolidBuilder::default().block([0.0; 3], [1.0, 2.0, 3.0], true).mesh().volume(), -6.0);
 }
 
 #[test]
-fn volume_does_not_suffer_far_from_the_origin() {
-    let near = Parts::default().ball([0.0; 3], 1.0, 40).mesh().volume();
-    let far = Parts::default().ball([1e6, -1e6, 1e6], 1.0, 40).mesh().volume();
+fn the_volume_is_exact_far_from_the_origin() {
+    let near = SolidBuilder::default().ball([0.0; 3], 1.0, 40).mesh().volume();
+    let far = SolidBuilder::default().ball([1e6, -1e6, 1e6], 1.0, 40).mesh().volume();
     // The coordinates themselves are rounded to 1e-10 there.
     assert!((far / near - 1.0).abs() < 1e-10, "{far} against {near}");
 }
 
 #[test]
-fn a_ball_tends_to_its_volume_and_area_at_second_order() {
-    let ball = |n| Parts::default().ball([0.0; 3], 1.0, n).mesh();
+fn volume_and_area_of_a_ball_converge_at_second_order() {
+    let ball = |n| SolidBuilder::default().ball([0.0; 3], 1.0, n).mesh();
     let volume = 4.0 / 3.0 * std::f64::consts::PI;
     let (coarse, fine) = (volume - ball(20).volume(), volume - ball(40).volume());
     assert!(fine > 0.0 && (3.9..4.1).contains(&(coarse / fine)), "{coarse} then {fine}");
@@ -43,13 +43,13 @@ fn a_ball_tends_to_its_volume_and_area_at_second_order() {
 }
 
 #[test]
-fn sound_solids_have_their_topology_and_no_faults() {
+fn valid_solids_have_their_topology_and_no_defects() {
     let sound =
         |euler_characteristic, components| Audit { euler_characteristic, components, ..Audit::default() };
     assert_eq!(block().audit(), sound(2, 1));
     assert_eq!(ball().audit(), sound(2, 1));
-    assert_eq!(Parts::default().ring(10.0, 3.0, 12).mesh().audit(), sound(0, 1));
-    let two = Parts::default().block([0.0; 3], [1.0; 3], false).ball([5.0, 0.0, 0.0], 1.0, 5).mesh();
+    assert_eq!(SolidBuilder::default().ring(10.0, 3.0, 12).mesh().audit(), sound(0, 1));
+    let two = SolidBuilder::default().block([0.0; 3], [1.0; 3], false).ball([5.0, 0.0, 0.0], 1.0, 5).mesh();
     assert_eq!(two.audit(), sound(4, 2));
     assert_eq!(empty().audit(), sound(0, 0));
     assert!(two.audit().is_watertight() && empty().audit().is_watertight());
@@ -57,18 +57,18 @@ fn sound_solids_have_their_topology_and_no_faults() {
 }
 
 #[test]
-fn faults_are_found() {
-    let cube = || Parts::default().block([0.0; 3], [1.0; 3], false);
+fn defects_are_counted() {
+    let cube = || SolidBuilder::default().block([0.0; 3], [1.0; 3], false);
     let torn = cube().torn().audit();
     assert_eq!((torn.boundary_edges, torn.euler_characteristic, torn.is_watertight()), (3, 1, false));
     let twisted = cube().twisted().audit();
     assert_eq!((twisted.inconsistent_edges, twisted.boundary_edges, twisted.is_watertight()), (3, 0, false));
-    let flat = Parts::default().block([0.0; 3], [1.0, 1.0, 0.0], false).mesh().audit();
+    let flat = SolidBuilder::default().block([0.0; 3], [1.0, 1.0, 0.0], false).mesh().audit();
     assert_eq!((flat.degenerate_triangles, flat.is_watertight()), (8, true));
 }
 
 #[test]
-fn fins_and_pinches_are_found() {
+fn fins_and_pinched_vertices_are_counted() {
     let tetrahedron = |[a, b, c, d]: [u32; 4]| [[a, c, b], [a, b, d], [b, c, d], [c, a, d]];
     let corner = |x: f64, y: f64, z: f64| [x, y, z];
     let mut positions =

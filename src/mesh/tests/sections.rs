@@ -3,7 +3,7 @@
 #[path = "support/solids.rs"]
 mod solids;
 
-use solids::{Parts, block, empty};
+use solids::{SolidBuilder, block, empty};
 use verne_mesh::{Contour, Mesh};
 
 fn areas(mesh: &Mesh, z: f64) -> Vec<f64> {
@@ -11,7 +11,7 @@ fn areas(mesh: &Mesh, z: f64) -> Vec<f64> {
 }
 
 #[test]
-fn a_box_is_cut_to_its_outline_counter_clockwise() {
+fn the_contour_of_a_box_runs_counter_clockwise() {
     let contours = block().section(904.0);
     assert_eq!(contours.len(), 1);
     assert_eq!(contours[0].area(), 600.0);
@@ -21,8 +21,8 @@ fn a_box_is_cut_to_its_outline_counter_clockwise() {
 }
 
 #[test]
-fn a_void_is_a_hole_and_a_second_solid_a_second_outline() {
-    let shell = Parts::default().block([0.0; 3], [10.0; 3], false).block([2.0; 3], [5.0; 3], true);
+fn a_void_gives_a_hole_and_a_second_solid_a_second_contour() {
+    let shell = SolidBuilder::default().block([0.0; 3], [10.0; 3], false).block([2.0; 3], [5.0; 3], true);
     let mesh =
         shell.block([20.0; 3], [21.0; 3], false).block([20.0, 0.0, 0.0], [22.0, 1.0, 30.0], false).mesh();
     assert_eq!(areas(&mesh, 3.0), [100.0, -9.0, 2.0]);
@@ -31,7 +31,7 @@ fn a_void_is_a_hole_and_a_second_solid_a_second_outline() {
 }
 
 #[test]
-fn flat_faces_in_the_plane_show_from_below_only() {
+fn a_face_in_the_plane_appears_if_the_inside_is_below_it() {
     assert_eq!(areas(&block(), 910.0), [600.0]);
     assert!(areas(&block(), 900.0).is_empty());
     assert!(areas(&block(), 910.5).is_empty());
@@ -39,8 +39,8 @@ fn flat_faces_in_the_plane_show_from_below_only() {
 }
 
 #[test]
-fn vertices_in_the_plane_are_kept_exactly_and_once() {
-    let mesh = Parts::default().ball([0.0; 3], 10.0, 8).mesh();
+fn vertices_in_the_plane_appear_exactly_and_once() {
+    let mesh = SolidBuilder::default().ball([0.0; 3], 10.0, 8).mesh();
     let equator = mesh.section(0.0);
     assert_eq!(equator.len(), 1);
     assert_eq!(equator[0].points.len(), 32);
@@ -51,8 +51,8 @@ fn vertices_in_the_plane_are_kept_exactly_and_once() {
 }
 
 #[test]
-fn slices_of_a_ring_add_up_to_its_volume() {
-    let mesh = Parts::default().ring(10.0, 3.0, 24).mesh();
+fn the_areas_of_slices_sum_to_the_volume_of_a_ring() {
+    let mesh = SolidBuilder::default().ring(10.0, 3.0, 24).mesh();
     let contours = mesh.section(0.1);
     assert_eq!(contours.iter().filter(|contour| contour.area() > 0.0).count(), 1);
     assert_eq!(contours.iter().filter(|contour| contour.area() < 0.0).count(), 1);

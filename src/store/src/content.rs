@@ -1,13 +1,13 @@
-//! What is kept.
+//! Immutable bytes with their hash.
 
 use std::fmt;
 
 use bytes::Bytes;
 
-/// Up to here hashing takes less time than handing the bytes to another thread and waiting.
-pub(crate) const HASHED_IN_PLACE: usize = 64 << 10;
+/// Hashing so many bytes takes less time than a switch to another thread and back.
+pub(crate) const HASH_INLINE_BYTES: usize = 64 << 10;
 
-/// Bytes that never change, with their BLAKE3 hash. Its clones share one buffer.
+/// Immutable bytes with their BLAKE3 hash. Its clones share one buffer.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Content {
     /// The bytes.
@@ -17,22 +17,22 @@ pub struct Content {
 }
 
 impl Content {
-    /// Hashes the bytes, off the runtime when that takes long.
-    pub(crate) async fn of(bytes: Bytes) -> Self {
-        let here = || blake3::hash(&bytes);
-        let hash = if bytes.len() <= HASHED_IN_PLACE {
-            here()
+    /// Hashes the bytes; many of them on a blocking thread.
+    pub(crate) async fn hashed(bytes: Bytes) -> Self {
+        let inline = || blake3::hash(&bytes);
+        let hash = if bytes.len() <= HASH_INLINE_BYTES {
+            inline()
         } else {
             let bytes = bytes.clone();
-            let there = tokio::task::spawn_blocking(move || blake3::hash(&bytes));
-            // Refused only by a runtime that is shutting down.
-            there.await.unwrap_or_else(|_| here())
+            let hash = tokio::task::spawn_blocking(move || blake3::hash(&bytes));
+            // Only a runtime that shuts down refuses.
+            hash.await.unwrap_or_else(|_| inline())
         };
         Self { bytes, hash }
     }
 }
 
-/// Not the bytes: there are megabytes of them.
+/// Without the bytes: there may be megabytes of them.
 impl fmt::Debug for Content {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Content({} bytes, {})", self.bytes.len(), self.hash)

@@ -1,4 +1,4 @@
-//! The layer on disk: objects in an object store, and the index of them.
+//! The backing store of one process: a directory of objects, and the index of them.
 
 mod open;
 
@@ -9,78 +9,81 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::fault::DiskFault;
+use crate::content::Content;
+use crate::error::BackingStoreError;
+use crate::format;
 use crate::health::Health;
 use crate::index::Index;
-use crate::object;
-use crate::objects::{Objects, Seen};
-use crate::stats::Counts;
-use crate::{Content, Key};
+use crate::key::Key;
+use crate::object_io::{ObjectIo, ObjectVersion};
+use crate::stats::Counters;
 
-/// A disk that has much to do is slow, and no failing disk.
-const SLOWEST: Duration = Duration::from_secs(30);
+/// A busy disk may be slow; it is unhealthy only after this time.
+const PROBE_TIMEOUT: Duration = Duration::from_secs(30);
 
-/// The name under which it is tried whether an object can be written.
+/// The name of the file that tests whether the disk is writable.
 const PROBE: &str = "probe";
 
-/// So many uses are noted in one transaction.
-const USES: usize = 256;
+/// Uses that are recorded in one transaction.
+const USES_PER_TRANSACTION: usize = 256;
 
 pub(crate) struct Disk {
-    objects: Objects,
+    io: ObjectIo,
     index: Arc<Mutex<Index>>,
-    /// Bytes of all objects are not more than this.
-    bound: u64,
-    /// Bytes of all objects, as the index last said.
-    total: Arc<AtomicU64>,
+    /// Greatest sum of the sizes of all objects, bytes.
+    limit: u64,
+    /// Sum of the sizes of all objects after the last change of the index, bytes.
+    bytes: Arc<AtomicU64>,
     /// The number of the next use.
     next_use: AtomicU64,
-    /// The last use of each key that the index does not know of yet.
+    /// The last use of each key, until it is recorded in the index.
     uses: Mutex<HashMap<Key, u64>>,
-    /// Held by whoever changes what lies on disk: the objects and the index change one step at a time.
-    turn: tokio::sync::Mutex<()>,
+    /// Serializes the changes of objects and index.
+    changes: tokio::sync::Mutex<()>,
     health: Health,
-    counts: Arc<Counts>,
+    counters: Arc<Counters>,
     /// Keeps other processes out until it is closed.
     _lock: File,
 }
 
 impl Disk {
-    /// The objects.
-    pub(crate) fn objects(&self) -> &Objects {
-        &self.objects
+    /// Access to the objects.
+    pub(crate) fn io(&self) -> &ObjectIo {
+        &self.io
     }
 
-    /// Writes a content's object, making room for it; answers whether it will be there after a restart.
-    pub(crate) async fn write(self: &Arc<Self>, key: Key, content: &Content) -> bool {
-        if object::size(content) > self.bound {
-            return false;
-        }
-        // A task of its own: a caller that goes away must not leave an object that the index does not count.
-        let (disk, content) = (Arc::clone(self), content.clone());
-        let written = tokio::spawn(async move { disk.replace(key, &content).await });
-        match written.await.map_err(DiskFault::from).flatten() {
-            Ok(()) => true,
-            Err(fault) => {
-                self.counts.write_failures.add(1);
-                tracing::error!(%key, %fault, "a result is not kept on disk");
-                false
-            }
-        }
+    /// Whether the object of a content is not larger than the limit.
+    pub(crate) fn has_room_for(&self, content: &Content) -> bool {
+        format::size(content) <= self.limit
     }
 
-    /// Notes that a key was asked for. Every so many uses the index learns of them.
-    pub(crate) async fn touch(self: &Arc<Self>, key: Key) {
+    /// Writes the object of a content, and makes room for it before. Must not be cancelled.
+    pub(crate) async fn write(&self, key: Key, content: &Content) -> Result<(), BackingStoreError> {
+        let _changes = self.changes.lock().await;
+        let size = format::size(content);
+        self.make_room(Some((key, size))).await?;
+        self.io.write(key, content).await?;
         let used = self.next_use.fetch_add(1, Ordering::Relaxed);
-        let full = {
+        let entered = self.with_index(move |index| index.insert(key, size, used)).await;
+        if entered.is_err() {
+            // Without a row the object would be neither counted nor evicted.
+            self.io.delete(key).await?;
+        }
+        entered
+    }
+
+    /// Records a use of a key. The index gets many uses in one transaction.
+    pub(crate) async fn record_use(&self, key: Key) {
+        let used = self.next_use.fetch_add(1, Ordering::Relaxed);
+        let is_full = {
             let mut uses = self.uses.lock().unwrap_or_else(PoisonError::into_inner);
             uses.insert(key, used);
-            uses.len() >= USES
+            uses.len() >= USES_PER_TRANSACTION
         };
-        if full {
+        if is_full {
             let uses = self.take_uses();
-            if let Err(fault) = self.with_index(move |index| index.touch(&uses)).await {
-                tracing::warn!(%fault, "last uses are not noted");
+            if let Err(error) = self.with_index(move |index| index.record_uses(&uses)).await {
+                tracing::warn!(%error, "cannot record the last uses of results");
             }
         }
     }
@@ -88,69 +91,53 @@ impl Disk {
     /// Whether an object can be written now, or could a few seconds ago.
     pub(crate) async fn healthy(self: &Arc<Self>) -> Result<(), String> {
         let disk = Arc::clone(self);
-        let probe = async move { disk.objects.probe(PROBE).await.map_err(|fault| fault.to_string()) };
-        self.health.ask(SLOWEST, probe).await
+        let probe = async move { disk.io.probe(PROBE).await.map_err(|error| error.to_string()) };
+        self.health.check(PROBE_TIMEOUT, probe).await
     }
 
-    /// Bytes of all objects.
-    pub(crate) fn total(&self) -> u64 {
-        self.total.load(Ordering::Relaxed)
+    /// Sum of the sizes of all objects, bytes.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.bytes.load(Ordering::Relaxed)
     }
 
-    /// Removes a damaged object, unless it has been written anew since it was seen.
-    pub(crate) async fn remove_damaged(self: &Arc<Self>, key: Key, seen: Seen) {
-        let disk = Arc::clone(self);
-        let removed = tokio::spawn(async move {
-            let _turn = disk.turn.lock().await;
-            if disk.objects.is_still(key, &seen).await? { disk.remove(&[key]).await } else { Ok(()) }
-        });
-        if let Err(fault) = removed.await.map_err(DiskFault::from).flatten() {
-            tracing::error!(%key, %fault, "a damaged object cannot be removed");
-        }
+    /// Removes a damaged object, unless a later version of it has been written. Must not be cancelled.
+    pub(crate) async fn remove_damaged(
+        &self,
+        key: Key,
+        version: &ObjectVersion,
+    ) -> Result<(), BackingStoreError> {
+        let _changes = self.changes.lock().await;
+        if self.io.is_current(key, version).await? { self.remove(&[key]).await } else { Ok(()) }
     }
 
-    async fn replace(&self, key: Key, content: &Content) -> Result<(), DiskFault> {
-        let _turn = self.turn.lock().await;
-        let size = object::size(content);
-        self.make_room(Some((key, size))).await?;
-        self.objects.write(key, content).await?;
-        let used = self.next_use.fetch_add(1, Ordering::Relaxed);
-        let entered = self.with_index(move |index| index.insert(key, size, used)).await;
-        if entered.is_err() {
-            // Nothing would count it, nor remove it in its turn.
-            self.objects.delete(key).await?;
-        }
-        entered
-    }
-
-    /// Removes what was used least recently until all, and a new object of so many bytes, fits.
-    async fn make_room(&self, newcomer: Option<(Key, u64)>) -> Result<(), DiskFault> {
-        let (uses, bound) = (self.take_uses(), self.bound);
-        let victims = self
+    /// Removes the least recently used objects until all others, and a new one of that key and size, fit.
+    async fn make_room(&self, new: Option<(Key, u64)>) -> Result<(), BackingStoreError> {
+        let (uses, limit) = (self.take_uses(), self.limit);
+        let evicted = self
             .with_index(move |index| {
-                index.touch(&uses)?;
-                index.victims(newcomer, bound)
+                index.record_uses(&uses)?;
+                index.least_recently_used(new, limit)
             })
             .await?;
-        self.remove(&victims).await?;
-        self.counts.evictions.add(victims.len() as u64);
+        self.remove(&evicted).await?;
+        self.counters.evictions.add(evicted.len() as u64);
         Ok(())
     }
 
-    /// Removes objects, then their rows: a crash between the two leaves rows, which the next opening strikes out.
-    async fn remove(&self, keys: &[Key]) -> Result<(), DiskFault> {
-        let mut gone = Vec::with_capacity(keys.len());
+    /// Removes objects, then their rows: a crash between the two leaves rows, which the next opening deletes.
+    async fn remove(&self, keys: &[Key]) -> Result<(), BackingStoreError> {
+        let mut removed = Vec::with_capacity(keys.len());
         for key in keys {
-            match self.objects.delete(*key).await {
-                Ok(()) => gone.push(*key),
-                Err(fault) => tracing::error!(%key, %fault, "an object cannot be removed"),
+            match self.io.delete(*key).await {
+                Ok(()) => removed.push(*key),
+                Err(error) => tracing::error!(%key, %error, "cannot remove an object"),
             }
         }
-        let all = gone.len() == keys.len();
-        if !gone.is_empty() {
-            self.with_index(move |index| index.remove(&gone)).await?;
+        let all = removed.len() == keys.len();
+        if !removed.is_empty() {
+            self.with_index(move |index| index.remove(&removed)).await?;
         }
-        if all { Ok(()) } else { Err(DiskFault::NoRoom) }
+        if all { Ok(()) } else { Err(BackingStoreError::NoRoom) }
     }
 
     fn take_uses(&self) -> Vec<(Key, u64)> {
@@ -160,12 +147,12 @@ impl Disk {
     async fn with_index<T: Send + 'static>(
         &self,
         work: impl FnOnce(&mut Index) -> rusqlite::Result<T> + Send + 'static,
-    ) -> Result<T, DiskFault> {
-        let (index, total) = (Arc::clone(&self.index), Arc::clone(&self.total));
+    ) -> Result<T, BackingStoreError> {
+        let (index, bytes) = (Arc::clone(&self.index), Arc::clone(&self.bytes));
         let answer = tokio::task::spawn_blocking(move || {
             let mut index = index.lock().unwrap_or_else(PoisonError::into_inner);
             let answer = work(&mut index);
-            total.store(index.total(), Ordering::Relaxed);
+            bytes.store(index.bytes(), Ordering::Relaxed);
             answer
         });
         Ok(answer.await??)
@@ -173,12 +160,12 @@ impl Disk {
 }
 
 impl Drop for Disk {
-    /// The uses since the last transaction: a few milliseconds, once.
+    /// Records the uses since the last transaction: a few milliseconds, once.
     fn drop(&mut self) {
         let uses = self.take_uses();
         let mut index = self.index.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Err(fault) = index.touch(&uses) {
-            tracing::warn!(%fault, "last uses are not noted");
+        if let Err(error) = index.record_uses(&uses) {
+            tracing::warn!(%error, "cannot record the last uses of results");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Whether objects can be written, asked now and then.
+//! Tests now and then whether a backing store is writable.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -6,57 +6,63 @@ use std::time::Duration;
 use tokio::sync::watch;
 use tokio::time::{Instant, timeout};
 
-/// How long what was learned is believed.
-const BELIEVED: Duration = Duration::from_secs(5);
+/// For how long the result of a probe is reused.
+const REUSED: Duration = Duration::from_secs(5);
 
-type Answer = Result<(), String>;
+type Outcome = Result<(), String>;
 
 #[derive(Clone, Default)]
 pub(crate) struct Health(Arc<Mutex<State>>);
 
 #[derive(Default)]
 struct State {
-    known: Option<(Instant, Answer)>,
-    /// Filled by the probe that is under way.
-    asking: Option<watch::Receiver<Option<Answer>>>,
+    last: Option<(Instant, Outcome)>,
+    /// The outcome of the running probe.
+    running: Option<watch::Receiver<Option<Outcome>>>,
 }
 
 impl Health {
-    /// What a probe says now, or said a few seconds ago. One probe at a time, which goes on when its callers have gone: who
-    /// asks with little patience again and again would learn nothing otherwise. No answer in time is none.
-    pub(crate) async fn ask(
+    /// The outcome of a probe, or that of the last one if it is a few seconds old. An error if the probe takes longer
+    /// than `limit`.
+    ///
+    /// One probe runs at a time. It continues when its callers have gone: otherwise callers with a short timeout would
+    /// never learn the outcome.
+    pub(crate) async fn check(
         &self,
-        patience: Duration,
-        probe: impl Future<Output = Answer> + Send + 'static,
-    ) -> Answer {
-        let mut asking = {
+        limit: Duration,
+        probe: impl Future<Output = Outcome> + Send + 'static,
+    ) -> Outcome {
+        let mut running = {
             let mut state = self.state();
-            if let Some((when, answer)) = &state.known
-                && when.elapsed() < BELIEVED
+            if let Some((when, outcome)) = &state.last
+                && when.elapsed() < REUSED
             {
-                return answer.clone();
+                return outcome.clone();
             }
-            let under_way = state.asking.take().unwrap_or_else(|| self.begin(probe));
-            state.asking = Some(under_way.clone());
-            under_way
+            let running = state.running.take().unwrap_or_else(|| self.start(probe));
+            state.running = Some(running.clone());
+            running
         };
-        let answered =
-            async { asking.wait_for(Option::is_some).await.ok().and_then(|answer| answer.clone()) };
-        let answer = timeout(patience, answered).await.ok().flatten();
-        answer.unwrap_or_else(|| Err(format!("no answer within {} ms", patience.as_millis())))
+        let finished =
+            async { running.wait_for(Option::is_some).await.ok().and_then(|outcome| outcome.clone()) };
+        let outcome = timeout(limit, finished).await.ok().flatten();
+        outcome.unwrap_or_else(|| Err(format!("no answer within {} ms", limit.as_millis())))
     }
 
-    fn begin(&self, probe: impl Future<Output = Answer> + Send + 'static) -> watch::Receiver<Option<Answer>> {
+    fn start(
+        &self,
+        probe: impl Future<Output = Outcome> + Send + 'static,
+    ) -> watch::Receiver<Option<Outcome>> {
         let (sender, receiver) = watch::channel(None);
         let health = self.clone();
         tokio::spawn(async move {
-            let answer = probe.await;
+            let outcome = probe.await;
             {
                 let mut state = health.state();
-                state.known = Some((Instant::now(), answer.clone()));
-                state.asking = None;
+                state.last = Some((Instant::now(), outcome.clone()));
+                state.running = None;
             }
-            sender.send_replace(Some(answer));
+            sender.send_replace(Some(outcome));
         });
         receiver
     }
@@ -75,16 +81,16 @@ mod tests {
     use super::Health;
 
     #[tokio::test(start_paused = true)]
-    async fn a_probe_goes_on_whose_callers_have_no_patience() {
-        let (health, patience) = (Health::default(), Duration::from_secs(1));
+    async fn a_probe_continues_after_its_callers_have_timed_out() {
+        let (health, limit) = (Health::default(), Duration::from_secs(1));
         let (sender, receiver) = oneshot::channel();
         let slow = async move { receiver.await.unwrap_or_else(|_| Err("dropped".to_owned())) };
         let no_answer = Err("no answer within 1000 ms".to_owned());
-        assert_eq!(health.ask(patience, slow).await, no_answer);
+        assert_eq!(health.check(limit, slow).await, no_answer);
         let never = async { Err("a second probe".to_owned()) };
-        assert_eq!(health.ask(patience, never).await, no_answer);
+        assert_eq!(health.check(limit, never).await, no_answer);
         assert_eq!(sender.send(Ok(())), Ok(()));
         let never = async { Err("a second probe".to_owned()) };
-        assert_eq!(health.ask(patience, never).await, Ok(()));
+        assert_eq!(health.check(limit, never).await, Ok(()));
     }
 }

@@ -1,6 +1,6 @@
-//! The memo of what lies on disk: the size and the last use of each object, in SQLite.
+//! The index of the objects on disk: the size and the last use of each, in SQLite.
 //!
-//! Every call blocks. A use is a number from a counter that only grows, not a time: clocks are set back.
+//! Every call blocks. A use is a number from a counter that only grows, not a time: a clock may be set back.
 
 use std::collections::HashMap;
 use std::error::Error;
@@ -9,7 +9,7 @@ use std::{fs, io};
 
 use rusqlite::{Connection, OptionalExtension, params};
 
-use crate::Key;
+use crate::key::Key;
 
 const VERSION: i64 = 1;
 
@@ -21,110 +21,114 @@ const SCHEMA: &str = "
 
 pub(crate) struct Index {
     connection: Connection,
-    /// Bytes of all objects.
-    total: u64,
+    /// Sum of the sizes of all objects.
+    bytes: u64,
 }
 
-/// An index as it was found.
-pub(crate) struct Found {
+/// An index and its rows when it was opened.
+pub(crate) struct OpenedIndex {
     pub(crate) index: Index,
-    /// Each object's size.
+    /// The size of each object.
     pub(crate) sizes: HashMap<Key, u64>,
-    /// Larger than every use so far.
+    /// Greater than every recorded use.
     pub(crate) next_use: u64,
 }
 
 impl Index {
-    /// Opens the index of a directory, or makes one. One that cannot be understood is moved aside, for the
-    /// objects say the same; the one moved aside before it is overwritten.
-    pub(crate) fn open(directory: &Path) -> Result<Found, Box<dyn Error + Send + Sync>> {
+    /// Opens the index of a directory, or creates it. Renames a damaged index and creates a new one: the objects state
+    /// the same.
+    pub(crate) fn open(directory: &Path) -> Result<OpenedIndex, Box<dyn Error + Send + Sync>> {
         let path = directory.join("index.sqlite3");
         match Self::read(&path) {
-            Ok(Some(found)) => return Ok(found),
-            Err(fault) if !is_damage(&fault) => return Err(fault.into()),
-            Ok(None) => tracing::warn!("the index is not sound or of another version: made anew"),
-            Err(fault) => tracing::warn!(%fault, "the index is damaged: made anew"),
+            Ok(Some(opened)) => return Ok(opened),
+            Err(error) if !is_damage(&error) => return Err(error.into()),
+            Ok(None) => tracing::warn!("the index is invalid or of another version: creating a new one"),
+            Err(error) => tracing::warn!(%error, "the index is damaged: creating a new one"),
         }
-        move_aside(&path)?;
-        Self::read(&path)?.ok_or_else(|| "a new index is not sound".into())
+        rename_damaged(&path)?;
+        Self::read(&path)?.ok_or_else(|| "a new index is invalid".into())
     }
 
-    /// `None` where a sound index of this version is not what lies there.
-    fn read(path: &Path) -> rusqlite::Result<Option<Found>> {
+    /// `None` if the file is not a valid index of this version.
+    fn read(path: &Path) -> rusqlite::Result<Option<OpenedIndex>> {
         let Some(connection) = connect(path)? else { return Ok(None) };
         let mut sizes = HashMap::new();
-        let (mut total, mut next_use) = (0_u64, 0);
+        let (mut bytes, mut next_use) = (0_u64, 0);
         {
             let mut rows = connection.prepare("SELECT key, size, used FROM objects")?;
             let mut rows = rows.query([])?;
             while let Some(row) = rows.next()? {
                 let size = row.get::<_, i64>(1)?.cast_unsigned();
-                let Some(sum) = total.checked_add(size) else { return Ok(None) };
-                total = sum;
+                let Some(sum) = bytes.checked_add(size) else { return Ok(None) };
+                bytes = sum;
                 sizes.insert(Key::from(row.get::<_, [u8; 32]>(0)?), size);
                 next_use = next_use.max(row.get::<_, i64>(2)?.cast_unsigned().saturating_add(1));
             }
         }
-        Ok(Some(Found { index: Self { connection, total }, sizes, next_use }))
+        Ok(Some(OpenedIndex { index: Self { connection, bytes }, sizes, next_use }))
     }
 
-    /// Bytes of all objects.
-    pub(crate) fn total(&self) -> u64 {
-        self.total
+    /// Sum of the sizes of all objects.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.bytes
     }
 
-    /// Enters an object, used now.
+    /// Enters an object and its first use.
     pub(crate) fn insert(&mut self, key: Key, size: u64, used: u64) -> rusqlite::Result<()> {
         self.change(|changes| changes.insert(key, size, used))
     }
 
-    /// Notes uses.
-    pub(crate) fn touch(&mut self, uses: &[(Key, u64)]) -> rusqlite::Result<()> {
-        self.change(|changes| changes.touch(uses))
+    /// Records the last uses of objects.
+    pub(crate) fn record_uses(&mut self, uses: &[(Key, u64)]) -> rusqlite::Result<()> {
+        self.change(|changes| changes.record_uses(uses))
     }
 
-    /// Strikes objects out.
+    /// Deletes the rows of objects.
     pub(crate) fn remove(&mut self, keys: &[Key]) -> rusqlite::Result<()> {
         self.change(|changes| keys.iter().try_for_each(|key| changes.remove(key)))
     }
 
-    /// Strikes out what has gone and enters what was found, in the order of its use.
-    pub(crate) fn reconcile(
+    /// Deletes wrong rows and enters the objects that were found, in the order of their use.
+    pub(crate) fn replace(
         &mut self,
-        gone: &[Key],
+        wrong: &[Key],
         found: &[(Key, u64)],
         first_use: u64,
     ) -> rusqlite::Result<()> {
         self.change(|changes| {
-            gone.iter().try_for_each(|key| changes.remove(key))?;
+            wrong.iter().try_for_each(|key| changes.remove(key))?;
             (first_use..).zip(found).try_for_each(|(used, (key, size))| changes.insert(*key, *size, used))
         })
     }
 
-    /// What has to go, least recently used first, so that all fits within the bound, and a newcomer of so many
-    /// bytes too. Its key's old object is not among it: the new one takes its place.
-    pub(crate) fn victims(&self, newcomer: Option<(Key, u64)>, bound: u64) -> rusqlite::Result<Vec<Key>> {
-        let mut wanted = self.total;
-        if let Some((key, size)) = newcomer {
-            wanted = wanted - size_of(&self.connection, &key)? + size;
+    /// The least recently used objects that must be removed so that the others, and a new one of that key and size, fit
+    /// within the limit. The old object of the new one's key is not among them: the new one replaces it.
+    pub(crate) fn least_recently_used(
+        &self,
+        new: Option<(Key, u64)>,
+        limit: u64,
+    ) -> rusqlite::Result<Vec<Key>> {
+        let mut needed = self.bytes;
+        if let Some((key, size)) = new {
+            needed = needed - size_of(&self.connection, &key)? + size;
         }
-        let mut excess = wanted.saturating_sub(bound);
-        let mut victims = Vec::new();
+        let mut excess = needed.saturating_sub(limit);
+        let mut oldest = Vec::new();
         if excess == 0 {
-            return Ok(victims);
+            return Ok(oldest);
         }
         let mut rows = self.connection.prepare_cached("SELECT key, size FROM objects ORDER BY used")?;
         let mut rows = rows.query([])?;
         while excess > 0
             && let Some(row) = rows.next()?
         {
-            let victim = Key::from(row.get::<_, [u8; 32]>(0)?);
-            if newcomer.is_none_or(|(key, _)| key != victim) {
+            let key = Key::from(row.get::<_, [u8; 32]>(0)?);
+            if new.is_none_or(|(new, _)| new != key) {
                 excess = excess.saturating_sub(row.get::<_, i64>(1)?.cast_unsigned());
-                victims.push(victim);
+                oldest.push(key);
             }
         }
-        Ok(victims)
+        Ok(oldest)
     }
 
     fn change(
@@ -132,31 +136,31 @@ impl Index {
         work: impl FnOnce(&mut Changes<'_>) -> rusqlite::Result<()>,
     ) -> rusqlite::Result<()> {
         let transaction = self.connection.transaction()?;
-        let mut changes = Changes { connection: &transaction, total: self.total };
+        let mut changes = Changes { connection: &transaction, bytes: self.bytes };
         work(&mut changes)?;
-        let total = changes.total;
+        let bytes = changes.bytes;
         transaction.commit()?;
-        self.total = total;
+        self.bytes = bytes;
         Ok(())
     }
 }
 
-/// The changes of one transaction, and the total after them.
+/// The changes of one transaction, and the sum of the sizes after them.
 struct Changes<'a> {
     connection: &'a Connection,
-    total: u64,
+    bytes: u64,
 }
 
 impl Changes<'_> {
     fn insert(&mut self, key: Key, size: u64, used: u64) -> rusqlite::Result<()> {
-        self.total = self.total - size_of(self.connection, &key)? + size;
+        self.bytes = self.bytes - size_of(self.connection, &key)? + size;
         self.connection
             .prepare_cached("INSERT OR REPLACE INTO objects (key, size, used) VALUES (?, ?, ?)")?
             .execute(params![key.as_bytes(), size.cast_signed(), used.cast_signed()])?;
         Ok(())
     }
 
-    fn touch(&mut self, uses: &[(Key, u64)]) -> rusqlite::Result<()> {
+    fn record_uses(&mut self, uses: &[(Key, u64)]) -> rusqlite::Result<()> {
         let mut update = self.connection.prepare_cached("UPDATE objects SET used = ?2 WHERE key = ?1")?;
         uses.iter().try_for_each(|(key, used)| {
             update.execute(params![key.as_bytes(), used.cast_signed()]).map(|_| ())
@@ -164,13 +168,13 @@ impl Changes<'_> {
     }
 
     fn remove(&mut self, key: &Key) -> rusqlite::Result<()> {
-        self.total -= size_of(self.connection, key)?;
+        self.bytes -= size_of(self.connection, key)?;
         self.connection.prepare_cached("DELETE FROM objects WHERE key = ?")?.execute([key.as_bytes()])?;
         Ok(())
     }
 }
 
-/// The size of a key's object, 0 for one that is not there.
+/// The size of a key's object, 0 if it has no row.
 fn size_of(connection: &Connection, key: &Key) -> rusqlite::Result<u64> {
     let size = connection
         .prepare_cached("SELECT size FROM objects WHERE key = ?")?
@@ -179,10 +183,10 @@ fn size_of(connection: &Connection, key: &Key) -> rusqlite::Result<u64> {
     Ok(size.unwrap_or(0).cast_unsigned())
 }
 
-/// `None` where the file is not sound or of another version.
+/// Opens the file. `None` if it is not a valid index of this version.
 fn connect(path: &Path) -> rusqlite::Result<Option<Connection>> {
     let connection = Connection::open(path)?;
-    // A row that a power cut takes back is entered again when the store is opened: nothing to wait for.
+    // A row that is lost in a power cut is entered again at the next opening, so no commit waits for the disk.
     connection.pragma_update(None, "journal_mode", "WAL")?;
     connection.pragma_update(None, "synchronous", "NORMAL")?;
     let check: String = connection.pragma_query_value(None, "quick_check", |row| row.get(0))?;
@@ -198,16 +202,16 @@ fn connect(path: &Path) -> rusqlite::Result<Option<Connection>> {
     }
 }
 
-/// Whether the file is at fault, and not the disk it lies on.
-fn is_damage(fault: &rusqlite::Error) -> bool {
+/// Whether the file is the cause, not the disk.
+fn is_damage(error: &rusqlite::Error) -> bool {
     use rusqlite::ErrorCode::{DatabaseCorrupt, NotADatabase, Unknown};
-    match fault.sqlite_error_code() {
+    match error.sqlite_error_code() {
         Some(code) => matches!(code, DatabaseCorrupt | NotADatabase | Unknown),
         None => true,
     }
 }
 
-fn move_aside(path: &Path) -> io::Result<()> {
+fn rename_damaged(path: &Path) -> io::Result<()> {
     let with = |ending: &str| {
         let mut name = path.as_os_str().to_owned();
         name.push(ending);
@@ -215,7 +219,7 @@ fn move_aside(path: &Path) -> io::Result<()> {
     };
     for log in ["-wal", "-shm"] {
         match fs::remove_file(with(log)) {
-            Err(fault) if fault.kind() != io::ErrorKind::NotFound => return Err(fault),
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
             _ => (),
         }
     }

@@ -1,10 +1,10 @@
-//! The name of a result, and where its object lies.
+//! The key of a content, and the location of its object.
 
 use std::fmt;
 
 use object_store::path::Path;
 
-/// What a result is kept under: 32 bytes that the caller derives, as a rule the hash of the question.
+/// The key of a content: 32 bytes that the caller chooses, usually the hash of a request.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Key([u8; 32]);
 
@@ -14,18 +14,18 @@ impl Key {
         &self.0
     }
 
-    /// Where the key's object lies: the first two digits, a slash, and the other 62.
+    /// The location of the key's object: the first two digits, a slash, and the other 62.
     pub(crate) fn location(&self) -> Path {
         let digits = self.to_string();
         let (directory, name) = digits.split_at(2);
         Path::from_iter([directory, name])
     }
 
-    /// The key whose object lies at a location, if one may lie there.
+    /// The key whose object has a location, if there is one.
     pub(crate) fn at(location: &Path) -> Option<Self> {
         let digits: String = location.as_ref().split('/').collect();
         let key = Self::from(blake3::Hash::from_hex(digits).ok()?);
-        // Upper case and other divisions of the same digits are read, but nothing of ours lies there.
+        // Upper case and other divisions of the digits can be parsed, but no object has such a location.
         (key.location() == *location).then_some(key)
     }
 }

@@ -1,49 +1,50 @@
-//! Results kept under content keys: in memory, and below it on a disk of the process's own or in a store that
-//! many processes share. What they are, and who asks for them, is the caller's business.
+//! A bounded store of results under content keys: in memory, and in a backing store, which is a directory of this
+//! process or a store that many processes share. The store knows nothing about the meaning of keys and contents.
 //!
-//! Memory is bounded in bytes and forgets what was used least recently. It answers many callers from one buffer,
-//! and lets one of them work while the others wait. What lies below is an object a key: written beside its place
-//! and moved there in one step, or uploaded and seen when it is complete. An object names its key and its length
-//! and has a hash of every mebibyte. Whatever does not agree with them when it is read is never served, counts
-//! as damaged and is removed: what it held is computed again. Objects of another version of the format are
-//! treated so too.
+//! The memory cache is bounded in bytes and evicts the least recently used content. All callers share one buffer per
+//! content. If several callers ask for a missing content at once, one of them works and the others wait.
 //!
-//! [`Store::get`] answers a content whole. [`Store::find`] answers one that is read as far as it is wanted: what
-//! is in memory as a slice of it, what is of a mebibyte or less by way of memory, what is larger chunk by chunk
-//! from below: a slow reader holds two chunks and not the content.
+//! The backing store has one object per key. A writer writes a file beside its final place and renames it, or uploads
+//! it and completes the upload: a reader sees a complete object or none. An object contains its key, its length and a
+//! hash of every mebibyte. The store never serves bytes that disagree with them: it counts such an object as damaged
+//! and removes it, and the caller computes the result again. The same holds for objects of another format version.
 //!
-//! # On disk
+//! [`Store::get`] returns a whole content. [`Store::reader`] returns a reader for parts of it: a slice of the buffer if
+//! the content is in memory, the whole content by way of memory if it has at most 1 MiB, and otherwise chunk by chunk
+//! from the backing store. A slow reader occupies two chunks of memory, not the content.
 //!
-//! One process at a time. What was given is kept across restarts; the disk is bounded in bytes too, and what was
-//! used least recently goes.
+//! # Directory of one process
+//!
+//! One process opens it at a time. Contents survive a restart. The objects are bounded in bytes; the least recently
+//! used ones are evicted.
 //!
 //! ```text
-//! directory/lock             held while a process has the store open
+//! directory/lock             locked while a process has the store open
 //!           index.sqlite3    key, size and last use of each object
-//!           objects/ab/cd…   a header and the bytes, named by the key's 64 digits
+//!           objects/ab/cd…   a header and the bytes, named by the 64 digits of the key
 //! ```
 //!
-//! The objects are the truth and the index a memo of it: a row and its object are reconciled when the store is
-//! opened, so that a crash between the two loses nothing.
+//! The index repeats what the objects state. Opening the store reconciles the two, so a crash between the writing of
+//! an object and the writing of its row loses nothing.
 //!
-//! # Shared
+//! # Shared store
 //!
-//! `s3://bucket/prefix` or `file:///shared/directory`, opened by as many processes as there are:
+//! Any number of processes open `s3://bucket/prefix` or `file:///shared/directory`:
 //!
 //! ```text
 //! prefix/ab/cd…              the same objects
-//!        verne-store         of a directory: its marker, made by Store::init_shared
-//!        probe/…             a process tries whether it can write; removed at once
+//!        verne-store         in a directory: its marker, written by Store::init_shared
+//!        probe/…             written and removed at once, to test whether the store is writable
 //! ```
 //!
-//! There is no index and no lock. Two writers of one key write the same bytes, so that it does not matter whose
-//! stay; a reader sees an object whole or not at all. Large objects are sent to S3 in parts of 8 MiB, four at a
-//! time. What the store refuses is asked again for up to 30 s, a single request to S3 ten times and for up to
-//! 10 s; then a content that cannot be written is [`Kept::MemoryOnly`], and one that cannot be read is as if not
-//! there. A request to S3 has 5 s to connect and 30 s in all (`AWS_CONNECT_TIMEOUT`, `AWS_TIMEOUT`).
+//! There is no index and no lock. Two writers of one key write the same bytes, so either may win. Objects of more than
+//! 8 MiB are uploaded to S3 in parts of 8 MiB, four at a time. An operation that the store refuses is repeated for up
+//! to 30 s, and a single request to S3 ten times in up to 10 s. After that, a content that could not be written is
+//! [`Durability::MemoryOnly`], and an object that could not be read counts as absent. A request to S3 may take 5 s to
+//! connect and 30 s in all (`AWS_CONNECT_TIMEOUT`, `AWS_TIMEOUT`).
 //!
-//! Nothing is evicted and [`Stats::disk_bytes`] is unknown: how long results are kept is the bucket's business.
-//! A rule for a bucket, which also removes what is left of an upload when its process dies:
+//! The store evicts nothing, and [`Stats::disk_bytes`] is unknown: the operator decides how long results stay. A
+//! lifecycle rule for a bucket, which also removes the parts of an upload whose process died:
 //!
 //! ```json
 //! {"Rules": [{
@@ -53,44 +54,50 @@
 //! }]}
 //! ```
 //!
-//! The same for a directory, once a day on one of the machines; a file that was never finished (`…#1`) goes too:
+//! The same for a directory, once a day on one machine; it also removes unfinished files (`…#1`):
 //!
 //! ```text
 //! find /shared/directory -mindepth 2 -type f -mtime +30 -delete
 //! ```
 //!
-//! A directory without its marker is not used: it is the mount point of a file system that is not mounted, and what one
-//! process wrote there no other would find. Where the marker is missing when the store is opened, that is an error. Where it
-//! goes later, questions wait for it as for a store that refuses.
+//! The store does not use a directory without a marker: such a directory is the mount point of a file system that is
+//! not mounted, and other processes would not find the files. If the marker is missing at opening, that is an error. If
+//! it disappears later, operations are repeated as for a store that refuses them.
 //!
-//! Both count from when a result was written, not from when it was read. A result that goes while it is read from
-//! S3 breaks off with an error; from a directory it is read to the end, except where the file system is a
-//! network's and says otherwise. A directory must have renames that are atomic for all its readers, as NFS and
-//! CephFS have. What is not held: a damaged object may be removed just after another process wrote it anew, and
-//! is then computed once more.
+//! Both rules count from the writing of a result, not from its last use. If a result expires while it is read, the
+//! reader of an S3 store gets an error; the reader of a local directory reads to the end, the reader of a network file
+//! system perhaps not. A shared directory needs renames that are atomic for all readers, as NFS and CephFS have. One
+//! race remains: a process may remove a damaged object just after another one has rewritten it. Then the result is
+//! computed once more.
 //!
-//! It runs on tokio; files, the index and the hashing of what is large are left to its blocking threads.
+//! The crate needs a tokio runtime. Files, the index and the hashing of large contents run on its blocking threads.
 
-mod below;
+mod backing_store;
+mod config;
 mod content;
 mod disk;
-mod fault;
-mod found;
+mod error;
+mod format;
 mod health;
-mod held;
 mod index;
 mod key;
-mod memory;
-mod object;
-mod objects;
+mod live_buffers;
+mod marker;
+mod memory_cache;
+mod object_io;
+mod object_reader;
+mod reader;
 mod shared;
+mod single_flight;
 mod stats;
 mod store;
+mod upload;
 
+pub use config::{Config, Durability};
 pub use content::Content;
-pub use fault::OpenError;
-pub use found::{Found, ReadFault};
+pub use error::OpenError;
+pub use format::FormatError;
 pub use key::Key;
-pub use object::Damage;
+pub use reader::{ContentReader, ReadError};
 pub use stats::Stats;
-pub use store::{Config, Kept, Store};
+pub use store::Store;

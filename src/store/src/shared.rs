@@ -1,9 +1,6 @@
-//! A store that many processes read and write at once: no index, no count, nobody is evicted.
+//! The backing store that many processes read and write: it has no index, no size and no eviction.
 
-mod marker;
 mod open;
-
-pub(crate) use marker::Marker;
 
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::sync::Arc;
@@ -11,76 +8,63 @@ use std::time::Duration;
 
 use object_store::Error;
 
+use crate::content::Content;
+use crate::error::BackingStoreError;
 use crate::health::Health;
-use crate::objects::{Objects, Seen};
-use crate::stats::Counts;
-use crate::{Content, Key};
+use crate::key::Key;
+use crate::object_io::{ObjectIo, ObjectVersion};
 
-/// A store that does not take an object within this time is not healthy.
-const ANSWERED: Duration = Duration::from_secs(5);
+/// A store that does not accept an object within this time is unhealthy.
+const PROBE_TIMEOUT: Duration = Duration::from_secs(5);
 
-/// Who asks how the store is is answered within this time: a prober would not wait longer.
-const PATIENCE: Duration = Duration::from_millis(500);
+/// A health check is answered within this time: a prober would not wait longer.
+const HEALTH_TIMEOUT: Duration = Duration::from_millis(500);
 
 pub(crate) struct Shared {
-    objects: Objects,
-    /// The name under which this process tries whether an object can be written.
+    io: ObjectIo,
+    /// The name of the file with which this process tests whether the store is writable.
     probe: String,
     health: Health,
-    counts: Arc<Counts>,
 }
 
 impl Shared {
-    fn new(objects: Objects, counts: Arc<Counts>) -> Self {
-        // A hasher's keys are random.
+    fn new(io: ObjectIo) -> Self {
+        // The keys of a hasher are random.
         let probe = format!("probe/{:016x}", RandomState::new().build_hasher().finish());
-        Self { objects, probe, health: Health::default(), counts }
+        Self { io, probe, health: Health::default() }
     }
 
-    /// The objects.
-    pub(crate) fn objects(&self) -> &Objects {
-        &self.objects
+    /// Access to the objects.
+    pub(crate) fn io(&self) -> &ObjectIo {
+        &self.io
     }
 
-    /// Writes a content's object; answers whether others will find it.
-    pub(crate) async fn write(self: &Arc<Self>, key: Key, content: &Content) -> bool {
-        // A task of its own: where the caller goes away, parts of an upload would be left.
-        let (shared, content) = (Arc::clone(self), content.clone());
-        let written = tokio::spawn(async move { shared.objects.write(key, &content).await });
-        match written.await.map_err(Error::from).flatten() {
-            Ok(()) => true,
-            Err(fault) => {
-                self.counts.write_failures.add(1);
-                tracing::error!(%key, %fault, "a result is not kept in the shared store");
-                false
-            }
-        }
+    /// Writes the object of a content. Must not be cancelled.
+    pub(crate) async fn write(&self, key: Key, content: &Content) -> Result<(), BackingStoreError> {
+        Ok(self.io.write(key, content).await?)
     }
 
-    /// Removes a damaged object, unless it has been written anew since it was seen. One that another process
-    /// writes between the two questions is lost, and computed again when it is asked for.
-    pub(crate) async fn remove_damaged(self: &Arc<Self>, key: Key, seen: Seen) {
-        let shared = Arc::clone(self);
-        let removed = tokio::spawn(async move {
-            if shared.objects.is_still(key, &seen).await? { shared.objects.delete(key).await } else { Ok(()) }
-        });
-        if let Err(fault) = removed.await.map_err(Error::from).flatten() {
-            tracing::error!(%key, %fault, "a damaged object cannot be removed");
-        }
+    /// Removes a damaged object, unless a later version of it has been written. A version that another process writes
+    /// between the check and the removal is lost, and computed again when it is requested. Must not be cancelled.
+    pub(crate) async fn remove_damaged(
+        &self,
+        key: Key,
+        version: &ObjectVersion,
+    ) -> Result<(), BackingStoreError> {
+        if self.io.is_current(key, version).await? { Ok(self.io.delete(key).await?) } else { Ok(()) }
     }
 
     /// Whether an object can be written now, or could a few seconds ago.
     pub(crate) async fn healthy(self: &Arc<Self>) -> Result<(), String> {
         let shared = Arc::clone(self);
-        let probe = async move { shared.tried(ANSWERED).await.map_err(|fault| fault.to_string()) };
-        self.health.ask(PATIENCE, probe).await
+        let probe = async move { shared.probe(PROBE_TIMEOUT).await.map_err(|error| error.to_string()) };
+        self.health.check(HEALTH_TIMEOUT, probe).await
     }
 
-    /// Writes and removes an object of this process's own.
-    async fn tried(&self, within: Duration) -> Result<(), Error> {
-        let answer = tokio::time::timeout(within, self.objects.probe(&self.probe)).await;
-        answer.unwrap_or_else(|_| {
-            let source = format!("no answer within {} s", within.as_secs()).into();
+    /// Writes and removes a file of this process.
+    async fn probe(&self, limit: Duration) -> Result<(), Error> {
+        tokio::time::timeout(limit, self.io.probe(&self.probe)).await.unwrap_or_else(|_| {
+            let source = format!("no answer within {} s", limit.as_secs()).into();
             Err(Error::Generic { store: "shared", source })
         })
     }

@@ -1,23 +1,23 @@
-//! What the store has done since it was opened.
+//! Counts of what the store has done since it was opened.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Counts since the store was opened, and sizes now.
+/// Counts since the store was opened, and current sizes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
-    /// Questions that memory answered, those that waited for another's answer included.
+    /// Requests that memory answered, including those that waited for another caller's answer.
     pub memory_hits: u64,
-    /// Questions that an object on disk, or in the shared store, answered.
+    /// Requests that an object in the backing store answered.
     pub disk_hits: u64,
-    /// Questions that nothing answered.
+    /// Requests for absent contents.
     pub misses: u64,
-    /// Bytes that count against memory's bound.
+    /// Bytes that count against the limit of the memory cache.
     pub memory_bytes: u64,
     /// Bytes of all objects on disk. `None` for a shared store: no process counts what the others write.
     pub disk_bytes: Option<u64>,
     /// Objects removed from disk to make room.
     pub evictions: u64,
-    /// Objects found that were not the one that was written.
+    /// Objects that were not those that had been written.
     pub damaged: u64,
     /// Objects that could not be read for another reason than damage.
     pub read_failures: u64,
@@ -25,22 +25,22 @@ pub struct Stats {
     pub write_failures: u64,
 }
 
-/// The counts behind [`Stats`].
+/// The counters behind [`Stats`].
 #[derive(Default)]
-pub(crate) struct Counts {
-    pub(crate) memory_hits: Count,
-    pub(crate) disk_hits: Count,
-    pub(crate) misses: Count,
-    pub(crate) evictions: Count,
-    pub(crate) damaged: Count,
-    pub(crate) read_failures: Count,
-    pub(crate) write_failures: Count,
+pub(crate) struct Counters {
+    pub(crate) memory_hits: Counter,
+    pub(crate) disk_hits: Counter,
+    pub(crate) misses: Counter,
+    pub(crate) evictions: Counter,
+    pub(crate) damaged: Counter,
+    pub(crate) read_failures: Counter,
+    pub(crate) write_failures: Counter,
 }
 
 #[derive(Default)]
-pub(crate) struct Count(AtomicU64);
+pub(crate) struct Counter(AtomicU64);
 
-impl Count {
+impl Counter {
     pub(crate) fn add(&self, more: u64) {
         self.0.fetch_add(more, Ordering::Relaxed);
     }

@@ -1,299 +1,288 @@
-//! The store: memory before what lies below.
+//! The store: the memory cache in front of a backing store.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use bytes::Bytes;
 use object_store::ObjectStore;
 
-use crate::below::{Below, Layer};
+use crate::backing_store::{BackingStore, Kind};
+use crate::config::{Config, Durability};
+use crate::content::Content;
 use crate::disk::Disk;
-use crate::found::{Found, WHOLE};
-use crate::held::Held;
-use crate::memory::Memory;
-use crate::objects::Object;
+use crate::error::OpenError;
+use crate::format::CHUNK;
+use crate::key::Key;
+use crate::live_buffers::LiveBuffers;
+use crate::memory_cache::MemoryCache;
+use crate::object_reader::ObjectReader;
+use crate::reader::ContentReader;
 use crate::shared::Shared;
-use crate::stats::Counts;
-use crate::{Content, Key, OpenError, Stats};
+use crate::single_flight::SingleFlight;
+use crate::stats::{Counters, Stats};
 
-/// Where results are kept, and how many bytes of them.
-#[derive(Clone, Debug)]
-pub struct Config {
-    /// Where they are kept across restarts; made if it is not there. `None`: nowhere.
-    pub directory: Option<PathBuf>,
-    /// How many bytes memory holds. What callers hold themselves is not counted.
-    pub memory_bytes: u64,
-    /// How many bytes the objects on disk have together. The index is not counted: some 100 bytes an object.
-    pub disk_bytes: u64,
-}
+/// A content of at most so many bytes is read whole and cached; a larger one is read while it is sent.
+const READ_WHOLE_BYTES: u64 = CHUNK;
 
-/// How long a content that was put stays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kept {
-    /// It is flushed to disk: a restart does not lose it, only the need for room. Or the shared store has it:
-    /// every process finds it there until it expires.
-    Durable,
-    /// It is in memory until that needs the room: there is no disk, the disk or the shared store refused it, or
-    /// it is larger than the disk's bound. What lay there under the key before still does.
-    MemoryOnly,
-}
-
-/// Results under content keys. Its clones are one store.
+/// Contents under keys. Its clones are one store.
 #[derive(Clone)]
 pub struct Store {
-    memory: Memory,
-    held: Held,
-    below: Option<Below>,
-    counts: Arc<Counts>,
+    memory: MemoryCache,
+    live: LiveBuffers,
+    flights: SingleFlight,
+    backing: Option<BackingStore>,
+    counters: Arc<Counters>,
 }
 
 impl Store {
-    /// Opens the configured directory, or a store in memory if there is none. After a crash the index is made to
-    /// agree with the objects first.
+    /// Opens the configured directory, or a store in memory if there is none. After a crash it first makes the index
+    /// agree with the objects.
     pub async fn open(config: &Config) -> Result<Self, OpenError> {
         match &config.directory {
-            Some(directory) => Self::build(directory, None, config.memory_bytes, config.disk_bytes).await,
+            Some(directory) => Self::open_disk(directory, None, config.memory_bytes, config.disk_bytes).await,
             None => Ok(Self::in_memory(config.memory_bytes)),
         }
     }
 
-    /// Opens a store whose objects lie elsewhere than in the directory, which holds the index of them. The index
-    /// knows of no other writer: one store at a time.
+    /// Opens a store of given objects, whose index and lock are in a directory. The objects must have no other writer.
     pub async fn open_over(
         objects: Arc<dyn ObjectStore>,
         directory: &Path,
         memory_bytes: u64,
         disk_bytes: u64,
     ) -> Result<Self, OpenError> {
-        Self::build(directory, Some(objects), memory_bytes, disk_bytes).await
+        Self::open_disk(directory, Some(objects), memory_bytes, disk_bytes).await
     }
 
-    /// Opens the store at an address, which many processes share: `s3://bucket/prefix`, or
-    /// `file:///shared/directory`, which [`Store::init_shared`] has prepared. The crate's description says what such a
-    /// store holds and what it does not. Endpoint, region and credentials of S3 are those of the environment:
-    /// `AWS_ENDPOINT`, `AWS_REGION`, `AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_ALLOW_HTTP` and the
-    /// others that [`object_store::aws::AmazonS3Builder::from_env`] reads.
+    /// Opens the shared store at an address: `s3://bucket/prefix`, or `file:///shared/directory`, which
+    /// [`Store::init_shared`] has prepared. The documentation of the crate states the guarantees of such a store.
+    ///
+    /// Endpoint, region and credentials of S3 come from the environment: `AWS_ENDPOINT`, `AWS_REGION`,
+    /// `AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_ALLOW_HTTP` and the other variables that
+    /// [`object_store::aws::AmazonS3Builder::from_env`] reads.
     pub async fn open_shared(address: &str, memory_bytes: u64) -> Result<Self, OpenError> {
-        let store = Self::in_memory(memory_bytes);
-        let shared = Shared::open(address, Arc::clone(&store.counts)).await?;
-        Ok(store.over(Layer::Shared(shared)))
+        let shared = Shared::open(address).await?;
+        Ok(Self::in_memory(memory_bytes).backed_by(Kind::Shared(shared)))
     }
 
-    /// Prepares the directory at an address `file:///shared/directory`: makes it, and the marker file without which no
-    /// store is opened there. The marker tells the directory from the mount point of a file system that is not mounted.
-    /// Answers whether the marker was made; if it is there already, nothing is changed. Blocks on files.
-    pub fn init_shared(address: &str) -> Result<bool, OpenError> {
-        Shared::init(address)
-    }
-
-    /// Opens a shared store whose objects lie where the caller says.
+    /// Opens a shared store of given objects.
     pub async fn open_shared_over(
         objects: Arc<dyn ObjectStore>,
         memory_bytes: u64,
     ) -> Result<Self, OpenError> {
-        let store = Self::in_memory(memory_bytes);
-        let shared = Shared::open_over(objects, Arc::clone(&store.counts)).await?;
-        Ok(store.over(Layer::Shared(shared)))
+        let shared = Shared::open_over(objects).await?;
+        Ok(Self::in_memory(memory_bytes).backed_by(Kind::Shared(shared)))
     }
 
-    /// A store of so many bytes that lasts as long as the process.
+    /// Prepares the directory at an address `file:///shared/directory`: creates it, and the marker file without which
+    /// no store is opened there. The marker distinguishes the directory from the mount point of a file system that is
+    /// not mounted. Returns whether the marker was created; if it exists, nothing changes. Blocks on files.
+    pub fn init_shared(address: &str) -> Result<bool, OpenError> {
+        Shared::init(address)
+    }
+
+    /// A store that ends with the process.
     pub fn in_memory(memory_bytes: u64) -> Self {
         Self {
-            memory: Memory::of_size(memory_bytes),
-            held: Held::default(),
-            below: None,
-            counts: Arc::default(),
+            memory: MemoryCache::new(memory_bytes),
+            live: LiveBuffers::default(),
+            flights: SingleFlight::default(),
+            backing: None,
+            counters: Arc::default(),
         }
     }
 
-    async fn build(
+    async fn open_disk(
         directory: &Path,
         objects: Option<Arc<dyn ObjectStore>>,
         memory_bytes: u64,
         disk_bytes: u64,
     ) -> Result<Self, OpenError> {
         let store = Self::in_memory(memory_bytes);
-        let disk = Disk::open(directory, objects, disk_bytes, Arc::clone(&store.counts)).await?;
-        Ok(store.over(Layer::Disk(disk)))
+        let disk = Disk::open(directory, objects, disk_bytes, Arc::clone(&store.counters)).await?;
+        Ok(store.backed_by(Kind::Disk(disk)))
     }
 
-    fn over(mut self, layer: Layer) -> Self {
-        self.below = Some(Below::new(layer, Arc::clone(&self.counts)));
+    fn backed_by(mut self, kind: Kind) -> Self {
+        self.backing = Some(BackingStore::new(kind, Arc::clone(&self.counters)));
         self
     }
 
-    /// The content of a key, if it is kept. An object that is damaged or cannot be read is logged, counted and
-    /// as if not there.
+    /// The content of a key, if it exists. A damaged or unreadable object is logged and counted, and counts as absent.
     pub async fn get(&self, key: &Key) -> Option<Content> {
-        if let Some(content) = self.remembered(key).await {
+        if let Some(content) = self.in_memory_now(key).await {
             return Some(content);
         }
-        let mut looked = false;
-        let content = self.memory.get_or_find(*key, self.read(*key, &mut looked)).await;
-        self.count(content.is_some(), looked);
+        let mut was_read = false;
+        let content = self.flights.run(*key, self.read(*key, &mut was_read)).await;
+        self.count(content.is_some(), was_read);
         content
     }
 
-    /// The content of a key, to be read as far as it is wanted: what is large and not in memory is not brought
-    /// there. Otherwise as [`Store::get`]; damage beyond the header shows when the content is read.
-    pub async fn find(&self, key: &Key) -> Option<Found> {
-        if let Some(content) = self.remembered(key).await {
+    /// A reader of the content of a key, if it exists. A large content that is not in memory is not cached. As for
+    /// [`Store::get`], but the reader reports damage beyond the header.
+    pub async fn reader(&self, key: &Key) -> Option<ContentReader> {
+        if let Some(content) = self.in_memory_now(key).await {
             return Some(content.into());
         }
-        let mut looked = false;
-        let small = self.memory.get_or_make(*key, self.read_small(*key, &mut looked)).await;
-        let found = match (small, &self.below) {
+        let mut was_read = false;
+        let small = self.flights.run(*key, self.read_small(*key, &mut was_read)).await;
+        let reader = match (small, &self.backing) {
             (Ok(content), _) => Some(content.into()),
-            (Err(NotRead::Large(object)), Some(below)) => Some(Found::below(object, below.clone())),
+            (Err(NotRead::Large(object)), Some(backing)) => {
+                Some(ContentReader::of_object(object, backing.clone()))
+            }
             _ => None,
         };
-        self.count(found.is_some(), looked);
-        found
+        self.count(reader.is_some(), was_read);
+        reader
     }
 
-    /// Keeps bytes under a key, in place of what was there. A disk that fails is logged and counted: the content
-    /// is in memory all the same. What a shared store does not take is not: this process would believe it to be where
-    /// others do not find it.
-    pub async fn put(&self, key: &Key, bytes: Bytes) -> (Content, Kept) {
-        let content = self.held.share(*key, Content::of(bytes).await);
+    /// Stores bytes under a key, in place of the old ones. A disk that fails is logged and counted, and the content is
+    /// in memory all the same. A content that a shared store refuses is not in memory either: this process would take
+    /// it for stored, while other processes do not find it.
+    pub async fn put(&self, key: &Key, bytes: Bytes) -> (Content, Durability) {
+        let content = self.live.share(*key, Content::hashed(bytes).await);
         if !self.is_shared() {
-            self.memory.insert(*key, content.clone()).await;
-            let kept = self.write(*key, &content).await;
-            return (content, kept);
+            self.memory.insert(*key, content.clone());
+            let durability = self.write(*key, &content).await;
+            return (content, durability);
         }
-        let kept = self.write(*key, &content).await;
-        match kept {
-            Kept::Durable => self.memory.insert(*key, content.clone()).await,
-            Kept::MemoryOnly => self.memory.forget(key).await,
+        let durability = self.write(*key, &content).await;
+        match durability {
+            Durability::Durable => self.memory.insert(*key, content.clone()),
+            Durability::MemoryOnly => self.memory.remove(key),
         }
-        (content, kept)
+        (content, durability)
     }
 
-    /// The content of a key; if it is not kept, `make` makes it. Of many callers at once one makes it and all have
-    /// the one answer; if that caller is dropped, another takes over. A failure is answered to those who wait
-    /// now and not remembered. Callers whose errors are of different types do not wait for each other.
-    pub async fn get_or_make<E: Clone + Send + Sync + 'static>(
+    /// The content of a key; if it does not exist, `make` makes it.
+    ///
+    /// If several callers ask at once, one makes the content and all get it; if that caller is dropped, another one
+    /// takes over. An error goes to those who wait now and is not stored. Callers whose errors have different types do
+    /// not wait for each other.
+    pub async fn get_or_make<E: Clone + Send + 'static>(
         &self,
         key: &Key,
         make: impl Future<Output = Result<Bytes, E>> + Send,
     ) -> Result<Content, E> {
-        if let Some(content) = self.remembered(key).await {
+        if let Some(content) = self.in_memory_now(key).await {
             return Ok(content);
         }
-        let mut asked = false;
-        let found_or_made = async {
-            asked = true;
+        let mut worked = false;
+        let get_or_make = async {
+            worked = true;
             if let Some(content) = self.get(key).await {
                 return Ok(content);
             }
-            let content = self.held.share(*key, Content::of(make.await?).await);
+            let content = self.live.share(*key, Content::hashed(make.await?).await);
             self.write(*key, &content).await;
+            self.memory.insert(*key, content.clone());
             Ok(content)
         };
-        let content = self.memory.get_or_make(*key, found_or_made).await;
-        if content.is_ok() && !asked {
-            self.counts.memory_hits.add(1);
+        let content = self.flights.run(*key, get_or_make).await;
+        if content.is_ok() && !worked {
+            self.counters.memory_hits.add(1);
         }
         content
     }
 
-    /// Whether other processes look for what is put here.
+    /// Whether other processes read what is stored here.
     pub fn is_shared(&self) -> bool {
-        self.below.as_ref().is_some_and(Below::is_shared)
+        self.backing.as_ref().is_some_and(BackingStore::is_shared)
     }
 
-    /// What the store has done, and how large it is.
+    /// Counts since the store was opened, and current sizes.
     pub fn stats(&self) -> Stats {
-        let counts = &self.counts;
+        let counters = &self.counters;
         Stats {
-            memory_hits: counts.memory_hits.get(),
-            disk_hits: counts.disk_hits.get(),
-            misses: counts.misses.get(),
-            memory_bytes: self.memory.size(),
-            disk_bytes: self.below.as_ref().map_or(Some(0), Below::bytes),
-            evictions: counts.evictions.get(),
-            damaged: counts.damaged.get(),
-            read_failures: counts.read_failures.get(),
-            write_failures: counts.write_failures.get(),
+            memory_hits: counters.memory_hits.get(),
+            disk_hits: counters.disk_hits.get(),
+            misses: counters.misses.get(),
+            memory_bytes: self.memory.bytes(),
+            disk_bytes: self.backing.as_ref().map_or(Some(0), BackingStore::bytes),
+            evictions: counters.evictions.get(),
+            damaged: counters.damaged.get(),
+            read_failures: counters.read_failures.get(),
+            write_failures: counters.write_failures.get(),
         }
     }
 
-    /// Whether the disk or the shared store, if there is one, takes an object now; asked again after a few
-    /// seconds at the earliest.
+    /// Whether the backing store, if there is one, accepts an object now, or did a few seconds ago.
     pub async fn healthy(&self) -> Result<(), String> {
-        match &self.below {
-            Some(below) => below.healthy().await,
+        match &self.backing {
+            Some(backing) => backing.healthy().await,
             None => Ok(()),
         }
     }
 
-    /// What memory holds, or somebody else.
-    async fn remembered(&self, key: &Key) -> Option<Content> {
-        let content = match self.memory.get(key).await {
-            Some(content) => content,
-            None => self.held.get(key)?,
-        };
-        self.counts.memory_hits.add(1);
-        self.touch(*key).await;
+    /// A content that is in the memory cache, or that a caller still holds.
+    async fn in_memory_now(&self, key: &Key) -> Option<Content> {
+        let content = self.memory.get(key).or_else(|| self.live.get(key))?;
+        self.counters.memory_hits.add(1);
+        if let Some(backing) = &self.backing {
+            backing.record_use(*key).await;
+        }
         Some(content)
     }
 
-    /// What lies below, unless somebody holds it since its turn was waited for; whether it was looked for there.
-    async fn read(&self, key: Key, looked: &mut bool) -> Option<Content> {
-        if let Some(content) = self.held.get(&key) {
+    /// Reads a content from the backing store and caches it, unless it has come into memory meanwhile. Sets `was_read`
+    /// if it looks there.
+    async fn read(&self, key: Key, was_read: &mut bool) -> Option<Content> {
+        if let Some(content) = self.live.get(&key) {
             return Some(content);
         }
-        *looked = true;
-        let below = self.below.as_ref()?;
-        let object = below.open(key).await?;
-        let content = below.content(&object).await?;
-        below.touch(key).await;
-        Some(self.held.share(key, content))
+        *was_read = true;
+        let backing = self.backing.as_ref()?;
+        let object = backing.open(key).await?;
+        let content = backing.content(&object).await?;
+        backing.record_use(key).await;
+        Some(self.cached(key, content))
     }
 
-    /// The same of what is small.
-    async fn read_small(&self, key: Key, looked: &mut bool) -> Result<Content, NotRead> {
-        if let Some(content) = self.held.get(&key) {
+    /// The same for a small content; opens the object of a large one.
+    async fn read_small(&self, key: Key, was_read: &mut bool) -> Result<Content, NotRead> {
+        if let Some(content) = self.live.get(&key) {
             return Ok(content);
         }
-        *looked = true;
-        let below = self.below.as_ref().ok_or(NotRead::Missing)?;
-        let object = below.open(key).await.ok_or(NotRead::Missing)?;
-        below.touch(key).await;
-        if object.length() > WHOLE {
+        *was_read = true;
+        let backing = self.backing.as_ref().ok_or(NotRead::Absent)?;
+        let object = backing.open(key).await.ok_or(NotRead::Absent)?;
+        backing.record_use(key).await;
+        if object.length() > READ_WHOLE_BYTES {
             return Err(NotRead::Large(Arc::new(object)));
         }
-        let content = below.content(&object).await.ok_or(NotRead::Missing)?;
-        Ok(self.held.share(key, content))
+        let content = backing.content(&object).await.ok_or(NotRead::Absent)?;
+        Ok(self.cached(key, content))
     }
 
-    async fn write(&self, key: Key, content: &Content) -> Kept {
-        match &self.below {
-            Some(below) if below.write(key, content).await => Kept::Durable,
-            _ => Kept::MemoryOnly,
+    fn cached(&self, key: Key, content: Content) -> Content {
+        let content = self.live.share(key, content);
+        self.memory.insert(key, content.clone());
+        content
+    }
+
+    async fn write(&self, key: Key, content: &Content) -> Durability {
+        match &self.backing {
+            Some(backing) if backing.write(key, content).await => Durability::Durable,
+            _ => Durability::MemoryOnly,
         }
     }
 
-    async fn touch(&self, key: Key) {
-        if let Some(below) = &self.below {
-            below.touch(key).await;
-        }
-    }
-
-    /// Counts a question, and whether its caller had to look below.
-    fn count(&self, found: bool, looked: bool) {
-        let count = match (found, looked) {
-            (false, _) => &self.counts.misses,
-            (true, true) => &self.counts.disk_hits,
-            (true, false) => &self.counts.memory_hits,
+    /// Counts a request by its outcome, and by whether its caller looked in the backing store.
+    fn count(&self, found: bool, was_read: bool) {
+        let counter = match (found, was_read) {
+            (false, _) => &self.counters.misses,
+            (true, true) => &self.counters.disk_hits,
+            (true, false) => &self.counters.memory_hits,
         };
-        count.add(1);
+        counter.add(1);
     }
 }
 
-/// Why a content was not read whole; told to all who wait for it.
+/// Why a content was not read whole. All callers that wait for it get the same reason.
 #[derive(Clone)]
 enum NotRead {
-    Missing,
-    Large(Arc<Object>),
+    Absent,
+    Large(Arc<ObjectReader>),
 }

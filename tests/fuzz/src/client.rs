@@ -1,4 +1,4 @@
-//! The service, in this process and in memory, and what every answer of it must be like.
+//! A service in this process, and the checks that every answer must pass.
 
 use std::cell::RefCell;
 
@@ -13,14 +13,14 @@ use tokio::runtime::Runtime;
 use tower::ServiceExt;
 use verne_service::{ServeConfig, Service};
 
-/// What a service may answer when it has no room, as documented.
+/// The documented answers of a service that is at a limit.
 const BUSY: [&str; 2] = ["queue_full", "overloaded"];
 
 thread_local! {
     static CLIENT: RefCell<Option<Client>> = const { RefCell::new(None) };
 }
 
-/// A service and a result that it keeps.
+/// A service, and a result that it has stored.
 pub(crate) struct Client {
     runtime: Runtime,
     router: Router,
@@ -48,7 +48,7 @@ pub(crate) fn post(path: &str, body: impl Into<Body>) -> Request<Body> {
 impl Client {
     fn new() -> Self {
         let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
-        // Whatever takes long becomes a job.
+        // Long computations become jobs.
         let flags = "--memory-only --wait 0 --job-limit 60 --job-threads 1 --queue 8 --max-rows 200";
         let config =
             ServeConfig::from_arg_matches(&command.get_matches_from(flags.split_whitespace())).unwrap();
@@ -63,7 +63,7 @@ impl Client {
         client
     }
 
-    /// Sends a request and looks at the answer. What became a job is cancelled.
+    /// Sends a request and checks the answer. Cancels the job if there is one.
     pub(crate) fn ask(&self, request: Request<Body>) -> Reply {
         let reply = self.send(request);
         reply.check();
@@ -90,7 +90,7 @@ impl Reply {
         let status = self.status;
         if status.is_client_error() || status.is_server_error() {
             assert_eq!(self.headers[CONTENT_TYPE], "application/problem+json", "{status} {text}");
-            // A HEAD has no document.
+            // The answer to HEAD has no document.
             if self.bytes.is_empty() {
                 assert!(status.is_client_error(), "{status}");
                 return;

@@ -1,9 +1,10 @@
-//! Structure from bytes: the same bytes always draw the same things, and where they end, zeros and first choices are drawn.
+//! Structured values from bytes. Equal bytes give equal values; after the last byte, values are zeros and first
+//! choices.
 
 use arbitrary::Unstructured;
 use verne_solver::MAX_INPUT;
 
-/// Numbers that programs stumble over.
+/// Special numbers.
 const SPECIAL: [f64; 24] = [
     0.0,
     -0.0,
@@ -71,7 +72,7 @@ const NUMERALS: [&str; 36] = [
     "0.1000000000000000055511151231257827021181583404541015625",
 ];
 
-/// Texts that programs stumble over.
+/// Special texts.
 const TEXTS: [&str; 20] = [
     "",
     " ",
@@ -144,7 +145,7 @@ impl<'a> Draw<'a> {
         }
     }
 
-    /// A text that may be meant as a number.
+    /// A text that is, or nearly is, a number.
     pub(crate) fn numeral(&mut self, unit: f64) -> String {
         if self.one_in(3) { self.pick(&NUMERALS).to_owned() } else { format!("{:?}", self.number(unit)) }
     }
@@ -164,7 +165,7 @@ impl<'a> Draw<'a> {
         self.0.bytes(length).unwrap_or_default()
     }
 
-    /// All the bytes that are left.
+    /// All remaining bytes.
     pub(crate) fn rest(self) -> &'a [u8] {
         self.0.take_rest()
     }

@@ -1,4 +1,4 @@
-//! JSON texts that are nearly what an operation takes: known fields, odd values, some twice, some nested too deep.
+//! JSON texts that are almost valid: known fields, unusual values, duplicate fields, deep nesting.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::draw::Draw;
 
-/// Every field that some operation knows, and some that none does.
+/// Fields of all operations, and some unknown ones.
 const FIELDS: [&str; 38] = [
     "machine",
     "joints",
@@ -88,7 +88,7 @@ pub(crate) fn value(draw: &mut Draw<'_>, text: &mut String, depth: usize) {
     }
 }
 
-/// A good value with some of its parts replaced, left out or given twice.
+/// A valid value, of which some parts are replaced, omitted or duplicated.
 pub(crate) fn spoilt(draw: &mut Draw<'_>, good: &Value) -> String {
     let mut text = String::new();
     let one_in = draw.pick(&[4, 8, 16, 64, 255]);

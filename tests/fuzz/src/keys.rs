@@ -1,4 +1,4 @@
-//! Arbitrary text as a file of keys, read while the service serves.
+//! Arbitrary text as a key file, which the service reads again while it runs.
 
 use std::cell::RefCell;
 use std::fmt::Write;
@@ -16,18 +16,18 @@ use verne_service::{ServeConfig, Service};
 
 use crate::draw::Draw;
 
-/// A key, and its hash as a file has it.
+/// A key, and its hash in a key file.
 const KEY: &str = "verne_1219e10d7fff7b51f1e12f93a9234b31be3a0626921c1ad39841b8f97474f300";
 const HASH: &str = "08847a9e3b22d4872107d095e929530b2340e8acb935a0af49ad1b8379129880";
 
-/// Of nobody's key.
+/// The hash of an unknown key.
 const OTHER: &str = "00000000000000000000000000000000000000000000000000000000000000ff";
 
 thread_local! {
     static GUARDED: RefCell<Guarded> = RefCell::new(Guarded::new());
 }
 
-/// A service that asks for keys.
+/// A service that requires keys.
 struct Guarded {
     runtime: Runtime,
     service: Service,
@@ -56,7 +56,8 @@ impl Guarded {
         answer.status() != StatusCode::UNAUTHORIZED
     }
 
-    /// Whether the file was taken; if not, all stays as it was, and a key that stands in the file is not told.
+    /// Whether the service accepted the file; if not, nothing changes, and the error does not contain a key of the
+    /// file.
     fn read(&self, text: &[u8]) -> bool {
         fs::write(&self.path, text).unwrap();
         let before = self.lets_in();
@@ -90,7 +91,7 @@ pub(crate) fn keys(bytes: &[u8]) {
     });
 }
 
-/// Whether it is that of the key.
+/// Whether this is the hash of the key.
 fn entry(draw: &mut Draw<'_>, text: &mut String) -> bool {
     let own = draw.text();
     let name = draw.pick(&["ada", "bob-1", "c.d_e", "", "1a", &own]);

@@ -1,13 +1,16 @@
 //! Arbitrary bytes against every parser, and arbitrary numbers, finite or not, against the solver.
 //!
-//! A [`Target`] takes any bytes and panics where the code under test does, or where what it answers is not what is
-//! documented. `cargo test` gives each target the inputs of `corpus/` and a short campaign of a fixed seed; a longer one
-//! has `VERNE_FUZZ` inputs for each target, other ones for each `VERNE_FUZZ_SEED`, and takes no input for sound that keeps
-//! a target busy for more than a second:
+//! A [`Target`] takes any bytes. It panics if the code under test panics, or if an answer contradicts the
+//! documentation. `cargo test` runs each target on the inputs of `corpus/` and in a short campaign with a fixed seed. A
+//! longer campaign has `VERNE_FUZZ` inputs for each target, different ones for each `VERNE_FUZZ_SEED`, and fails if an
+//! input takes more than a second:
 //!
 //! ```sh
 //! VERNE_FUZZ=1000000 cargo test --release -p verne-fuzz solver -- --nocapture
 //! ```
+//!
+//! `corpus/` contains few inputs: each reaches code that the others do not, or once made a target panic. They were chosen
+//! greedily by the source coverage (`-C instrument-coverage`) of the product.
 
 #![allow(
     clippy::unwrap_used,
@@ -30,29 +33,29 @@ mod solver;
 mod store;
 mod workspaces;
 
-/// Something that takes any bytes.
+/// A part of the product that takes arbitrary bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
-    /// Its name, and that of its directory of the corpus.
+    /// The name of the target and of its directory in the corpus.
     pub name: &'static str,
-    /// Panics where something is wrong.
+    /// Runs the target on one input; panics if something is wrong.
     pub run: fn(&[u8]),
-    /// So many inputs are tried by `cargo test`.
-    pub few: u32,
+    /// The number of mutations that `cargo test` runs.
+    pub default_inputs: u32,
 }
 
-/// All of them.
+/// All targets.
 pub const TARGETS: [Target; 10] = [
-    Target { name: "body", run: requests::body, few: 500 },
-    Target { name: "headers", run: requests::headers, few: 500 },
-    Target { name: "keys", run: keys::keys, few: 200 },
-    Target { name: "machine", run: requests::machine, few: 500 },
-    Target { name: "mesh", run: mesh::mesh, few: 2_000 },
-    Target { name: "query", run: requests::query, few: 500 },
-    Target { name: "settings", run: settings::settings, few: 100 },
-    Target { name: "solver", run: solver::solver, few: 20_000 },
-    Target { name: "store", run: store::store, few: 200 },
-    Target { name: "workspaces", run: workspaces::workspaces, few: 50 },
+    Target { name: "body", run: requests::body, default_inputs: 500 },
+    Target { name: "headers", run: requests::headers, default_inputs: 500 },
+    Target { name: "keys", run: keys::keys, default_inputs: 200 },
+    Target { name: "machine", run: requests::machine, default_inputs: 500 },
+    Target { name: "mesh", run: mesh::mesh, default_inputs: 2_000 },
+    Target { name: "query", run: requests::query, default_inputs: 500 },
+    Target { name: "settings", run: settings::settings, default_inputs: 100 },
+    Target { name: "solver", run: solver::solver, default_inputs: 20_000 },
+    Target { name: "store", run: store::store, default_inputs: 200 },
+    Target { name: "workspaces", run: workspaces::workspaces, default_inputs: 50 },
 ];
 
 /// The target of a name.

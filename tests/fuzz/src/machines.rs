@@ -1,11 +1,11 @@
-//! Machines: the built-in one, its neighbours, and any numbers whatever.
+//! Machines: the built-in one, similar ones, and arbitrary numbers.
 
 use verne_solver::machine::{Geometry, Limits, Table};
 use verne_solver::{Machine, MachineData};
 
 use crate::draw::Draw;
 
-/// A machine, if the numbers that are drawn make one. The refusal must name a field.
+/// A machine, if the numbers are valid. Otherwise the error must name a field.
 pub(crate) fn machine(draw: &mut Draw<'_>) -> Option<Machine> {
     if draw.one_in(4) {
         return Some(Machine::verne());
@@ -20,7 +20,7 @@ pub(crate) fn machine(draw: &mut Draw<'_>) -> Option<Machine> {
     }
 }
 
-/// Numbers near the built-in machine's, at any scale, some of them replaced by any number.
+/// Numbers near those of the built-in machine, at any scale; some are replaced by arbitrary numbers.
 fn data(draw: &mut Draw<'_>) -> MachineData {
     let mut data = Machine::verne().data().clone();
     let scale = if draw.one_in(3) { draw.between(-6.0, 6.0).exp() } else { 1.0 };
@@ -78,7 +78,7 @@ fn small(limits: &mut Limits) -> [&mut f64; 8] {
     [slider_cone, platform_cone, serial_margin, parallel_margin, low, high, least, greatest]
 }
 
-/// The largest dimension that the equations hold, the measure of rounding.
+/// The largest dimension in the equations, for bounds of rounding errors.
 pub(crate) fn scale(machine: &Machine) -> f64 {
     let g = &machine.data().geometry;
     [g.L1, g.L2, g.L3, g.R1, g.r1, g.R2, g.r4, (g.D1 - g.d1).abs(), (g.D2 - g.d2).abs()]

@@ -6,7 +6,7 @@ use verne_mesh::{Mesh, Swatch, glb, json, packed, ply, stl};
 
 use crate::draw::Draw;
 
-/// Bytes to be unpacked, a packed mesh with some bytes changed, or a mesh of any numbers.
+/// Arbitrary bytes, a packed mesh with some bytes changed, or a mesh of arbitrary numbers.
 pub(crate) fn mesh(bytes: &[u8]) {
     let mut draw = Draw::new(bytes);
     match draw.below(4) {
@@ -24,7 +24,7 @@ pub(crate) fn mesh(bytes: &[u8]) {
     }
 }
 
-/// A mesh, if what is drawn is one.
+/// A mesh, if the numbers are valid.
 fn drawn(draw: &mut Draw<'_>) -> Option<Mesh> {
     let vertices = draw.below(12);
     let unit = draw.pick(&[1.0, 1000.0, 1e7, 1e-30, 1e300]);
@@ -36,7 +36,7 @@ fn drawn(draw: &mut Draw<'_>) -> Option<Mesh> {
     let tags = (0..count).map(|_| u8::try_from(draw.below(colours.max(1))).unwrap()).collect();
     let palette =
         (0..colours).map(|_| Swatch { name: draw.text(), rgb: [0; 3].map(|_| draw.byte()) }).collect();
-    // Vertices that nothing uses are refused: two meshes in three would be.
+    // Removes unused vertices: two meshes in three would be refused because of them.
     let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
     used.sort_unstable();
     used.dedup();

@@ -10,7 +10,7 @@ use crate::client::{Client, post, with_client};
 use crate::draw::Draw;
 use crate::json::{spoilt, text};
 
-/// Operations that read a query, with its parameters. `{}` is the place of an id.
+/// Operations with a query, and its parameters. `{}` stands for an id.
 const QUERIES: [(&str, &[&str]); 14] = [
     ("/fk", &["rho", "machine", "theta1", "theta2", "tool_length", "solutions", "near_joints", "near_pose"]),
     (
@@ -44,7 +44,7 @@ const QUERIES: [(&str, &[&str]); 14] = [
     ("/{}", &["x"]),
 ];
 
-/// Operations that read a body, with one that is good.
+/// Operations with a body, and a valid body.
 static BODIES: LazyLock<[(&str, Value); 7]> = LazyLock::new(|| {
     let near = json!({"rho": [600, 600, 300]});
     [
@@ -91,7 +91,7 @@ pub(crate) fn query(bytes: &[u8]) {
     with_client(|client| {
         let path = path.replace("{}", &id(&mut draw, client));
         let query = if draw.one_in(4) { raw(draw) } else { pairs(&mut draw, parameters) };
-        // What is no URI does not arrive.
+        // An invalid URI cannot be sent.
         if let Ok(uri) = format!("{path}?{query}").parse::<Uri>() {
             client.ask(Request::get(uri).body(Body::empty()).unwrap());
         }
@@ -106,7 +106,7 @@ fn id(draw: &mut Draw<'_>, client: &Client) -> String {
     }
 }
 
-/// The rest, with what may stand in no URI in percent encoding.
+/// The remaining bytes, percent-encoded where a URI needs it.
 fn raw(draw: Draw<'_>) -> String {
     let visible = |byte: &u8| {
         if (0x21..0x7f).contains(byte) { char::from(*byte).to_string() } else { format!("%{byte:02X}") }
@@ -118,7 +118,7 @@ fn encoded(text: &str) -> String {
     form_urlencoded::byte_serialize(text.as_bytes()).collect()
 }
 
-/// Each parameter once as a rule, with anything for a value.
+/// Parameters, usually each once, with arbitrary values.
 fn pairs(draw: &mut Draw<'_>, parameters: &[&str]) -> String {
     let mut query = form_urlencoded::Serializer::new(String::new());
     for name in parameters {
@@ -154,7 +154,7 @@ pub(crate) fn body(bytes: &[u8]) {
     with_client(|client| client.ask(post(path, body)));
 }
 
-/// The built-in machine, as the service shows it.
+/// The built-in machine as JSON.
 static MACHINE: LazyLock<Value> = LazyLock::new(|| {
     let request = Request::get("/machines/verne").body(Body::empty()).unwrap();
     let shown: Value = with_client(|client| serde_json::from_slice(&client.ask(request).bytes).unwrap());
@@ -184,7 +184,7 @@ pub(crate) fn machine(bytes: &[u8]) {
     with_client(|client| client.ask(post(path, format!("{{\"machine\":{machine},{question}}}"))));
 }
 
-/// Headers that are read.
+/// Headers that the service reads.
 const HEADERS: [&str; 12] = [
     "range",
     "if-range",
@@ -200,7 +200,7 @@ const HEADERS: [&str; 12] = [
     "x-request-id",
 ];
 
-/// Values near those that headers have.
+/// Values that are almost valid.
 const VALUES: [&str; 32] = [
     "bytes=0-99",
     "bytes=5-",
@@ -236,7 +236,7 @@ const VALUES: [&str; 32] = [
     ",,;;==",
 ];
 
-/// Arbitrary headers to results that are kept.
+/// Arbitrary headers in requests for stored results.
 pub(crate) fn headers(bytes: &[u8]) {
     let mut draw = Draw::new(bytes);
     with_client(|client| {
@@ -256,7 +256,7 @@ pub(crate) fn headers(bytes: &[u8]) {
                 value.extend([b", "[draw.below(2)]]);
                 value.extend(draw.some_bytes());
             }
-            // What is no header does not arrive.
+            // An invalid header cannot be sent.
             if let Ok(value) = HeaderValue::from_bytes(&value) {
                 request.headers_mut().append(name, value);
             }

@@ -1,5 +1,5 @@
-//! Any numbers to every question about one posture or point: no NaN, nothing infinite, and only postures that satisfy
-//! the equations.
+//! Arbitrary numbers in every function of one posture or point: all answers are finite, and all postures satisfy the
+//! equations.
 
 use std::f64::consts::PI;
 
@@ -14,7 +14,7 @@ use verne_solver::{
 use crate::draw::Draw;
 use crate::machines::{machine, scale};
 
-/// Questions about one posture or point.
+/// Functions of one posture or point.
 pub(crate) fn solver(bytes: &[u8]) {
     let mut draw = Draw::new(bytes);
     let Some(machine) = machine(&mut draw) else { return };
@@ -46,7 +46,7 @@ fn is_in_domain(numbers: &[f64]) -> bool {
     numbers.iter().all(|n| n.abs() <= MAX_INPUT)
 }
 
-/// An answer as the solver's documentation promises it.
+/// Checks what the solver's documentation promises.
 fn check(machine: &Machine, question: &[f64], answer: &Result<Vec<Posture>, KinematicsError>) {
     let inside = is_in_domain(question);
     let sound = match answer {
@@ -65,7 +65,7 @@ fn check(machine: &Machine, question: &[f64], answer: &Result<Vec<Posture>, Kine
     }
 }
 
-/// Eqs (3)-(6), written out anew.
+/// Eqs (3)-(6), written out independently of the solver.
 fn residual(machine: &Machine, posture: &Posture) -> f64 {
     let g = &machine.data().geometry;
     let (p, [rho1, rho2, rho3]) = (posture.pose, posture.rho);
@@ -169,7 +169,7 @@ fn membership(machine: &Machine, draw: &mut Draw<'_>, point: [f64; 3], numbers: 
     }
 }
 
-/// A clearance over the table, perhaps, and the radius of a tool.
+/// An optional table clearance, and a tool radius.
 pub(crate) fn clearance(machine: &Machine, draw: &mut Draw<'_>) -> (Option<f64>, f64) {
     let unit = 0.2 * scale(machine);
     (draw.one_in(2).then(|| draw.number(unit)), draw.number(unit))

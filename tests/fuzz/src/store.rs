@@ -1,5 +1,5 @@
-//! Arbitrary bytes, and spoilt objects, where a store looks for the object of a key: never served unless they are the
-//! very bytes that were written.
+//! Arbitrary bytes and damaged objects in place of the object of a key: the store serves only the bytes that were
+//! written.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -17,25 +17,26 @@ thread_local! {
     static RUNTIME: RefCell<Runtime> = RefCell::new(tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap());
 }
 
-/// Bytes of memory: none, so that each question goes below.
-const NOTHING: u64 = 0;
+/// Bytes of the memory cache: none, so that each request reads the object.
+const NO_MEMORY: u64 = 0;
 
-/// Something lies where an object is looked for.
+/// Reads arbitrary bytes as an object.
 pub(crate) fn store(bytes: &[u8]) {
-    RUNTIME.with_borrow(|runtime| runtime.block_on(ask(Draw::new(bytes))));
+    RUNTIME.with_borrow(|runtime| runtime.block_on(read(Draw::new(bytes))));
 }
 
-async fn ask(mut draw: Draw<'_>) {
+async fn read(mut draw: Draw<'_>) {
     let key = Key::from([draw.below(3).try_into().unwrap(); 32]);
     let digits = key.to_string();
     let place = Path::from_iter([&digits[..2], &digits[2..]]);
     let content = Bytes::from(vec![draw.byte(); draw.pick(&[0, 1, 100, 1000])]);
-    let good = object(key, &content, &place).await;
-    let lying = if draw.one_in(4) { draw.rest().to_vec() } else { spoilt(&mut draw, &good) };
+    let intact = object(key, &content, &place).await;
+    let stored = if draw.one_in(4) { draw.rest().to_vec() } else { damaged(&mut draw, &intact) };
     let objects = Arc::new(InMemory::new());
-    objects.put(&place, lying.clone().into()).await.unwrap();
-    let store = Store::open_shared_over(Arc::clone(&objects) as Arc<dyn ObjectStore>, NOTHING).await.unwrap();
-    let same = lying == good;
+    objects.put(&place, stored.clone().into()).await.unwrap();
+    let store =
+        Store::open_shared_over(Arc::clone(&objects) as Arc<dyn ObjectStore>, NO_MEMORY).await.unwrap();
+    let same = stored == intact;
     let found = store.get(&key).await.map(|content| content.bytes);
     assert_eq!(found, same.then_some(content));
     assert!(
@@ -47,21 +48,22 @@ async fn ask(mut draw: Draw<'_>) {
 /// The object of a content, as the store writes it.
 async fn object(key: Key, content: &Bytes, place: &Path) -> Vec<u8> {
     let objects = Arc::new(InMemory::new());
-    let store = Store::open_shared_over(Arc::clone(&objects) as Arc<dyn ObjectStore>, NOTHING).await.unwrap();
+    let store =
+        Store::open_shared_over(Arc::clone(&objects) as Arc<dyn ObjectStore>, NO_MEMORY).await.unwrap();
     store.put(&key, content.clone()).await;
     objects.get(place).await.unwrap().bytes().await.unwrap().to_vec()
 }
 
-/// An object with some bytes changed, cut off or added.
-fn spoilt(draw: &mut Draw<'_>, good: &[u8]) -> Vec<u8> {
-    let mut object = good.to_vec();
+/// An object with some bytes changed, removed or added.
+fn damaged(draw: &mut Draw<'_>, intact: &[u8]) -> Vec<u8> {
+    let mut object = intact.to_vec();
     for _ in 0..draw.below(4) {
         let at = (draw.below(256) * 256 + draw.below(256)) % object.len().max(1);
         match draw.below(6) {
             0..3 if at < object.len() => object[at] ^= draw.byte(),
             3 => object.truncate(at),
             4 => object.extend(draw.some_bytes()),
-            // The length that it states.
+            // The stated length.
             _ if object.len() > 20 => {
                 object[12..20].copy_from_slice(&draw.number(1e9).to_bits().to_le_bytes());
             }

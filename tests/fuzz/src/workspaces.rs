@@ -1,4 +1,4 @@
-//! Coarse workspaces, slices and dexterity maps of any machine.
+//! Coarse workspaces, slices and dexterity maps of arbitrary machines.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -10,7 +10,7 @@ use crate::draw::Draw;
 use crate::machines::{machine, scale};
 use crate::solver::clearance;
 
-/// So many looks at the observer are what one computation may take: then it is told to stop, as a job is.
+/// After so many calls of the observer a computation is cancelled, as a job would be.
 const LOOKS: u32 = 2_000;
 
 struct Impatient(AtomicU32);

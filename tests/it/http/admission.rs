@@ -1,4 +1,4 @@
-//! What is refused when too much is worked on, and what is answered all the same.
+//! Limits of concurrent requests, batches and memory.
 
 use std::convert::Infallible;
 
@@ -59,7 +59,7 @@ fn assert_overloaded(reply: &Reply) {
 }
 
 #[tokio::test]
-async fn batches_count_until_they_are_sent_and_leave_places_for_questions() {
+async fn batches_count_until_they_are_sent_and_leave_room_for_single_requests() {
     let service = at_most(8).await;
     let batch = json!({"joints": [[674, 685, 250]]});
     let more = || send_to(service.clone(), json_request(Method::POST, "/fk/batch", &batch));
@@ -76,7 +76,7 @@ async fn batches_count_until_they_are_sent_and_leave_places_for_questions() {
     for uri in [FK, "/jobs"] {
         assert_eq!(get_from(&service, uri, &[]).await.status, StatusCode::OK, "{uri}");
     }
-    // What is handed over to the connection is not sent yet.
+    // An answer that the connection has taken is not sent yet.
     let handed_over = held.pop().unwrap().frame().await.unwrap().unwrap();
     assert_overloaded(&more().await);
     drop(handed_over);
@@ -84,7 +84,7 @@ async fn batches_count_until_they_are_sent_and_leave_places_for_questions() {
 }
 
 #[tokio::test]
-async fn bodies_that_do_not_come_are_not_in_the_way_of_batches() {
+async fn stalled_bodies_do_not_count_as_batches() {
     let service = at_most(16).await;
     let batch = json!({"joints": [[674, 685, 250]]});
     let mut held = Vec::new();
@@ -99,13 +99,13 @@ async fn bodies_that_do_not_come_are_not_in_the_way_of_batches() {
 }
 
 #[tokio::test]
-async fn what_is_beyond_the_limit_is_refused_at_once() {
+async fn requests_above_the_limit_are_refused_at_once() {
     let service = at_most(4).await;
     let mut held = Vec::new();
     for _ in 0..3 {
         held.push(Held::post(&service, "/workspace", &json!({"tolerance": 50})).await);
     }
-    // The last place is kept for single questions.
+    // The last place is reserved for single requests.
     for uri in ["/jobs", "/openapi.json", "/docs/", "/"] {
         assert_overloaded(&get_from(&service, uri, &[]).await);
     }
@@ -122,7 +122,7 @@ async fn what_is_beyond_the_limit_is_refused_at_once() {
 }
 
 #[tokio::test]
-async fn who_waits_for_a_job_is_not_in_the_way() {
+async fn waiting_for_a_job_does_not_count() {
     let service = opened(&ServeConfig { max_requests: 4, ..one_core() }).await;
     for number in 0..8 {
         let service = service.clone();
@@ -144,7 +144,7 @@ async fn who_waits_for_a_job_is_not_in_the_way() {
 }
 
 #[tokio::test]
-async fn what_is_taken_is_told() {
+async fn metrics_report_the_requests_in_progress() {
     let service = at_most(8).await;
     let told = async |names: [&str; 5]| {
         let mut values = Vec::new();
@@ -177,7 +177,7 @@ async fn what_is_taken_is_told() {
 }
 
 #[tokio::test]
-async fn ten_thousand_follow_a_job() {
+async fn ten_thousand_clients_follow_one_job() {
     let service = opened(&one_core()).await;
     let id = start(&service, &long(0)).await;
     let follow = || {

@@ -1,4 +1,4 @@
-//! Bad input of every kind: a problem document that names the field, never a panic.
+//! Invalid input of every kind: the answer is a problem document that names the field.
 
 use axum::body::Body;
 use axum::http::{Method, Request, header};
@@ -11,7 +11,7 @@ fn reference_machine() -> Value {
 }
 
 #[tokio::test]
-async fn query_parameters_are_named() {
+async fn a_problem_names_the_query_parameter() {
     for (query, pointer) in [
         ("", "/query/rho"),
         ("rho=1,2", "/query/rho"),
@@ -41,7 +41,7 @@ async fn query_parameters_are_named() {
 }
 
 #[tokio::test]
-async fn body_fields_are_pointed_at() {
+async fn a_problem_points_to_the_body_field() {
     for (body, pointer) in [
         (r"{}", "/joints"),
         (r#"{"joints": {}}"#, "/joints/rho"),
@@ -71,7 +71,7 @@ async fn body_fields_are_pointed_at() {
 }
 
 #[tokio::test]
-async fn every_bad_field_is_listed_at_once() {
+async fn a_problem_lists_every_invalid_field() {
     let body = json!({"frame": "tool", "pose": {"x": 1e9, "y": -1e9, "z": 0, "phi1": 1}, "tool_length": -1});
     let reply = post("/ik", body).await;
     reply.assert_problem(422, "invalid_request");
@@ -81,7 +81,7 @@ async fn every_bad_field_is_listed_at_once() {
 }
 
 #[tokio::test]
-async fn numbers_that_make_no_machine_are_pointed_at() {
+async fn a_problem_points_to_the_invalid_numbers_of_a_machine() {
     let good = reference_machine();
     for (pointer, value) in [
         ("/limits/stroke/0", json!([750, 0])),
@@ -106,7 +106,7 @@ async fn numbers_that_make_no_machine_are_pointed_at() {
 }
 
 #[tokio::test]
-async fn what_is_not_json_is_400() {
+async fn a_body_that_is_not_json_is_400() {
     for body in ["", "{", "{\"joints\": }", "rho=1,2,3", "{\"joints\": {\"rho\": [1, 2, 3]}} x"] {
         post("/fk", body).await.assert_problem(400, "bad_json");
     }
@@ -116,7 +116,7 @@ async fn what_is_not_json_is_400() {
 }
 
 #[tokio::test]
-async fn bodies_are_declared_as_json() {
+async fn a_body_without_a_json_content_type_is_415() {
     let body = r#"{"joints": {"rho": [674, 685, 250]}}"#;
     for path in ["/fk", "/ik", "/fk/batch", "/ik/batch"] {
         let undeclared = Request::post(path).body(Body::from(body)).unwrap();
@@ -135,7 +135,7 @@ async fn bodies_are_declared_as_json() {
 }
 
 #[tokio::test]
-async fn paths_and_methods_that_are_not_there() {
+async fn unknown_paths_are_404_and_unknown_methods_405() {
     get("/nowhere").await.assert_problem(404, "not_found");
     get("/fk/").await.assert_problem(404, "not_found");
     get("/machines/nautilus").await.assert_problem(404, "machine_not_found");
@@ -153,7 +153,7 @@ async fn paths_and_methods_that_are_not_there() {
 }
 
 #[tokio::test]
-async fn a_single_question_has_a_small_body() {
+async fn the_body_limit_of_a_single_request_is_small() {
     let reply = post("/fk", " ".repeat(65_537)).await;
     reply.assert_problem(413, "body_too_large");
     assert!(reply.json["detail"].as_str().unwrap().contains("65536"));

@@ -1,4 +1,4 @@
-//! Batches: order, isolation of bad rows, limits.
+//! Batches: order, isolation of invalid rows, limits.
 
 use axum::http::StatusCode;
 use serde_json::{Value, json};
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::{get, post};
 
 #[tokio::test]
-async fn rows_are_answered_in_order_as_single_questions_are() {
+async fn rows_are_answered_in_order_like_single_requests() {
     let poses: Vec<_> =
         (0..500).map(|i| [f64::from(i) - 250.0, 100.0 - f64::from(i % 200), 1100.0]).collect();
     let reply = post("/ik/batch", json!({"frame": "platform", "poses": poses})).await;
@@ -40,7 +40,7 @@ const ROWS: [(&str, &str); 13] = [
 ];
 
 #[tokio::test]
-async fn a_bad_row_spoils_no_other() {
+async fn an_invalid_row_does_not_affect_the_others() {
     let rows: Vec<_> = ROWS.iter().map(|(row, _)| *row).collect();
     let body = format!("{{\"tool_length\": 50, \"poses\": [{}]}}", rows.join(", "));
     let reply = post("/ik/batch", body).await;
@@ -58,7 +58,7 @@ async fn a_bad_row_spoils_no_other() {
 }
 
 #[tokio::test]
-async fn an_infeasible_row_says_against_which_limit_and_by_how_much() {
+async fn an_infeasible_row_names_the_constraint_and_the_margin() {
     let reply = post("/ik/batch", json!({"frame": "platform", "poses": [[0, 0, 700], [0, 0, 1200]]})).await;
     assert_eq!(reply.json["status"], json!(["infeasible", "ok"]));
     assert!(reply.json["joints"][0].is_array(), "joints that break a limit are answered");
@@ -70,7 +70,7 @@ async fn an_infeasible_row_says_against_which_limit_and_by_how_much() {
 }
 
 #[tokio::test]
-async fn forward_rows_have_a_part_where_they_have_a_table() {
+async fn forward_rows_with_table_angles_have_a_part_pose() {
     let joints = json!([[674, 685, 250], [674, 685, 250, 10, 20], [674, 685], [0, 0, 9000]]);
     let reply = post("/fk/batch", json!({"joints": joints, "tool_length": 50})).await;
     assert_eq!(reply.json["status"][2], "invalid");
@@ -84,7 +84,7 @@ async fn forward_rows_have_a_part_where_they_have_a_table() {
 }
 
 #[tokio::test]
-async fn a_bad_forward_row_spoils_no_other() {
+async fn an_invalid_forward_row_does_not_affect_the_others() {
     let good = "[674, 685, 250]";
     let bad = [
         "null",
@@ -119,7 +119,7 @@ async fn a_batch_that_is_too_long_is_refused_with_the_limit() {
 }
 
 #[tokio::test]
-async fn what_all_rows_share_is_checked_as_elsewhere() {
+async fn shared_fields_of_a_batch_are_checked() {
     post("/ik/batch", "{\"poses\": 3}").await.assert_bad_field("/poses");
     post("/ik/batch", "{}").await.assert_bad_field("/poses");
     post("/ik/batch", "{\"poses\": [], \"tool_length\": -1}").await.assert_bad_field("/tool_length");

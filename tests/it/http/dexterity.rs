@@ -1,4 +1,4 @@
-//! `/workspace/dexterity`: figures, points against membership, meshes, bad questions.
+//! `/workspace/dexterity`: figures, points against membership, meshes, invalid requests.
 
 use std::num::NonZeroUsize;
 
@@ -29,7 +29,7 @@ fn point(grid: &Value, [i, j, k]: [u64; 3]) -> [f64; 3] {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn points_agree_with_membership() {
+async fn dexterity_agrees_with_membership() {
     let service = service().await;
     let summary = map(&service, coarse()).await.json;
     let cells = get_from(&service, summary["links"]["cells"].as_str().unwrap(), &[]).await.json;
@@ -61,7 +61,7 @@ async fn points_agree_with_membership() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn one_inclination_is_the_part_workspace() {
+async fn a_map_of_one_inclination_is_the_part_workspace() {
     let service = service().await;
     let one = json!({"tool_length": 50, "phi1": {"from": 0, "to": 0}, "cell": 200});
     let figures = map(&service, one).await.json;
@@ -74,7 +74,7 @@ async fn one_inclination_is_the_part_workspace() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn each_set_has_a_mesh_and_the_same_bytes_however_many_threads() {
+async fn each_set_has_a_mesh_with_the_same_bytes_for_any_number_of_threads() {
     let mut bytes = Vec::new();
     for threads in [1, 3] {
         let threads = NonZeroUsize::new(threads);
@@ -98,7 +98,7 @@ async fn each_set_has_a_mesh_and_the_same_bytes_however_many_threads() {
 }
 
 #[tokio::test]
-async fn a_workspace_has_no_points_and_one_mesh() {
+async fn a_workspace_has_one_mesh_and_no_points() {
     let service = service().await;
     let summary = ask(&service, json!({"tolerance": 20})).await.json;
     let itself = summary["links"]["self"].as_str().unwrap();
@@ -107,7 +107,7 @@ async fn a_workspace_has_no_points_and_one_mesh() {
 }
 
 #[tokio::test]
-async fn bad_questions_name_the_field() {
+async fn a_problem_names_the_field() {
     for (body, pointer) in [
         (json!({}), "/phi1"),
         (json!({"phi1": {"from": 0}}), "/phi1/to"),

@@ -1,4 +1,4 @@
-//! Jobs: how they are asked for, waited for and followed, and that equal questions are one job.
+//! Jobs: requesting, waiting and following; equal requests are one job.
 
 use std::num::NonZeroUsize;
 
@@ -16,7 +16,8 @@ use super::{Reply, config, get_from, json_request, opened, send_to, service};
 
 const PREFER: HeaderName = HeaderName::from_static("prefer");
 
-/// Settings with one core for jobs, of which a second long one waits for the first, and with patience for a busy machine.
+/// Settings with one core for jobs, of which a second long one waits for the first, and with patience for a busy
+/// machine.
 pub(super) fn one_core() -> ServeConfig {
     ServeConfig { job_threads: Some(NonZeroUsize::MIN), wait: 500, timeout: 600, ..config(None) }
 }
@@ -115,7 +116,7 @@ pub(super) async fn listed(service: &Router, state: &str) -> String {
 }
 
 #[tokio::test]
-async fn a_job_is_followed_to_its_result() {
+async fn a_client_follows_a_job_to_its_result() {
     let service = service().await;
     let question = json!({"kind": "part", "tool_length": [50, 60], "tolerance": 1});
     let accepted = send_to(service.clone(), preferring("respond-async", &question)).await;
@@ -150,7 +151,7 @@ async fn a_job_is_followed_to_its_result() {
 }
 
 #[tokio::test]
-async fn a_mesh_is_a_job_too() {
+async fn a_mesh_request_can_become_a_job() {
     let service = service().await;
     let question = json!({"kind": "part", "tool_length": 50, "tolerance": 5});
     let mut request = preferring("respond-async", &question);
@@ -165,7 +166,7 @@ async fn a_mesh_is_a_job_too() {
 }
 
 #[tokio::test]
-async fn the_wait_is_the_clients_within_the_services_limit() {
+async fn the_client_chooses_the_wait_within_the_limit() {
     let service = opened(&ServeConfig { timeout: 2, wait: 0, ..config(None) }).await;
     for (preference, question, status, applied) in [
         ("wait=100", long(0), StatusCode::ACCEPTED, "wait=1"),
@@ -185,7 +186,7 @@ async fn the_wait_is_the_clients_within_the_services_limit() {
 }
 
 #[tokio::test]
-async fn a_thousand_equal_questions_at_once_are_computed_once() {
+async fn a_thousand_equal_requests_are_computed_once() {
     let service = opened(&one_core()).await;
     let question = || json_request(Method::POST, "/workspace", json!({"kind": "part", "tolerance": 0.1}));
     let asking: Vec<_> = (0..1000).map(|_| tokio::spawn(send_to(service.clone(), question()))).collect();
@@ -198,7 +199,7 @@ async fn a_thousand_equal_questions_at_once_are_computed_once() {
 }
 
 #[tokio::test]
-async fn the_seats_of_one_process_are_told() {
+async fn the_metrics_report_the_job_slots() {
     let service = opened(&one_core()).await;
     assert_eq!(metric(&service, "verne_worker_seats").await, 3);
     assert_eq!(metric(&service, "verne_worker_seats_busy").await, 0);

@@ -1,4 +1,4 @@
-//! Jobs that nobody wants any more, and jobs that somebody cancels.
+//! Cancellation of jobs, by request and by disconnection.
 
 use axum::Router;
 use axum::http::StatusCode;
@@ -20,7 +20,7 @@ async fn end(service: &Router, id: &str) -> Value {
 }
 
 #[tokio::test]
-async fn a_job_ends_with_the_last_client_that_waits() {
+async fn a_job_is_cancelled_when_its_last_client_disconnects() {
     let service = opened(&one_core()).await;
     let client = waiting(&service, long(0));
     let id = listed(&service, "running").await;
@@ -30,7 +30,7 @@ async fn a_job_ends_with_the_last_client_that_waits() {
 }
 
 #[tokio::test]
-async fn a_job_goes_on_for_another_client() {
+async fn a_job_continues_while_another_client_waits() {
     let service = opened(&one_core()).await;
     let before = start(&service, &long(0)).await;
     let leaving = waiting(&service, table());
@@ -49,7 +49,7 @@ async fn a_job_goes_on_for_another_client() {
 }
 
 #[tokio::test]
-async fn a_job_goes_on_that_somebody_was_promised() {
+async fn a_job_continues_after_a_202() {
     let service = opened(&one_core()).await;
     let before = start(&service, &long(0)).await;
     let client = waiting(&service, table());
@@ -63,7 +63,7 @@ async fn a_job_goes_on_that_somebody_was_promised() {
 }
 
 #[tokio::test]
-async fn a_running_job_is_cancelled() {
+async fn delete_cancels_a_running_job() {
     let service = opened(&one_core()).await;
     let client = waiting(&service, long(0));
     let id = listed(&service, "running").await;
@@ -90,7 +90,7 @@ async fn a_running_job_is_cancelled() {
 }
 
 #[tokio::test]
-async fn a_queued_job_is_cancelled() {
+async fn delete_cancels_a_queued_job() {
     let service = opened(&one_core()).await;
     let before = start(&service, &long(0)).await;
     let client = waiting(&service, long(100));
@@ -104,7 +104,7 @@ async fn a_queued_job_is_cancelled() {
 }
 
 #[tokio::test]
-async fn a_finished_job_stays_as_it_is() {
+async fn delete_does_not_change_a_finished_job() {
     let service = service().await;
     let id = ask(&service, small(50)).await.json["id"].as_str().unwrap().to_owned();
     let finished = events(&service, &id).await.pop().unwrap();

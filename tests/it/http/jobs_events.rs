@@ -1,4 +1,4 @@
-//! Events as a browser's EventSource takes them: it connects again after every end but a 204.
+//! Events as a browser's EventSource reads them: it reconnects after every end except a 204.
 
 use axum::Router;
 use axum::http::{HeaderName, StatusCode};
@@ -36,7 +36,7 @@ async fn again(service: &Router, id: &str, last: &str) -> StatusCode {
 }
 
 #[tokio::test]
-async fn an_end_is_told_and_its_id_ends_the_reconnecting() {
+async fn the_last_event_ends_reconnection() {
     let service = service().await;
     let id = start(&service, &small(50)).await;
     let events = events(&service, &id).await;
@@ -56,7 +56,7 @@ async fn an_end_is_told_and_its_id_ends_the_reconnecting() {
 }
 
 #[tokio::test]
-async fn a_job_that_starts_again_is_told_of_to_who_knows_its_first_end() {
+async fn a_restarted_job_sends_events_to_clients_that_saw_its_first_end() {
     let service = opened(&one_core()).await;
     let id = start(&service, &long(0)).await;
     cancel(&service, &id).await;

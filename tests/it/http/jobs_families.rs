@@ -1,4 +1,4 @@
-//! POST /workspace with lists: tables of workspaces.
+//! POST /workspace with lists: families of workspaces.
 
 use axum::Router;
 use axum::http::StatusCode;
@@ -20,7 +20,7 @@ async fn table(service: &Router, question: Value) -> Value {
 }
 
 #[tokio::test]
-async fn every_combination_phi2_running_fastest() {
+async fn members_are_ordered_with_phi2_fastest() {
     let service = service().await;
     let steps = json!({"from": 10, "to": 30, "step": 10});
     let question =
@@ -42,7 +42,7 @@ async fn every_combination_phi2_running_fastest() {
 }
 
 #[tokio::test]
-async fn every_member_is_kept_by_itself() {
+async fn every_member_is_stored_as_its_own_result() {
     let service = service().await;
     let found = table(&service, json!({"kind": "tool", "tool_length": [50, 150], "tolerance": 20})).await;
     let started = metric(&service, "verne_jobs_started_total").await;
@@ -62,7 +62,7 @@ async fn every_member_is_kept_by_itself() {
 }
 
 #[tokio::test]
-async fn a_member_that_was_asked_for_before_is_in_the_table() {
+async fn an_earlier_result_is_reused_as_a_member() {
     let service = opened(&one_core()).await;
     let alone = ask(&service, json!({"kind": "tool", "tool_length": 50, "tolerance": 20})).await.json;
     let found = table(&service, json!({"kind": "tool", "tool_length": [50], "tolerance": 20})).await;
@@ -71,7 +71,7 @@ async fn a_member_that_was_asked_for_before_is_in_the_table() {
 }
 
 #[tokio::test]
-async fn tables_that_show_other_lists_have_other_ids() {
+async fn families_of_different_lists_have_different_ids() {
     let service = service().await;
     for [one, other] in [
         [json!({"kind": "platform", "tool_length": [50]}), json!({"kind": "platform", "tool_length": [60]})],
@@ -92,7 +92,7 @@ async fn tables_that_show_other_lists_have_other_ids() {
 }
 
 #[tokio::test]
-async fn bad_families_name_the_field() {
+async fn a_problem_names_the_field_of_a_family() {
     for (body, pointer) in [
         (json!({"kind": "part", "tool_length": [50, -1]}), "/tool_length"),
         (json!({"kind": "part", "tool_length": [50, "long"]}), "/tool_length/1"),
@@ -115,7 +115,7 @@ async fn bad_families_name_the_field() {
 }
 
 #[tokio::test]
-async fn at_most_a_thousand_members() {
+async fn a_family_has_at_most_a_thousand_members() {
     let steps = |to: u32| json!({"from": 1, "to": to, "step": 1});
     for (body, pointer) in [
         (json!({"kind": "part", "tool_length": steps(1001)}), "/tool_length"),
@@ -127,7 +127,7 @@ async fn at_most_a_thousand_members() {
 }
 
 #[tokio::test]
-async fn a_table_has_neither_mesh_nor_slice() {
+async fn a_family_has_neither_mesh_nor_slice() {
     let service = service().await;
     let question = json!({"kind": "tool", "tool_length": [50, 60], "tolerance": 100});
     let request = json_request(axum::http::Method::POST, "/workspace?format=glb", question.clone());

@@ -1,4 +1,4 @@
-//! GET /jobs: pages, states, and what is no job.
+//! GET /jobs: pages and states.
 
 use axum::Router;
 use axum::body::Body;
@@ -18,7 +18,7 @@ async fn page(service: &Router, query: &str) -> (Vec<String>, Option<String>) {
 }
 
 #[tokio::test]
-async fn pages_hold_every_job_once_newest_first() {
+async fn pages_list_every_job_once_newest_first() {
     let service = service().await;
     assert_eq!(page(&service, "").await, (vec![], None));
     let mut asked = Vec::new();
@@ -35,7 +35,7 @@ async fn pages_hold_every_job_once_newest_first() {
 }
 
 #[tokio::test]
-async fn a_state_is_picked_out() {
+async fn jobs_can_be_filtered_by_state() {
     let service = opened(&one_core()).await;
     let succeeded = ask(&service, small(50)).await.json["id"].as_str().unwrap().to_owned();
     let running = start(&service, &long(0)).await;
@@ -51,7 +51,7 @@ async fn a_state_is_picked_out() {
 }
 
 #[tokio::test]
-async fn a_listed_job_is_the_job() {
+async fn a_listed_job_equals_the_job() {
     let service = service().await;
     let id = ask(&service, small(50)).await.json["id"].as_str().unwrap().to_owned();
     let last = super::jobs::events(&service, &id).await.pop().unwrap();
@@ -60,7 +60,7 @@ async fn a_listed_job_is_the_job() {
 }
 
 #[tokio::test]
-async fn bad_pages_name_the_parameter() {
+async fn a_problem_names_the_parameter_of_a_page() {
     for (query, pointer) in [
         ("limit=0", "/query/limit"),
         ("limit=101", "/query/limit"),
@@ -76,7 +76,7 @@ async fn bad_pages_name_the_parameter() {
 }
 
 #[tokio::test]
-async fn what_is_no_job_is_not_found() {
+async fn an_unknown_job_is_404() {
     for id in
         ["0".repeat(64), "0".repeat(63), "A".repeat(64), "g".repeat(64), "%FF".to_owned(), "x%2Fy".to_owned()]
     {

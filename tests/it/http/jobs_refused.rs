@@ -1,4 +1,4 @@
-//! Jobs that are not taken, jobs that take too long, and data directories that hold none.
+//! Refused jobs, the time limit of jobs, and unusable data directories.
 
 use axum::http::header::RETRY_AFTER;
 use serde_json::json;
@@ -10,7 +10,7 @@ use super::workspace::ask;
 use super::{config, opened, send_to};
 
 #[tokio::test]
-async fn a_full_queue_says_when_to_come_back() {
+async fn a_full_queue_answers_with_retry_after() {
     let service = opened(&ServeConfig { queue: 1, ..one_core() }).await;
     let running = start(&service, &long(0)).await;
     // Now its parts are in the queue.
@@ -23,7 +23,7 @@ async fn a_full_queue_says_when_to_come_back() {
 }
 
 #[tokio::test]
-async fn a_job_that_takes_too_long_is_given_up() {
+async fn a_job_that_exceeds_the_time_limit_fails() {
     let service = opened(&ServeConfig { job_limit: 0, ..one_core() }).await;
     ask(&service, long(0)).await.assert_problem(503, "job_too_long");
     let accepted = send_to(service.clone(), preferring("respond-async", &long(100))).await.json;
@@ -39,19 +39,19 @@ async fn refusal(config: &ServeConfig) -> String {
 }
 
 #[tokio::test]
-async fn a_data_directory_that_cannot_be_one_is_named() {
+async fn an_unusable_data_directory_is_named() {
     let place = TempDir::new().unwrap();
     let file = place.path().join("file");
     std::fs::write(&file, "not a directory").unwrap();
     let config = ServeConfig { data: Some(file.clone()), memory_only: false, ..config(None) };
     let refusal = refusal(&config).await;
     assert!(refusal.contains(file.to_str().unwrap()), "{refusal}");
-    assert_eq!(refusal.matches("cannot be kept").count(), 1, "{refusal}");
+    assert_eq!(refusal.matches("cannot store results").count(), 1, "{refusal}");
     assert_eq!(std::fs::read(&file).unwrap(), b"not a directory");
 }
 
 #[tokio::test]
-async fn a_data_directory_has_one_service() {
+async fn two_services_cannot_share_a_data_directory() {
     let place = TempDir::new().unwrap();
     let config = ServeConfig { data: Some(place.path().to_owned()), memory_only: false, ..config(None) };
     let first = Service::open(&config).await.unwrap();

@@ -1,4 +1,4 @@
-//! API keys: what takes one, and what each role is good for.
+//! API keys: which operations need one, and what each role allows.
 
 use std::time::Duration;
 
@@ -85,7 +85,7 @@ fn request(method: &str, path: &str) -> Request<Body> {
 }
 
 #[tokio::test]
-async fn every_operation_but_the_open_ones_takes_a_key() {
+async fn every_operation_except_the_open_ones_needs_a_key() {
     let keys = Keys::new([("cam", "admin")]);
     let service = opened(&keys.asked_for_by(config(None))).await;
     let document = get("/openapi.json").await.json;
@@ -120,7 +120,7 @@ async fn every_operation_but_the_open_ones_takes_a_key() {
 }
 
 #[tokio::test]
-async fn only_what_is_sent_as_a_bearers_key_is_one() {
+async fn a_key_is_accepted_only_as_a_bearer_token() {
     let keys = Keys::new([("cam", "read")]);
     let service = opened(&keys.asked_for_by(config(None))).await;
     let key = &keys.keys[0];
@@ -134,7 +134,7 @@ async fn only_what_is_sent_as_a_bearers_key_is_one() {
 }
 
 #[tokio::test]
-async fn a_role_is_good_for_what_it_says() {
+async fn a_role_allows_only_its_operations() {
     let keys = Keys::new([("reader", "read"), ("cam", "compute"), ("chief", "admin")]);
     let service = opened(&keys.asked_for_by(config(None))).await;
     let ask = |number, request| send_to(service.clone(), keys.sent(number, request));
@@ -162,7 +162,7 @@ async fn a_role_is_good_for_what_it_says() {
 }
 
 #[tokio::test]
-async fn no_shared_cache_answers_for_a_key() {
+async fn answers_to_a_key_are_private() {
     let keys = Keys::new([("cam", "read")]);
     let service = opened(&keys.asked_for_by(config(None))).await;
     let reply = keys.get(&service, 0, "/fk?rho=674,685,250").await;
@@ -171,7 +171,7 @@ async fn no_shared_cache_answers_for_a_key() {
 }
 
 #[tokio::test]
-async fn a_keys_jobs_are_its_own() {
+async fn a_key_sees_only_its_own_jobs() {
     let keys = Keys::new([("cam", "compute"), ("cad", "compute"), ("chief", "admin")]);
     let service = opened(&keys.asked_for_by(one_core())).await;
     let id = keys.start(&service, 0, &long(0)).await;
@@ -191,7 +191,7 @@ async fn a_keys_jobs_are_its_own() {
 }
 
 #[tokio::test]
-async fn a_job_is_every_keys_that_asked_for_it() {
+async fn every_key_that_requested_a_job_sees_it() {
     let keys = Keys::new([("cam", "compute"), ("cad", "compute"), ("chief", "admin")]);
     let service = opened(&keys.asked_for_by(one_core())).await;
     let id = keys.start(&service, 0, &long(0)).await;
@@ -219,7 +219,7 @@ async fn a_job_is_every_keys_that_asked_for_it() {
 }
 
 #[tokio::test]
-async fn a_read_key_does_not_have_what_made_room_computed_again() {
+async fn a_read_key_does_not_recompute_an_evicted_result() {
     // No room for a mesh: only the figures stay.
     let keys = Keys::new([("reader", "read"), ("cam", "compute")]);
     let config = keys.asked_for_by(ServeConfig { cache_bytes: 20_000, ..config(None) });
@@ -232,7 +232,7 @@ async fn a_read_key_does_not_have_what_made_room_computed_again() {
 }
 
 #[tokio::test]
-async fn keys_are_read_again() {
+async fn a_changed_key_file_is_read_again() {
     let keys = Keys::new([("cam", "read")]);
     let service = Service::open(&keys.asked_for_by(config(None))).await.unwrap();
     let status = async || keys.get(&service.router, 0, "/machines").await.status;
@@ -245,7 +245,7 @@ async fn keys_are_read_again() {
 }
 
 #[tokio::test]
-async fn the_events_of_a_key_that_is_removed_end() {
+async fn events_end_when_their_key_is_removed() {
     let keys = Keys::new([("cam", "compute"), ("cad", "admin")]);
     let service = Service::open(&keys.asked_for_by(one_core())).await.unwrap();
     let id = keys.start(&service.router, 0, &long(0)).await;
@@ -273,7 +273,7 @@ async fn the_events_of_a_key_that_is_removed_end() {
 }
 
 #[tokio::test]
-async fn the_events_of_a_key_with_another_role_end() {
+async fn events_end_when_the_role_of_their_key_changes() {
     let keys = Keys::new([("cam", "compute")]);
     let service = Service::open(&keys.asked_for_by(one_core())).await.unwrap();
     let id = keys.start(&service.router, 0, &long(0)).await;

@@ -1,4 +1,4 @@
-//! The paper's questions, and what callers build on: filters, order, labels, reasons.
+//! `/fk` and `/ik`: the examples of the paper, filters, order, labels, reasons.
 
 use serde_json::{Value, json};
 
@@ -33,7 +33,7 @@ async fn figure_6_has_four_assembly_modes_one_working() {
 }
 
 #[tokio::test]
-async fn get_and_post_answer_the_same() {
+async fn get_and_post_give_the_same_answer() {
     let by_query = get("/fk?rho=674,685,250&theta1=10&theta2=-20&tool_length=50&solutions=all").await;
     let body = json!({"joints": {"rho": [674, 685, 250], "theta1": 10, "theta2": -20}, "tool_length": 50,
                       "solutions": "all"});
@@ -43,7 +43,7 @@ async fn get_and_post_answer_the_same() {
 }
 
 #[tokio::test]
-async fn inverse_then_forward_returns() {
+async fn forward_of_inverse_returns_the_pose() {
     let inverse = get(FIG_5).await;
     let rho = inverse.solutions()[0]["joints"]["rho"].as_array().unwrap().clone();
     let rho: Vec<_> = rho.iter().map(ToString::to_string).collect();
@@ -55,7 +55,7 @@ async fn inverse_then_forward_returns() {
 }
 
 #[tokio::test]
-async fn a_tool_hangs_from_the_platform() {
+async fn the_tool_end_is_at_the_tool_length_from_the_platform() {
     let reply = get(&format!("{FIG_5}&tool_length=50")).await;
     let solution = &reply.solutions()[0];
     let alpha = solution["platform"]["alpha"].as_f64().unwrap().to_radians();
@@ -67,7 +67,7 @@ async fn a_tool_hangs_from_the_platform() {
 }
 
 #[tokio::test]
-async fn feasible_hides_what_breaks_a_limit_and_says_which() {
+async fn the_feasible_filter_hides_infeasible_solutions_and_names_the_limit() {
     let high = "/ik?frame=platform&x=0&y=0&z=700";
     let working = get(high).await;
     assert_eq!(working.solutions().len(), 1);
@@ -82,7 +82,7 @@ async fn feasible_hides_what_breaks_a_limit_and_says_which() {
 }
 
 #[tokio::test]
-async fn out_of_reach_is_an_answer() {
+async fn an_unreachable_pose_is_answered_with_200() {
     let reply = get("/ik?frame=platform&x=3000&y=0&z=1000&solutions=all").await;
     assert!(reply.solutions().is_empty());
     assert_eq!(reply.json["reason"], "unreachable");
@@ -118,7 +118,7 @@ async fn margins_name_every_constraint() {
 }
 
 #[tokio::test]
-async fn near_sorts_by_distance() {
+async fn solutions_are_sorted_by_distance_to_near() {
     let all = get(&format!("{FIG_5}&solutions=all")).await;
     for wanted in all.solutions() {
         let rho = &wanted["joints"]["rho"];

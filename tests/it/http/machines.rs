@@ -1,4 +1,4 @@
-//! Machines: published, described, sent along, read from a directory.
+//! Machines: listed, described, in a request, read from a directory.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use super::{config, get, opened, post, send_to};
 const REFERENCE: &str = include_str!("../../reference/machine-verne.json");
 
 #[tokio::test]
-async fn the_built_in_machine_is_the_reference_and_says_that_it_is_invented() {
+async fn the_built_in_machine_is_marked_as_invented() {
     let reply = get("/machines/verne").await;
     let reference: Value = serde_json::from_str(REFERENCE).unwrap();
     assert_eq!(as_floats(&reply.json["definition"]), as_floats(&reference));
@@ -23,7 +23,7 @@ async fn the_built_in_machine_is_the_reference_and_says_that_it_is_invented() {
 }
 
 #[tokio::test]
-async fn a_machine_sent_along_is_answered_for() {
+async fn a_machine_in_the_request_is_used() {
     let named = get("/fk?rho=674,685,250").await;
     let mut machine: Value = serde_json::from_str(REFERENCE).unwrap();
     let body = json!({"machine": machine, "joints": {"rho": [674, 685, 250]}});
@@ -56,7 +56,7 @@ async fn the_schema_describes_the_machine() {
 }
 
 #[tokio::test]
-async fn a_directory_of_machines_is_published() {
+async fn the_machines_of_a_directory_are_listed() {
     let directory = scratch("published");
     let tight = REFERENCE.replace("\"verne\"", "\"tight\"").replace("[0, 750]", "[100, 400]");
     std::fs::write(directory.join("tight.json"), tight).unwrap();
@@ -69,7 +69,7 @@ async fn a_directory_of_machines_is_published() {
 }
 
 #[tokio::test]
-async fn a_bad_machine_file_is_an_error_that_names_file_and_field() {
+async fn an_invalid_machine_file_names_file_and_field() {
     for (name, text, expected) in [
         ("range", REFERENCE.replace("\"verne\"", "\"x\"").replace("[-90, 90]", "[90, -90]"), "/limits/tilt"),
         ("missing", REFERENCE.replace("\"dt\"", "\"dd\""), "/table/dd"),

@@ -1,4 +1,4 @@
-//! The whole machine: orientations by angles and by axis, and the rotation that is free.
+//! Poses in the part frame: orientations by angles and by axis, the free rotation, windings.
 
 use serde_json::json;
 
@@ -9,7 +9,7 @@ fn number(value: &serde_json::Value) -> f64 {
 }
 
 #[tokio::test]
-async fn joints_of_a_part_pose_bring_it_back() {
+async fn forward_of_the_joints_returns_the_part_pose() {
     let uri = "/ik?x=100&y=50&z=150&phi1=30&phi2=40&tool_length=50";
     let joints = get(uri).await.solutions()[0]["joints"].clone();
     let body = json!({"joints": joints, "tool_length": 50});
@@ -49,7 +49,7 @@ async fn an_axis_is_solved_in_both_preimages() {
 }
 
 #[tokio::test]
-async fn the_rotation_along_the_tables_axis_is_free() {
+async fn the_rotation_about_the_table_axis_is_free() {
     let pose = json!({"x": 100, "y": 50, "z": 150, "axis": [0, 0, 1]});
     let free = post("/ik", json!({"pose": pose, "tool_length": 50})).await;
     assert_eq!(free.json["free"], json!(["phi2"]));
@@ -69,7 +69,7 @@ async fn the_rotation_along_the_tables_axis_is_free() {
 }
 
 #[tokio::test]
-async fn near_chooses_the_winding_that_is_nearest_within_the_range() {
+async fn near_chooses_the_nearest_winding_within_the_range() {
     let theta2 = async |orientation: &str, near: &str| {
         let uri = format!("/ik?x=100&y=50&z=150&tool_length=50&{orientation}&near_joints=500,500,500,{near}");
         number(&get(&uri).await.solutions()[0]["joints"]["theta2"])
@@ -90,7 +90,7 @@ async fn near_chooses_the_winding_that_is_nearest_within_the_range() {
 }
 
 #[tokio::test]
-async fn whole_turns_add_no_rounding() {
+async fn windings_add_no_rounding_error() {
     let plain = get("/ik?x=100&y=50&z=150&tool_length=50&phi1=10&phi2=10").await;
     let turned = get("/ik?x=100&y=50&z=150&tool_length=50&phi1=370&phi2=370").await;
     assert_eq!(number(&turned.solutions()[0]["joints"]["theta2"]), -10.0);
@@ -102,7 +102,7 @@ async fn whole_turns_add_no_rounding() {
 }
 
 #[tokio::test]
-async fn an_axis_has_any_length_and_its_noise_no_meaning() {
+async fn an_axis_can_have_any_length_and_rounding_noise_is_ignored() {
     let ask = async |axis: &str| get(&format!("/ik?x=100&y=50&z=150&tool_length=50&axis={axis}")).await;
     let plain = ask("1,1,3").await;
     for axis in ["1e200,1e200,3e200", "1e-200,1e-200,3e-200", "2e7,2e7,6e7"] {
@@ -145,7 +145,7 @@ async fn lengths_out_of_proportion_to_the_machine_are_refused() {
 }
 
 #[tokio::test]
-async fn an_orientation_says_neither_too_little_nor_too_much() {
+async fn incomplete_and_contradictory_orientations_are_refused() {
     get("/ik?x=1&y=2&z=3&phi1=30&axis=0,0,1").await.assert_bad_field("/query/axis");
     get("/ik?x=1&y=2&z=3&axis=0,0,0").await.assert_bad_field("/query/axis");
     get("/ik?x=1&y=2&z=3&axis=0,1,1&phi2=3").await.assert_bad_field("/query/phi2");
@@ -156,7 +156,7 @@ async fn an_orientation_says_neither_too_little_nor_too_much() {
 }
 
 #[tokio::test]
-async fn angles_that_are_left_out_are_zero() {
+async fn omitted_angles_are_zero() {
     let settled = get("/ik?x=100&y=50&z=150&phi1=0&phi2=0&tool_length=50").await;
     let open = get("/ik?x=100&y=50&z=150&tool_length=50").await;
     assert_eq!(open.json["free"], json!(["phi2"]));

@@ -23,7 +23,7 @@ fn below(link: &serde_json::Value) -> String {
 }
 
 #[tokio::test]
-async fn links_lead_to_what_is_published() {
+async fn links_contain_the_published_address() {
     let service = published().await;
     for question in
         [json!({"tolerance": 50}), json!({"kind": "tool", "tolerance": 60, "tool_length": [10, 20]})]
@@ -58,7 +58,7 @@ async fn links_lead_to_what_is_published() {
 }
 
 #[tokio::test]
-async fn pages_and_the_document_are_found_below_the_path() {
+async fn pages_and_document_work_below_a_path() {
     let service = published().await;
     let page = get_from(&service, "/tools/verne", &[]).await;
     assert_eq!(
@@ -87,7 +87,7 @@ async fn asked(service: &Router, peer: &str, forwarded: &str) -> Reply {
 }
 
 #[tokio::test]
-async fn the_clients_of_a_trusted_proxy_are_told_apart() {
+async fn clients_behind_a_trusted_proxy_are_distinguished() {
     let flags = "--memory-only --rate 1 --rate-burst 1 --trusted-proxy 10.0.0.0/8,fd00::/8";
     let service = opened(&settings(flags)).await;
     let exhausted = async |peer: &str, forwarded: &str| {
@@ -99,7 +99,7 @@ async fn the_clients_of_a_trusted_proxy_are_told_apart() {
         panic!("{peer} {forwarded} is never refused");
     };
     exhausted("10.0.0.1", "192.0.2.1").await;
-    // What the client has written before it does not count, nor through which proxies it has come.
+    // Entries of the client and of other proxies before the trusted one do not count.
     exhausted("10.0.0.2", "198.51.100.7, 192.0.2.1, 10.0.0.9").await;
     assert_eq!(asked(&service, "10.0.0.1", "192.0.2.2").await.status, StatusCode::OK);
     assert_eq!(asked(&service, "fd00::1", "192.0.2.3").await.status, StatusCode::OK);

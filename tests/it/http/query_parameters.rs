@@ -1,4 +1,4 @@
-//! Queries: unknown parameters, lists in every notation, all that is missing at once.
+//! Queries: unknown parameters, notations of lists, missing parameters.
 
 use axum::body::Body;
 use axum::http::{Method, Request};
@@ -12,7 +12,7 @@ fn pointers(reply: &Reply) -> Vec<&str> {
 
 /// Every operation of the document refuses a parameter that it does not document, and says which it has.
 #[tokio::test]
-async fn unknown_parameters_are_refused_by_every_operation() {
+async fn every_operation_refuses_unknown_parameters() {
     let service = service().await;
     let document = get_from(&service, "/openapi.json", &[]).await.json;
     let mut asked = 0;
@@ -35,7 +35,7 @@ async fn unknown_parameters_are_refused_by_every_operation() {
 }
 
 #[tokio::test]
-async fn a_field_of_the_body_is_refused_in_the_query() {
+async fn a_body_field_is_refused_in_the_query() {
     let question = json!({"joints": {"rho": [674, 685, 250]}});
     post("/fk?solutions=all", question).await.assert_bad_field("/query/solutions");
     post("/workspace?kind=tool", "{}").await.assert_bad_field("/query/kind");
@@ -47,7 +47,7 @@ async fn a_field_of_the_body_is_refused_in_the_query() {
 }
 
 #[tokio::test]
-async fn lists_are_read_in_every_notation() {
+async fn lists_are_accepted_in_every_notation() {
     let plain = get("/fk?rho=674,685,250&near_joints=1,2,3,4,5").await;
     assert_eq!(plain.solutions().len(), 1);
     for query in [
@@ -83,7 +83,7 @@ async fn the_alphas_of_a_slice_are_a_list() {
 }
 
 #[tokio::test]
-async fn all_that_is_missing_is_told_at_once() {
+async fn a_problem_lists_all_missing_parameters() {
     let reply = get("/ik?y=1").await;
     reply.assert_problem(422, "invalid_request");
     assert_eq!(pointers(&reply), ["/query/x", "/query/z"]);

@@ -1,4 +1,4 @@
-//! The table as a limit: `table_clearance` and `tool_radius`, and what is said to be unchecked.
+//! The table as a limit: `table_clearance` and `tool_radius`, and the list of what is not checked.
 
 use serde_json::{Value, json};
 
@@ -16,7 +16,7 @@ pub(super) fn machine(least: &Value) -> Value {
     machine
 }
 
-/// A tip below the table; all other margins are kept.
+/// A tool end below the table; all other margins are positive.
 fn below() -> Value {
     json!({"pose": {"x": 0, "y": 0, "z": -120, "phi1": 0, "phi2": 0}, "tool_length": 400})
 }
@@ -29,7 +29,7 @@ pub(super) fn with(mut question: Value, fields: Value) -> Value {
 }
 
 #[tokio::test]
-async fn without_a_clearance_the_table_is_said_to_be_unchecked() {
+async fn without_a_clearance_the_table_is_listed_as_not_checked() {
     let answer = post("/ik", below()).await;
     let solution = &answer.solutions()[0];
     assert_eq!(solution["feasible"], true);
@@ -51,7 +51,7 @@ async fn without_a_clearance_the_table_is_said_to_be_unchecked() {
 }
 
 #[tokio::test]
-async fn a_tip_below_the_table_breaks_the_limit() {
+async fn a_tool_end_below_the_table_is_infeasible() {
     let expected = json!({"constraint": "table_clearance", "value": -120.0, "unit": "mm", "element": "tool"});
     let asked = with(below(), json!({"table_clearance": 0}));
     let query = "/ik?x=0&y=0&z=-120&phi1=0&phi2=0&tool_length=400&table_clearance=0";
@@ -89,7 +89,7 @@ async fn a_tip_below_the_table_breaks_the_limit() {
 }
 
 #[tokio::test]
-async fn a_request_overrides_the_machine() {
+async fn the_clearance_of_a_request_overrides_the_machine() {
     let of_machine = with(below(), json!({"machine": machine(&json!(30)), "solutions": "working"}));
     let value =
         |answer: &Value| answer["solutions"][0]["margins"]["table_clearance"]["value"].as_f64().unwrap();
@@ -139,7 +139,7 @@ async fn a_clearance_without_theta1_is_refused() {
 }
 
 #[tokio::test]
-async fn numbers_out_of_range_are_refused() {
+async fn clearances_out_of_range_are_refused() {
     let pose = json!({"x": 0, "y": 0, "z": 100, "phi1": 0, "phi2": 0});
     for (uri, question) in [
         ("/ik", json!({"pose": pose})),
@@ -166,7 +166,7 @@ async fn numbers_out_of_range_are_refused() {
 }
 
 #[tokio::test]
-async fn batches_answer_as_single_requests_do() {
+async fn batches_check_the_clearance_like_single_requests() {
     let mut rows = Vec::new();
     for i in 0..60 {
         let i = f64::from(i);
@@ -215,7 +215,7 @@ async fn batches_answer_as_single_requests_do() {
 }
 
 #[tokio::test]
-async fn the_command_line_has_it() {
+async fn the_command_line_accepts_a_clearance() {
     let json = |line: &str| serde_json::from_str::<Value>(&verne(line).unwrap()).unwrap();
     let ik =
         "ik --x 0 --y 0 --z 40 --phi1 20 --phi2 0 --tool-length 300 --table-clearance 5 --tool-radius 30";
@@ -233,7 +233,7 @@ async fn the_command_line_has_it() {
 }
 
 #[tokio::test]
-async fn a_machine_without_it_is_the_machine_that_it_was() {
+async fn a_machine_without_clearance_keeps_its_id() {
     // BLAKE3 of the built-in machine's numbers as it was before there was this limit.
     let hash = "3214e8042fa3ea15fde8cee9b118146867a0d73b30528810d173ea27a1651cdc";
     let answer = get("/machines/verne").await.json;

@@ -54,7 +54,7 @@ async fn meshes_and_slices_end_at_the_table() {
 }
 
 #[tokio::test]
-async fn families_membership_and_dexterity_have_it() {
+async fn families_membership_and_dexterity_end_at_the_table() {
     let question = json!({"kind": "part", "tool_length": 400, "table_clearance": 0});
     let family =
         post("/workspace", with(question.clone(), json!({"phi1": [0, 20], "tolerance": 20}))).await.json;

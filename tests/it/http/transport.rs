@@ -1,4 +1,4 @@
-//! Around the answers: compression, ids, probes, the docs page, stopping.
+//! Properties of all answers: compression, ids, caching, HEAD, probes.
 
 use axum::body::Body;
 use axum::http::{HeaderValue, Method, Request, StatusCode, header};
@@ -22,7 +22,7 @@ async fn answers_are_compressed_on_request() {
 }
 
 #[tokio::test]
-async fn a_client_that_accepts_no_encoding_is_told_so() {
+async fn a_client_that_refuses_every_encoding_gets_406() {
     for uri in [QUESTION, "/fk?rho=x"] {
         let request =
             Request::get(uri).header(header::ACCEPT_ENCODING, "identity;q=0").body(Body::empty()).unwrap();
@@ -33,7 +33,7 @@ async fn a_client_that_accepts_no_encoding_is_told_so() {
 }
 
 #[tokio::test]
-async fn what_is_the_same_for_everybody_has_a_tag_in_each_encoding() {
+async fn static_answers_have_an_etag_for_each_encoding() {
     let service = service().await;
     let plain = get_from(&service, "/openapi.json", &[]).await;
     assert!(!plain.headers.contains_key(header::CONTENT_ENCODING));
@@ -54,7 +54,7 @@ async fn what_is_the_same_for_everybody_has_a_tag_in_each_encoding() {
 }
 
 #[tokio::test]
-async fn what_would_take_long_to_compress_is_sent_as_it_is() {
+async fn large_answers_are_sent_uncompressed() {
     let poses = vec![[0.0, 0.0, 1200.0]; 2_000];
     let body = json!({"frame": "platform", "poses": poses});
     let plain = post("/ik/batch", &body).await;
@@ -77,7 +77,7 @@ async fn every_request_has_an_id() {
 }
 
 #[tokio::test]
-async fn queries_may_be_cached() {
+async fn get_answers_are_cacheable() {
     assert!(get(QUESTION).await.headers[header::CACHE_CONTROL].to_str().unwrap().contains("max-age"));
     assert!(!get("/fk?rho=x").await.headers.contains_key(header::CACHE_CONTROL));
 }
@@ -90,7 +90,7 @@ async fn head_answers_without_a_body() {
 }
 
 #[tokio::test]
-async fn probes_and_docs_answer() {
+async fn probes_and_docs_are_answered() {
     for probe in ["/livez", "/readyz"] {
         assert_eq!(get(probe).await.json["status"], "ok");
     }

@@ -1,11 +1,11 @@
-//! The viewer: the page and its files, or a sentence in their place where the binary was built without them.
+//! The viewer: the page and its files, or a sentence in a binary without them.
 
 use axum::http::{StatusCode, header};
 
 use super::{get, get_from, service};
 
 #[tokio::test]
-async fn the_root_is_the_viewer_or_says_how_to_get_it() {
+async fn the_root_is_the_viewer_or_explains_how_to_build_it() {
     let page = get("/").await;
     assert_eq!(page.status, StatusCode::OK);
     let text = String::from_utf8(page.bytes).unwrap();
@@ -37,7 +37,7 @@ async fn the_root_is_the_viewer_or_says_how_to_get_it() {
 }
 
 #[tokio::test]
-async fn a_file_that_the_viewer_does_not_have_is_a_problem() {
+async fn a_missing_viewer_file_is_a_problem() {
     for path in ["/assets/none.js", "/assets/..%2Findex.html", "/assets/%ff", "/index.html"] {
         let reply = get(path).await;
         assert_eq!(reply.status, StatusCode::NOT_FOUND, "{path}");

@@ -1,4 +1,4 @@
-//! `/workspace`: figures, ids, negotiation, bad questions.
+//! `/workspace`: figures, ids, negotiation, invalid requests.
 
 use axum::Router;
 use axum::http::header::{ACCEPT, CACHE_CONTROL, CONTENT_TYPE};
@@ -19,7 +19,7 @@ fn assert_close(found: &Value, wanted: f64, relative: f64) {
 
 /// Published figures: a sweep of columns, good to about 1e-5.
 #[tokio::test]
-async fn figures_are_those_of_an_independent_sweep() {
+async fn volume_and_bounds_agree_with_an_independent_sweep() {
     let service = service().await;
     for (question, volume) in [
         (json!({}), 2.33692e8),
@@ -44,7 +44,7 @@ async fn figures_are_those_of_an_independent_sweep() {
 }
 
 #[tokio::test]
-async fn bounds_are_within_the_tolerance() {
+async fn the_bounds_are_within_the_tolerance() {
     let bounds = &ask(&service().await, json!({})).await.json["bounds"];
     let wanted = [("min", [-407.0, -540.5, 870.6]), ("max", [392.0, 540.5, 1627.0])];
     for (end, numbers) in wanted {
@@ -56,7 +56,7 @@ async fn bounds_are_within_the_tolerance() {
 }
 
 #[tokio::test]
-async fn equal_questions_have_equal_ids() {
+async fn equal_requests_have_equal_ids() {
     let service = service().await;
     let id = async |question| ask(&service, question).await.json["id"].as_str().unwrap().to_owned();
     let part = id(json!({"kind": "part", "tool_length": 50})).await;
@@ -68,14 +68,14 @@ async fn equal_questions_have_equal_ids() {
     let by_query = get_from(&service, "/workspace?kind=part&tool_length=50", &[]).await;
     assert_eq!(by_query.json["id"], part);
     assert!(by_query.headers[CACHE_CONTROL].to_str().unwrap().contains("max-age"));
-    // What has no effect on the platform makes no difference.
+    // Fields without effect on the platform do not change the id.
     assert_eq!(id(json!({})).await, id(json!({"kind": "platform", "tool_length": 70, "phi1": 3})).await);
     let platform = ask(&service, json!({"phi1": 3})).await.json;
     assert_eq!(platform["request"], json!({"kind": "platform", "tolerance": 1.0}));
 }
 
 #[tokio::test]
-async fn another_machine_has_another_id_and_its_name() {
+async fn results_of_different_machines_have_different_ids() {
     let mut machine = get("/machines/verne").await.json["definition"].clone();
     let service = service().await;
     let original = ask(&service, json!({"machine": machine, "tolerance": 20})).await.json;
@@ -94,7 +94,7 @@ async fn another_machine_has_another_id_and_its_name() {
 }
 
 #[tokio::test]
-async fn an_empty_workspace_is_an_answer() {
+async fn an_empty_workspace_is_answered_with_200() {
     let mut machine = get("/machines/verne").await.json["definition"].clone();
     machine["geometry"]["rod_radius"] = 1000.into();
     let service = service().await;
@@ -110,7 +110,7 @@ async fn an_empty_workspace_is_an_answer() {
 }
 
 #[tokio::test]
-async fn a_folded_workspace_has_no_volume_and_says_why() {
+async fn a_folded_workspace_has_no_volume_and_a_reason() {
     let service = service().await;
     // The table's axis above the platform: the Jacobian determinant changes its sign within the workspace.
     let mut above = get("/machines/verne").await.json["definition"].clone();
@@ -146,7 +146,7 @@ pub(super) fn covered_twice() -> Value {
 }
 
 #[tokio::test]
-async fn every_working_solution_is_looked_at() {
+async fn every_working_solution_is_considered() {
     let machine = covered_twice();
     let point = [-16.3, 0.13, -789.0];
     let [x, y, z] = point;
@@ -173,7 +173,7 @@ async fn every_working_solution_is_looked_at() {
 }
 
 #[tokio::test]
-async fn accept_and_format_choose() {
+async fn accept_and_format_select_the_representation() {
     let service = service().await;
     for (accept, format, media) in [
         (None, None, "application/json"),
@@ -191,7 +191,7 @@ async fn accept_and_format_choose() {
         let reply = get_from(&service, &uri, &headers).await;
         assert_eq!(reply.headers[CONTENT_TYPE], media, "{accept:?} {format:?}");
     }
-    // As a format, json is the mesh.
+    // The format json is the mesh.
     let mesh = get_from(&service, "/workspace?tolerance=20&format=json", &[]).await.json;
     assert!(mesh["positions"].is_array() && mesh["indices"].is_array());
     let refused = get_from(&service, "/workspace?tolerance=20", &[(ACCEPT, "text/html")]).await;
@@ -200,7 +200,7 @@ async fn accept_and_format_choose() {
 }
 
 #[tokio::test]
-async fn bad_questions_name_the_field() {
+async fn a_problem_names_the_field() {
     for (body, pointer) in [
         (json!({"kind": "nautilus"}), "/kind"),
         (json!({"tolerance": 0}), "/tolerance"),
@@ -225,9 +225,9 @@ async fn bad_questions_name_the_field() {
     post("/workspace?format=step", "{}").await.assert_bad_field("/query/format");
 }
 
-/// Of 2 mm² of area there is a volume, and at a coarse tolerance no triangle; the answer says why.
+/// A workspace of 2 mm² has a volume, but no triangle at a coarse tolerance; the answer explains it.
 #[tokio::test]
-async fn a_workspace_thinner_than_the_tolerance_says_so() {
+async fn a_workspace_thinner_than_the_tolerance_has_an_explanation() {
     let mut machine = get("/machines/verne").await.json["definition"].clone();
     machine["limits"]["serial_margin"] = 0.835_024_823_061_727_1.into();
     let service = service().await;
@@ -242,7 +242,7 @@ async fn a_workspace_thinner_than_the_tolerance_says_so() {
 
 /// theta1 jumps by a turn beyond its range, and not through it: nothing is there.
 #[tokio::test]
-async fn a_tool_beyond_the_tilting_range_reaches_nothing() {
+async fn a_tool_beyond_the_tilting_range_has_an_empty_workspace() {
     let answer = get("/workspace?kind=part&tool_length=50&phi1=170&tolerance=20").await.json;
     for field in ["volume", "volume_error", "area", "area_error"] {
         assert_eq!(answer[field], 0.0, "{field}");

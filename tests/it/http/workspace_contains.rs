@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::post;
 
 #[tokio::test]
-async fn membership_is_that_of_the_inverse_solution() {
+async fn membership_agrees_with_the_inverse_solution() {
     for (kind, frame) in [("platform", "platform"), ("tool", "tool"), ("part", "part")] {
         let points: Vec<[f64; 3]> = (0..200)
             .map(|i| {
@@ -45,7 +45,7 @@ async fn membership_is_that_of_the_inverse_solution() {
 }
 
 #[tokio::test]
-async fn a_bad_point_spoils_no_other() {
+async fn an_invalid_point_does_not_affect_the_others() {
     let points = json!([[0, 0, 1200], null, [1, 2], [0, 0, 1e9], ["a", 1, 2], [0, 0, 9000], [0, 0, 1200]]);
     let answer = post("/workspace/contains", json!({"points": points})).await.json;
     assert_eq!(answer["inside"], json!([true, null, null, null, null, false, true]));
@@ -59,7 +59,7 @@ async fn a_bad_point_spoils_no_other() {
 }
 
 #[tokio::test]
-async fn bad_questions_name_the_field() {
+async fn a_problem_names_the_field() {
     for (question, pointer) in [
         (json!({}), "/points"),
         (json!({"points": 3}), "/points"),

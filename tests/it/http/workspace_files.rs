@@ -1,4 +1,4 @@
-//! Meshes as files, read back by readers that are not ours.
+//! Mesh files, read by independent readers.
 
 use std::collections::HashMap;
 use std::io::Cursor;
@@ -103,7 +103,7 @@ async fn glb_is_in_metres_with_y_up() {
         assert_eq!(axis, 2);
         assert!((least - f64::from(sign) * wanted.as_f64().unwrap()).abs() < 1e-3, "{least} {wanted}");
         assert_eq!(json!(indices / 3), summary["triangles"]);
-        // What limits the workspace can be selected by name.
+        // A reader can select the limit of a surface by name.
         let limits = extras["constraints"].as_array().unwrap().iter().map(|limit| &limit["name"]);
         assert!(names.iter().eq(limits), "{names:?}");
     }
@@ -121,7 +121,7 @@ async fn stl_is_in_millimetres_and_closed() {
 }
 
 #[tokio::test]
-async fn ply_says_what_it_is() {
+async fn ply_states_its_unit_and_tags() {
     let (reply, summary) = mesh(json!({"kind": "tool", "tool_length": 50}), "ply").await;
     let end = reply.bytes.windows(11).position(|window| window == b"end_header\n").unwrap();
     let header = std::str::from_utf8(&reply.bytes[..end]).unwrap();

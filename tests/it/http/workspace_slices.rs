@@ -19,7 +19,7 @@ fn points(ring: &Value) -> Vec<[f64; 2]> {
 }
 
 #[tokio::test]
-async fn slices_add_up_to_the_volume() {
+async fn the_areas_of_slices_sum_to_the_volume() {
     let service = service().await;
     let summary = ask(&service, json!({"tolerance": 0.1})).await.json;
     let bound = |end: &str| summary["bounds"][end][2].as_f64().unwrap();
@@ -56,7 +56,7 @@ async fn polygons_are_closed_and_counter_clockwise() {
 }
 
 #[tokio::test]
-async fn on_lines_of_constant_alpha_alpha_is_constant() {
+async fn alpha_is_constant_on_its_contour_lines() {
     for query in ["z=1200&alpha=true", "z=1200&alpha=-10,0,10"] {
         let slice = cut("platform", query).await.json;
         let lines = slice["contours"].as_array().unwrap();
@@ -73,7 +73,7 @@ async fn on_lines_of_constant_alpha_alpha_is_constant() {
 }
 
 #[tokio::test]
-async fn drawings() {
+async fn drawings_are_svg_and_dxf() {
     let svg = cut("part", "z=300&alpha=true&format=svg").await;
     assert_eq!(svg.headers[CONTENT_TYPE], "image/svg+xml");
     let text = String::from_utf8(svg.bytes).unwrap();
@@ -90,7 +90,7 @@ async fn drawings() {
 }
 
 #[tokio::test]
-async fn a_name_with_control_characters_leaves_the_drawings_readable() {
+async fn control_characters_in_a_name_do_not_break_drawings() {
     let service = service().await;
     let mut machine = get("/machines/verne").await.json["definition"].clone();
     machine["name"] = json!("a\u{1}\u{1b}[31m\r\n<&>");
@@ -112,7 +112,7 @@ fn groups(dxf: &str) -> Vec<(u16, &str)> {
 }
 
 #[tokio::test]
-async fn dxf_says_its_units_its_extents_and_the_values_of_alpha() {
+async fn dxf_states_units_extents_and_alpha() {
     let query = "z=300&alpha=true";
     let slice = cut("part", query).await.json;
     let dxf = cut("part", &format!("{query}&format=dxf")).await;
@@ -152,7 +152,7 @@ async fn dxf_says_its_units_its_extents_and_the_values_of_alpha() {
 }
 
 #[tokio::test]
-async fn slices_are_negotiated_and_tagged() {
+async fn slices_are_negotiated_and_have_etags() {
     let service = service().await;
     let summary = ask(&service, json!({"tolerance": 20})).await.json;
     let uri = format!("{}/slice?z=1200", summary["links"]["self"].as_str().unwrap());

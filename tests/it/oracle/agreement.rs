@@ -1,11 +1,11 @@
-//! Whether the solver's answer is the oracle's.
+//! Comparison of one answer of the solver with the oracle's.
 
 use std::fmt::Write as _;
 
 use verne_solver::{Machine, Posture};
 
-use super::found::{Answer, Found, wrapped};
 use super::legs::Legs;
+use super::solution::{Answer, Found, wrapped};
 
 /// Error allowed where a solution is well separated from the others, in machine lengths: just
 /// below 1e-9 mm on the reference machine.

@@ -1,10 +1,10 @@
-//! Many of the solver's answers against the oracle's, with the disagreements collected.
+//! Comparison of many answers of the solver with the oracle's; collects the disagreements.
 
 use verne_solver::{KinematicsError, Machine, Posture, Postures};
 
 use super::agreement::{Tally, agree, distance};
-use super::found::Answer;
 use super::legs::Legs;
+use super::solution::Answer;
 
 /// How many disagreements are printed.
 const PRINTED: usize = 3;

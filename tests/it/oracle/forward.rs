@@ -8,17 +8,17 @@
 use nalgebra::Vector4;
 use verne_solver::Machine;
 
-use super::circle::{curves, zeros};
-use super::found::{Answer, Found};
+use super::angle_roots::{curves, zeros};
 use super::legs::Legs;
 use super::polish;
+use super::solution::{Answer, Found};
 
 struct System<'a> {
     legs: &'a Legs,
     rho: [f64; 3],
 }
 
-/// What the equations hold at one alpha, with lengths in units of the machine's scale.
+/// The values of the equations at one alpha, with lengths in units of the machine's scale.
 struct Slice {
     u: f64,
     v: f64,

@@ -7,12 +7,12 @@
 use nalgebra::{Matrix4, Vector2, Vector4};
 use verne_solver::{Machine, PartPose};
 
-use super::circle::{curves, zeros};
-use super::found::{Answer, Found};
+use super::angle_roots::{curves, zeros};
 use super::legs::Legs;
 use super::polish;
+use super::solution::{Answer, Found};
 
-/// Where the platform is at each alpha: (y, z) = center + cosine cos(alpha) + sine sin(alpha).
+/// The platform's position as a function of alpha: (y, z) = center + cosine cos(alpha) + sine sin(alpha).
 #[derive(Clone, Copy)]
 pub(crate) struct Path {
     x: f64,
@@ -160,7 +160,7 @@ fn legs_two_and_three(
         (d.z, (length - across) * (length + across) / legs.scale().powi(2))
     };
     let ((top2, under2), (top3, under3)) = (reach(21), reach(31));
-    // Where a leg is stretched across the guideways, its two slider positions merge.
+    // The two slider positions of a leg merge if the leg is stretched across the guideways.
     if under2.min(under3) < 1e-10 {
         if under2.min(under3) > -1e-10 {
             answer.touches.push(q);

@@ -1,11 +1,11 @@
-//! The tool's axis in the part frame and the orientations that have it.
+//! The tool's axis in the part frame, and the orientations that give it.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use verne_solver::axis::{Preimages, preimages, tool_axis};
 use verne_solver::{Machine, PartPose, part};
 
-use crate::machines::Draw;
+use crate::random_machines::Draw;
 
 fn assert_same(a: [f64; 3], b: [f64; 3]) {
     assert!((0..3).all(|i| (a[i] - b[i]).abs() < 1e-14), "{a:?} is not {b:?}");
@@ -19,14 +19,14 @@ fn both(axis: [f64; 3]) -> [[f64; 2]; 2] {
 }
 
 #[test]
-fn is_the_formula_of_the_part_frame() {
+fn the_axis_follows_the_formula_of_the_part_frame() {
     assert_same(tool_axis(0.0, 1.0), [0.0, 0.0, 1.0]);
     assert_same(tool_axis(FRAC_PI_2, 0.0), [0.0, -1.0, 0.0]);
     assert_same(tool_axis(FRAC_PI_2, FRAC_PI_2), [1.0, 0.0, 0.0]);
 }
 
 #[test]
-fn preimages_have_the_axis() {
+fn both_preimages_give_the_axis() {
     let mut draw = Draw::seeded(161);
     for _ in 0..5000 {
         let (phi1, phi2) = (draw.between(-PI, PI), draw.between(-PI, PI));
@@ -40,7 +40,7 @@ fn preimages_have_the_axis() {
 }
 
 #[test]
-fn preimages_of_an_orientation_hold_that_orientation() {
+fn the_preimages_of_an_orientation_contain_it() {
     let mut draw = Draw::seeded(162);
     for _ in 0..1000 {
         let (phi1, phi2) = (draw.between(1e-6, PI - 1e-6), draw.between(-PI, PI));
@@ -59,7 +59,7 @@ fn a_small_inclination_keeps_its_azimuth() {
 }
 
 #[test]
-fn azimuth_is_free_along_the_table_s_own_axis() {
+fn the_azimuth_is_free_at_the_pole() {
     assert_eq!(preimages([0.0, 0.0, 1.0]), Some(Preimages::Free { phi1: 0.0 }));
     assert_eq!(preimages([0.0, -0.0, 250.0]), Some(Preimages::Free { phi1: 0.0 }));
     assert_eq!(preimages([0.0, 0.0, -1.0]), Some(Preimages::Free { phi1: PI }));
@@ -73,7 +73,7 @@ fn azimuth_is_free_along_the_table_s_own_axis() {
 
 /// A zero's sign and rounding choose no other branch: they would turn the table by a whole turn.
 #[test]
-fn the_sign_of_nothing_makes_no_difference() {
+fn the_sign_of_zero_makes_no_difference() {
     for [i, j, k] in [[0.0, 1.0, 3.0], [0.0, -1.0, 3.0], [0.4, 0.0, 1.0], [-0.4, 0.0, 0.0], [0.0, 0.7, 0.0]] {
         let plain = both([i, j, k]);
         for noise in [-0.0, 1e-17, -1e-17, 1e-12, -1e-12] {
@@ -86,7 +86,7 @@ fn the_sign_of_nothing_makes_no_difference() {
 }
 
 #[test]
-fn no_direction_has_no_preimage() {
+fn a_zero_vector_has_no_preimage() {
     let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
     assert_eq!(preimages([0.0; 3]), None);
     for (place, value) in (0..3).flat_map(|place| bad.map(|value| (place, value))) {
@@ -97,7 +97,7 @@ fn no_direction_has_no_preimage() {
 }
 
 #[test]
-fn axes_of_any_magnitude_are_directions() {
+fn an_axis_can_have_any_magnitude() {
     for size in [1e-300, 1e-100, 1e100, 1e300] {
         assert_same(
             tool_axis(both([0.3 * size, 0.4 * size, size])[0][0], 0.0),

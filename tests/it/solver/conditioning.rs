@@ -5,9 +5,9 @@ use nalgebra::{Matrix4, Vector4};
 use verne_solver::jacobian::{conditioning, parallel_matrix, velocities};
 use verne_solver::{Machine, MachineData, PlatformPose, Posture};
 
-use crate::machines::scale;
-use crate::oracle::built::{hung, postures, upright};
+use crate::oracle::constructed_postures::{hung, postures, upright};
 use crate::oracle::{Found, Legs};
+use crate::random_machines::scale;
 
 /// Rates of the four rods' lengths with x, y, z, R1 alpha by central differences.
 fn differences(legs: &Legs, found: &Found) -> Matrix4<f64> {
@@ -34,7 +34,7 @@ fn determinant(m: &Matrix4<f64>) -> f64 {
 }
 
 #[test]
-fn parallel_matrix_is_the_rate_of_the_rods() {
+fn the_parallel_matrix_is_the_rate_of_the_rod_lengths() {
     for (machine, found) in postures(101, 1000) {
         let legs = Legs::of(&machine);
         let expected = differences(&legs, &found);
@@ -53,7 +53,7 @@ fn parallel_matrix_is_the_rate_of_the_rods() {
 }
 
 #[test]
-fn determinant_and_condition_number_are_the_matrix_s() {
+fn determinant_and_condition_number_belong_to_the_matrix() {
     for (machine, found) in postures(102, 1000) {
         let legs = Legs::of(&machine);
         let rates = legs.rates(&found.q, &found.rho);
@@ -68,7 +68,7 @@ fn determinant_and_condition_number_are_the_matrix_s() {
 }
 
 #[test]
-fn serial_cosines_are_the_rods_against_the_guideways() {
+fn serial_cosines_are_those_between_rods_and_guideways() {
     for (machine, found) in postures(103, 1000) {
         let legs = Legs::of(&machine);
         let got = conditioning(&machine, &found.posture(&legs)).serial;
@@ -107,7 +107,7 @@ fn a_singular_posture_has_no_velocities() {
 }
 
 #[test]
-fn home_of_the_reference_machine_is_regular() {
+fn the_reference_machine_is_regular_at_home() {
     let machine = Machine::verne();
     let legs = Legs::of(&machine);
     let home = hung(&legs, upright(&legs, 0.0, 0.0, 1000.0, 1.0).unwrap(), [1.0, 1.0]).unwrap();

@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 
 use verne_solver::{KinematicsError, Machine, Postures, forward, platform, tool, tool_point};
 
-use crate::machines::Draw;
-use crate::oracle::built::{hung, leaning, upright};
+use crate::oracle::constructed_postures::{hung, leaning, upright};
 use crate::oracle::{self, Answer, Comparison, Found, Legs, Path, distance};
-use crate::reference;
+use crate::random_machines::Draw;
+use crate::reference_sets;
 
 const SIDES: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
 
@@ -29,8 +29,8 @@ fn check(machine: &Machine, found: &Found, comparison: &mut Comparison) {
 }
 
 #[test]
-fn alpha_is_half_a_turn() {
-    for machine in [reference::verne(), reference::asymmetric()] {
+fn solutions_at_alpha_180_are_found() {
+    for machine in [reference_sets::verne(), reference_sets::asymmetric()] {
         let (legs, mut comparison, mut draw) = (Legs::of(&machine), Comparison::default(), Draw::seeded(61));
         for (x, sides) in (0..40).map(|i| (draw.between(-250.0, 250.0), SIDES[i % 4])) {
             for s1 in [1.0, -1.0] {
@@ -43,8 +43,8 @@ fn alpha_is_half_a_turn() {
 }
 
 #[test]
-fn alpha_is_near_half_a_turn() {
-    for machine in [reference::verne(), reference::asymmetric()] {
+fn solutions_near_alpha_180_are_found() {
+    for machine in [reference_sets::verne(), reference_sets::asymmetric()] {
         let (legs, mut comparison) = (Legs::of(&machine), Comparison::default());
         for (exponent, sides) in (1..13).flat_map(|e| SIDES.map(|sides| (e, sides))) {
             let alpha = PI - 10_f64.powi(-exponent);
@@ -60,9 +60,9 @@ fn alpha_is_near_half_a_turn() {
 }
 
 #[test]
-fn rods_of_leg_one_cross_over() {
+fn solutions_with_crossed_rods_of_leg_one_are_found() {
     // R1 cos alpha = r1, Eq (23): then y u + w1 v = 0 leaves w1 = 0.
-    for machine in [reference::verne(), reference::asymmetric()] {
+    for machine in [reference_sets::verne(), reference_sets::asymmetric()] {
         let (legs, mut comparison, mut draw) = (Legs::of(&machine), Comparison::default(), Draw::seeded(62));
         let upright = (legs.g.r1 / legs.g.R1).acos();
         let mut checked = 0;
@@ -94,8 +94,8 @@ fn both_vanish(legs: &Legs, alpha: f64, level: f64) -> [f64; 3] {
 }
 
 #[test]
-fn numerator_and_denominator_vanish_together() {
-    let (machine, mut comparison, mut pairs) = (reference::asymmetric(), Comparison::default(), 0);
+fn solutions_are_found_where_numerator_and_denominator_vanish() {
+    let (machine, mut comparison, mut pairs) = (reference_sets::asymmetric(), Comparison::default(), 0);
     let (legs, mut draw) = (Legs::of(&machine), Draw::seeded(63));
     for _ in 0..300 {
         let (alpha, level) = (draw.between(-PI, PI), draw.between(0.0, 700.0));
@@ -115,8 +115,8 @@ fn numerator_and_denominator_vanish_together() {
 }
 
 #[test]
-fn numerator_and_denominator_nearly_vanish_together() {
-    let (machine, mut comparison) = (reference::asymmetric(), Comparison::default());
+fn solutions_are_found_where_numerator_and_denominator_nearly_vanish() {
+    let (machine, mut comparison) = (reference_sets::asymmetric(), Comparison::default());
     let (legs, mut draw) = (Legs::of(&machine), Draw::seeded(64));
     for _ in 0..300 {
         let mut rho = both_vanish(&legs, draw.between(-1.2, 1.2), draw.between(0.0, 700.0));

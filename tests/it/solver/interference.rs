@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use verne_solver::{Machine, Margins};
 
-use crate::machines::scale;
-use crate::oracle::built::{hung, postures, upright};
+use crate::oracle::constructed_postures::{hung, postures, upright};
 use crate::oracle::{Found, Legs};
+use crate::random_machines::scale;
 
 const RODS: [u8; 6] = [11, 12, 21, 22, 31, 32];
 
@@ -62,14 +62,14 @@ fn check(machine: &Machine, found: &Found) {
 }
 
 #[test]
-fn of_random_postures() {
+fn rod_distances_of_random_postures_are_minimal() {
     for (machine, found) in postures(121, 2000) {
         check(&machine, &found);
     }
 }
 
 #[test]
-fn of_crossing_parallel_and_symmetric_rods() {
+fn distances_of_crossing_parallel_and_symmetric_rods_are_minimal() {
     use std::f64::consts::PI;
     let machine = Machine::verne();
     let legs = Legs::of(&machine);
@@ -83,7 +83,7 @@ fn of_crossing_parallel_and_symmetric_rods() {
 }
 
 #[test]
-fn rods_of_leg_one_meet_in_half_a_turn() {
+fn the_rods_of_leg_one_meet_between_alpha_0_and_180() {
     let machine = Machine::verne();
     let legs = Legs::of(&machine);
     let leg1 = upright(&legs, std::f64::consts::PI, 0.0, 1200.0, 1.0).unwrap();

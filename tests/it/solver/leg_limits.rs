@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 
 use verne_solver::{Constraint, Element, KinematicsError, Machine, Posture, platform, platform_working};
 
-use crate::machines::Draw;
 use crate::oracle::Legs;
-use crate::oracle::built::{drops_squared, hung, leaning};
+use crate::oracle::constructed_postures::{drops_squared, hung, leaning};
+use crate::random_machines::Draw;
 
 /// Distances from a limit, mm.
 const DISTANCES: [f64; 10] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
@@ -43,7 +43,7 @@ fn near(all: &[Posture], alpha: f64, within: f64) -> (usize, usize) {
 }
 
 #[test]
-fn leg_one_at_its_farthest() {
+fn solutions_at_the_greatest_reach_of_leg_one_are_found() {
     let (machine, mut draw) = (Machine::verne(), Draw::seeded(81));
     let legs = Legs::of(&machine);
     let offset = legs.g.D1 - legs.g.d1;
@@ -93,7 +93,7 @@ fn stretched(alpha: f64, y: f64, drop_squared: f64) -> (Machine, [f64; 3], f64) 
 }
 
 #[test]
-fn leg_two_at_full_stretch() {
+fn solutions_at_the_greatest_reach_of_leg_two_are_found() {
     for (alpha, y) in [(-0.2, 200.0), (-0.3, 250.0), (-0.25, 300.0)] {
         for slack in DISTANCES {
             // A length longer by `slack` leaves a height of sqrt(2 L slack), some 1e-6 mm at least.
@@ -129,7 +129,7 @@ fn at(all: &[Posture], alpha: f64, rho1: f64) -> (usize, usize) {
 }
 
 #[test]
-fn beyond_a_leg_the_working_mode_names_it() {
+fn a_position_beyond_a_leg_names_the_leg() {
     // Leg III's guideway is at y = +500: it is the one that does not reach there.
     let machine = Machine::verne();
     let legs = Legs::of(&machine);

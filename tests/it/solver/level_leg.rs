@@ -9,7 +9,7 @@ use verne_solver::{
     platform, tool, tool_point,
 };
 
-use crate::machines::{Draw, scale};
+use crate::random_machines::{Draw, scale};
 
 /// Leg I closed at a platform angle with the drop w1: P, but for its z. `None` if the leg does not
 /// reach or leg II or III does not.
@@ -48,7 +48,7 @@ fn check(machine: &Machine, question: &str, found: Result<Postures, KinematicsEr
 }
 
 #[test]
-fn sixteen_where_the_rods_are_almost_horizontal() {
+fn sixteen_postures_are_found_with_almost_horizontal_rods() {
     let (machine, x) = (Machine::verne(), -530.776_406_204_323_2);
     for (y, expected) in
         [(1e-6, vec![-0.007_819, -0.002_126, 0.002_126, 0.007_819]), (0.0, vec![-0.008_103, 0.0, 0.008_103])]
@@ -107,6 +107,6 @@ fn postures_near_alpha_zero_are_found_in_every_frame() {
 }
 
 #[test]
-fn postures_near_half_a_turn_are_found_in_every_frame() {
+fn postures_near_alpha_180_are_found_in_every_frame() {
     around(PI, 172);
 }

@@ -1,11 +1,11 @@
-//! Each family of margins against a plain computation from the rods in space.
+//! Each kind of margin against a plain computation from the rods in space.
 
 use nalgebra::Vector3;
 use verne_solver::{Machine, Margins, TableAngles};
 
-use crate::machines::{Draw, scale};
-use crate::oracle::built::{hung, postures, upright};
+use crate::oracle::constructed_postures::{hung, postures, upright};
 use crate::oracle::{Found, Legs};
+use crate::random_machines::{Draw, scale};
 
 /// The rods that the arrays of four stand for.
 const RODS: [u8; 4] = [11, 12, 21, 31];
@@ -40,7 +40,7 @@ fn close(name: &str, found: &Found, got: &[f64], expected: &[f64], tolerance: f6
 }
 
 #[test]
-fn stroke_is_the_distance_from_either_end() {
+fn the_stroke_margin_is_the_distance_to_the_nearer_end() {
     for (machine, found) in postures(131, 300) {
         let got = Margins::of(&machine, &found.posture(&Legs::of(&machine)), None).stroke;
         let limits = machine.data().limits.stroke;
@@ -52,7 +52,7 @@ fn stroke_is_the_distance_from_either_end() {
 }
 
 #[test]
-fn leg_length_is_the_height_of_the_slider_over_the_platform() {
+fn the_leg_length_margin_is_the_height_of_the_slider_over_its_joint() {
     for (machine, found) in postures(132, 1000) {
         let (legs, unit) = (Legs::of(&machine), scale(&machine));
         let got = Margins::of(&machine, &found.posture(&legs), None).leg_length;
@@ -71,7 +71,7 @@ fn leg_length_is_the_height_of_the_slider_over_the_platform() {
 }
 
 #[test]
-fn serial_singularity_is_the_cosine_less_the_limit() {
+fn the_serial_singularity_margin_is_the_cosine_minus_the_limit() {
     for (machine, found) in postures(133, 1000) {
         let legs = Legs::of(&machine);
         let got = Margins::of(&machine, &found.posture(&legs), None).serial_singularity;
@@ -84,7 +84,7 @@ fn serial_singularity_is_the_cosine_less_the_limit() {
 }
 
 #[test]
-fn parallel_singularity_is_positive_at_home() {
+fn the_parallel_singularity_margin_is_positive_at_home() {
     for (machine, found) in postures(134, 1000) {
         let legs = Legs::of(&machine);
         let home = home(&legs);
@@ -99,7 +99,7 @@ fn parallel_singularity_is_positive_at_home() {
 }
 
 #[test]
-fn slider_joint_is_the_angle_in_the_base_frame() {
+fn the_slider_joint_margin_uses_the_base_frame() {
     let mut draw = Draw::seeded(1);
     for (machine, found) in postures(135, 1000) {
         let legs = Legs::of(&machine);
@@ -119,7 +119,7 @@ fn slider_joint_is_the_angle_in_the_base_frame() {
 }
 
 #[test]
-fn platform_joint_is_the_angle_in_the_platform_frame() {
+fn the_platform_joint_margin_uses_the_platform_frame() {
     let mut draw = Draw::seeded(2);
     for (machine, found) in postures(136, 1000) {
         let legs = Legs::of(&machine);
@@ -140,7 +140,7 @@ fn platform_joint_is_the_angle_in_the_platform_frame() {
 }
 
 #[test]
-fn joints_have_their_whole_cone_at_home() {
+fn joint_margins_are_the_whole_cone_at_home() {
     let machine = Machine::verne();
     let legs = Legs::of(&machine);
     let margins = Margins::of(&machine, &home(&legs).posture(&legs), None);
@@ -149,7 +149,7 @@ fn joints_have_their_whole_cone_at_home() {
 }
 
 #[test]
-fn rod_crossing_changes_sign_where_the_rods_cross() {
+fn the_rod_crossing_margin_changes_sign_where_rods_cross() {
     for (machine, found) in postures(137, 300) {
         let legs = Legs::of(&machine);
         let margins = Margins::of(&machine, &found.posture(&legs), None);
@@ -162,7 +162,7 @@ fn rod_crossing_changes_sign_where_the_rods_cross() {
 }
 
 #[test]
-fn tilt_and_rotary_only_where_the_table_takes_part() {
+fn tilt_and_rotary_margins_exist_only_with_table_angles() {
     let machine = Machine::verne();
     let legs = Legs::of(&machine);
     let posture = home(&legs).posture(&legs);
@@ -177,7 +177,7 @@ fn tilt_and_rotary_only_where_the_table_takes_part() {
 }
 
 #[test]
-fn feasible_is_every_margin_at_least_zero() {
+fn a_posture_is_feasible_if_every_margin_is_at_least_zero() {
     let (mut yes, mut no) = (0, 0);
     for (machine, found) in postures(138, 3000) {
         let mut data = machine.data().clone();

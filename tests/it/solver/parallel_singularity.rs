@@ -5,10 +5,10 @@
 use nalgebra::{Vector3, Vector4};
 use verne_solver::{Machine, Posture, forward};
 
-use crate::machines::{Draw, scale};
-use crate::oracle::built::{hung, leaning};
+use crate::oracle::constructed_postures::{hung, leaning};
 use crate::oracle::{Found, Legs, wrapped};
-use crate::reference;
+use crate::random_machines::{Draw, scale};
+use crate::reference_sets;
 
 /// Distances from the fold in the space of the sliders, on a machine of a metre, mm.
 const DISTANCES: [f64; 10] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
@@ -136,7 +136,7 @@ impl Fold {
 }
 
 #[test]
-fn of_the_reference_machine() {
+fn two_modes_merge_at_singularities_of_the_reference_machine() {
     let (machine, mut draw) = (Machine::verne(), Draw::seeded(91));
     for fold in folds(&machine, &mut draw, 60) {
         fold.check(&machine);
@@ -144,15 +144,15 @@ fn of_the_reference_machine() {
 }
 
 #[test]
-fn of_the_asymmetric_machine() {
-    let (machine, mut draw) = (reference::asymmetric(), Draw::seeded(92));
+fn two_modes_merge_at_singularities_of_the_asymmetric_machine() {
+    let (machine, mut draw) = (reference_sets::asymmetric(), Draw::seeded(92));
     for fold in folds(&machine, &mut draw, 60) {
         fold.check(&machine);
     }
 }
 
 #[test]
-fn of_random_machines() {
+fn two_modes_merge_at_singularities_of_random_machines() {
     let mut draw = Draw::seeded(93);
     for _ in 0..60 {
         let machine = draw.machine();

@@ -3,8 +3,8 @@
 
 use verne_solver::{KinematicsError, Machine, MachineData, forward, forward_working};
 
-use crate::machines::Draw;
 use crate::oracle::{self, Comparison};
+use crate::random_machines::Draw;
 
 fn data() -> MachineData {
     let mut data = Machine::verne().data().clone();
@@ -25,7 +25,7 @@ fn check(rho: [f64; 3], comparison: &mut Comparison) {
 }
 
 #[test]
-fn sliders_anywhere() {
+fn all_assembly_modes_are_found_at_any_sliders() {
     let (mut draw, mut comparison) = (Draw::seeded(71), Comparison::default());
     for _ in 0..300 {
         check([0, 1, 2].map(|_| draw.between(0.0, 800.0)), &mut comparison);
@@ -34,7 +34,7 @@ fn sliders_anywhere() {
 }
 
 #[test]
-fn rho2_equals_rho3() {
+fn all_assembly_modes_are_found_at_equal_rho2_and_rho3() {
     let (mut draw, mut comparison) = (Draw::seeded(72), Comparison::default());
     for _ in 0..300 {
         let [rho1, rho2] = [draw.between(0.0, 800.0), draw.between(0.0, 800.0)];
@@ -44,7 +44,7 @@ fn rho2_equals_rho3() {
 }
 
 #[test]
-fn rho1_half_way() {
+fn all_assembly_modes_are_found_at_rho1_half_way() {
     let (mut draw, mut comparison) = (Draw::seeded(73), Comparison::default());
     for _ in 0..300 {
         let (middle, apart) = (draw.between(0.0, 800.0).round(), draw.between(10.0, 500.0).round());
@@ -54,7 +54,7 @@ fn rho1_half_way() {
 }
 
 #[test]
-fn level_sliders_do_not_hold_the_platform() {
+fn level_sliders_do_not_determine_the_platform() {
     let machine = machine();
     for level in [0.0, 300.0, 512.75] {
         assert!(oracle::forward(&machine, [level; 3]).continuum);
@@ -64,7 +64,7 @@ fn level_sliders_do_not_hold_the_platform() {
 }
 
 #[test]
-fn level_sliders_at_home_make_no_machine() {
+fn level_sliders_at_home_are_refused() {
     // L1² - (R1 - r1)² = L2² - (R2 - r4)²: the sliders are level at home, which is then singular.
     let mut data = data();
     data.geometry.L1 = (900_f64.powi(2) - 100_f64.powi(2) + 200_f64.powi(2)).sqrt();

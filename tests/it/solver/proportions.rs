@@ -26,7 +26,7 @@ fn small() -> Machine {
 }
 
 #[test]
-fn longer_than_double_precision_bears_is_refused_in_every_frame() {
+fn lengths_beyond_double_precision_are_refused_in_every_frame() {
     let machine = small();
     let most = MAX_LENGTH_RATIO * machine.longest();
     for length in [1.001 * most, -1.001 * most] {
@@ -44,7 +44,7 @@ fn longer_than_double_precision_bears_is_refused_in_every_frame() {
 }
 
 #[test]
-fn up_to_there_a_shift_along_the_sliders_changes_no_count() {
+fn a_shift_along_the_sliders_changes_no_count() {
     let machine = small();
     let most = MAX_LENGTH_RATIO * machine.longest();
     for (x, y) in [(-2.4, -0.86), (0.5, 1.0), (0.0, 0.0), (3.0, -2.0)] {
@@ -56,7 +56,7 @@ fn up_to_there_a_shift_along_the_sliders_changes_no_count() {
 }
 
 #[test]
-fn a_table_too_far_from_the_legs_is_no_machine() {
+fn a_table_too_far_from_the_legs_is_refused() {
     let mut data = small().data().clone();
     data.table.da = 1.001 * MAX_LENGTH_RATIO * small().longest();
     let faults = Machine::new(data).unwrap_err();

@@ -5,7 +5,7 @@ use verne_solver::{
     part_working, platform, platform_working, table_angles,
 };
 
-use crate::reference::{self, InverseCase, Solution};
+use crate::reference_sets::{self, InverseCase, Solution};
 
 /// Accuracy of a coordinate, mm.
 const LENGTH: f64 = 1e-9;
@@ -65,16 +65,16 @@ fn target(case: &InverseCase) -> PartPose {
 }
 
 #[test]
-fn forward_finds_the_reference() {
-    for case in reference::forward() {
+fn forward_solutions_equal_the_reference() {
+    for case in reference_sets::forward() {
         check(&case.tag, forward(&case.machine, case.rho), &case.solutions);
         check_working(&case.tag, forward_working(&case.machine, case.rho), &case.solutions);
     }
 }
 
 #[test]
-fn inverse_finds_the_reference() {
-    for case in reference::inverse() {
+fn inverse_solutions_equal_the_reference() {
+    for case in reference_sets::inverse() {
         let (all, working) = if let Some(tool_length) = case.tool_length {
             let target = target(&case);
             (part(&case.machine, &target, tool_length), part_working(&case.machine, &target, tool_length))
@@ -88,8 +88,8 @@ fn inverse_finds_the_reference() {
 }
 
 #[test]
-fn forward_of_a_reference_posture_comes_back() {
-    for case in reference::inverse() {
+fn forward_of_a_reference_posture_returns_it() {
+    for case in reference_sets::inverse() {
         for truth in &case.solutions {
             let modes = forward(&case.machine, truth.rho).expect("the reference posture is an assembly mode");
             assert_eq!(
@@ -103,8 +103,8 @@ fn forward_of_a_reference_posture_comes_back() {
 }
 
 #[test]
-fn the_table_turns_the_reference_platform_to_the_target() {
-    for case in reference::inverse().iter().filter(|case| case.tool_length.is_some()) {
+fn the_table_moves_the_reference_platform_to_the_target() {
+    for case in reference_sets::inverse().iter().filter(|case| case.tool_length.is_some()) {
         let (target, tool_length) = (target(case), case.tool_length.unwrap());
         for posture in part(&case.machine, &target, tool_length).unwrap() {
             let truth =
@@ -125,7 +125,7 @@ fn the_table_turns_the_reference_platform_to_the_target() {
 }
 
 #[test]
-fn the_built_in_machine_is_the_published_one() {
-    assert_eq!(Machine::verne().data(), reference::verne().data());
+fn the_built_in_machine_equals_the_published_one() {
+    assert_eq!(Machine::verne().data(), reference_sets::verne().data());
     assert_eq!(Machine::verne(), Machine::new(Machine::verne().data().clone()).unwrap());
 }

@@ -1,4 +1,4 @@
-//! Forward of inverse and inverse of forward come back, in every frame.
+//! Forward of inverse and inverse of forward return the input, in every frame.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,8 +8,8 @@ use verne_solver::{
     tool_point,
 };
 
-use crate::machines::{Draw, scale};
 use crate::oracle::{Legs, listed};
+use crate::random_machines::{Draw, scale};
 
 /// The posture is among the answers, as exactly as its distance from singularities lets double
 /// precision tell.
@@ -63,7 +63,7 @@ fn forward_finds_every_posture_of_a_platform_position() {
 }
 
 #[test]
-fn platform_tool_and_part_find_every_assembly_mode() {
+fn inverse_problems_find_every_assembly_mode() {
     let (mut draw, mut postures) = (Draw::seeded(32), 0);
     for _ in 0..3000 {
         let machine = draw.any_machine();
@@ -90,7 +90,7 @@ fn platform_tool_and_part_find_every_assembly_mode() {
 }
 
 #[test]
-fn every_posture_of_a_tool_position_holds_the_tool_there() {
+fn every_posture_of_a_tool_position_has_its_tool_end_there() {
     let (mut draw, mut postures) = (Draw::seeded(33), 0);
     for _ in 0..3000 {
         let machine = draw.any_machine();
@@ -109,7 +109,7 @@ fn every_posture_of_a_tool_position_holds_the_tool_there() {
 }
 
 #[test]
-fn every_posture_of_a_part_pose_holds_the_tool_there() {
+fn every_posture_of_a_part_pose_has_its_tool_end_there() {
     let (mut draw, mut postures) = (Draw::seeded(34), 0);
     for _ in 0..3000 {
         let machine = draw.any_machine();

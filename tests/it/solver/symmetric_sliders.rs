@@ -4,8 +4,8 @@
 
 use verne_solver::{Machine, MachineData, Posture, forward, forward_working};
 
-use crate::machines::{Draw, scale};
 use crate::oracle::{self, Comparison};
+use crate::random_machines::{Draw, scale};
 
 /// Distances from exact symmetry, mm on a metre.
 const OFFSETS: [f64; 13] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
@@ -25,7 +25,7 @@ fn check(machine: &Machine, rho: [f64; 3], comparison: &mut Comparison) -> Vec<P
 }
 
 #[test]
-fn rho2_near_rho3_within_the_strokes() {
+fn all_modes_are_found_at_rho2_near_rho3() {
     let (machine, mut draw, mut comparison) = (Machine::verne(), Draw::seeded(51), Comparison::default());
     for _ in 0..40 {
         let [rho1, rho2] = [draw.between(0.0, 750.0), draw.between(0.0, 750.0)];
@@ -47,7 +47,7 @@ fn rho2_near_rho3_within_the_strokes() {
 }
 
 #[test]
-fn all_sliders_level() {
+fn all_modes_are_found_at_level_sliders() {
     let (machine, mut comparison) = (Machine::verne(), Comparison::default());
     for level in [0.0, 300.0, 712.25] {
         for offset in OFFSETS {
@@ -68,7 +68,7 @@ fn all_sliders_level() {
 }
 
 #[test]
-fn rho1_half_way_between_rho2_and_rho3() {
+fn all_modes_are_found_at_rho1_half_way_between_rho2_and_rho3() {
     let (machine, mut draw, mut comparison) = (Machine::verne(), Draw::seeded(52), Comparison::default());
     let random =
         (0..60).map(|_| [draw.between(-200.0, 900.0), draw.between(-900.0, 900.0)]).collect::<Vec<_>>();
@@ -83,7 +83,7 @@ fn rho1_half_way_between_rho2_and_rho3() {
 }
 
 #[test]
-fn exact_half_way_has_two_modes_at_the_angle_that_parallels_the_rods() {
+fn the_exact_middle_has_two_modes_with_parallel_rods() {
     // S = N = 0 leaves D(alpha) = 0 or y = z - rho1 = 0: at the working angle both roots of leg I.
     let machine = Machine::verne();
     let all = forward(&machine, [500.0, 400.0, 600.0]).unwrap();
@@ -93,7 +93,7 @@ fn exact_half_way_has_two_modes_at_the_angle_that_parallels_the_rods() {
 }
 
 #[test]
-fn random_machines_near_either_symmetry() {
+fn all_modes_of_random_machines_are_found_near_either_symmetry() {
     let (mut draw, mut comparison) = (Draw::seeded(53), Comparison::default());
     for _ in 0..3000 {
         let machine = with_legs_alike(&draw.machine());
@@ -107,7 +107,7 @@ fn random_machines_near_either_symmetry() {
 }
 
 #[test]
-fn either_symmetry_at_any_distance() {
+fn all_modes_are_found_at_any_distance_from_either_symmetry() {
     let (machine, mut draw, mut comparison) = (Machine::verne(), Draw::seeded(54), Comparison::default());
     for _ in 0..4000 {
         let [rho1, rho2, rho3] = [0; 3].map(|_| draw.between(0.0, 750.0));
@@ -120,7 +120,7 @@ fn either_symmetry_at_any_distance() {
 }
 
 #[test]
-fn forward_along_the_crossing_of_the_plane_is_continuous() {
+fn forward_solutions_are_continuous_across_the_plane() {
     // The working posture moves through the plane without a jump: y is odd in rho3 - rho2.
     let machine = Machine::verne();
     for offset in OFFSETS.into_iter().skip(1) {

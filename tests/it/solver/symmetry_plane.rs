@@ -5,8 +5,8 @@ use verne_solver::{
     Machine, Mode, PartPose, Posture, part, part_working, platform, platform_working, tool, tool_working,
 };
 
-use crate::machines::{Draw, scale};
 use crate::oracle::{self, Comparison, Path};
+use crate::random_machines::{Draw, scale};
 
 /// y from exactly zero to a micrometre on a metre, on both sides.
 const OFFSETS: [f64; 22] = [
@@ -35,7 +35,7 @@ fn assert_working(question: &str, posture: &Posture, y: f64) {
 }
 
 #[test]
-fn platform_has_all_sixteen_postures() {
+fn all_sixteen_postures_are_found_in_the_plane() {
     let (machine, mut comparison) = (Machine::verne(), Comparison::default());
     for [x, z] in positions() {
         for y in OFFSETS {
@@ -50,7 +50,7 @@ fn platform_has_all_sixteen_postures() {
 }
 
 #[test]
-fn sixteen_postures_carry_sixteen_labels() {
+fn sixteen_postures_have_sixteen_labels() {
     for [x, z] in positions() {
         for y in OFFSETS {
             let all = platform(&Machine::verne(), [x, y, z]).unwrap();
@@ -63,7 +63,7 @@ fn sixteen_postures_carry_sixteen_labels() {
 }
 
 #[test]
-fn platform_has_its_working_posture() {
+fn the_working_posture_is_found_in_the_plane() {
     for [x, z] in positions() {
         for y in OFFSETS {
             let question = format!("p {:?}", [x, y, z]);
@@ -75,7 +75,7 @@ fn platform_has_its_working_posture() {
 }
 
 #[test]
-fn tool_frame_agrees_with_the_oracle() {
+fn tool_positions_in_the_plane_agree_with_the_oracle() {
     let (machine, mut comparison) = (Machine::verne(), Comparison::default());
     for [x, z] in positions() {
         for (y, length) in OFFSETS.into_iter().flat_map(|y| [(y, 0.0), (y, 50.0), (y, 300.0)]) {
@@ -90,7 +90,7 @@ fn tool_frame_agrees_with_the_oracle() {
 }
 
 #[test]
-fn part_frame_agrees_with_the_oracle() {
+fn part_poses_in_the_plane_agree_with_the_oracle() {
     let (machine, mut comparison) = (Machine::verne(), Comparison::default());
     for [x, z] in positions() {
         for (y, length) in OFFSETS.into_iter().flat_map(|y| [(y, 0.0), (y, 50.0), (y, 300.0)]) {
@@ -107,7 +107,7 @@ fn part_frame_agrees_with_the_oracle() {
 }
 
 #[test]
-fn near_the_plane_at_any_distance() {
+fn solutions_at_any_distance_from_the_plane_agree_with_the_oracle() {
     let (mut draw, mut comparison) = (Draw::seeded(43), Comparison::default());
     for _ in 0..2000 {
         let machine = if draw.one_in(2) { Machine::verne() } else { draw.machine() };
@@ -131,7 +131,7 @@ fn near_the_plane_at_any_distance() {
 }
 
 #[test]
-fn platform_of_random_machines_agrees_with_the_oracle() {
+fn random_machines_in_the_plane_agree_with_the_oracle() {
     let (mut draw, mut comparison) = (Draw::seeded(42), Comparison::default());
     for _ in 0..1500 {
         let machine = draw.machine();

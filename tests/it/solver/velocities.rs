@@ -1,11 +1,11 @@
-//! Rates of the pose with the sliders against central differences of the forward problem.
+//! Velocities of the pose against central differences of the forward problem.
 
 use verne_solver::jacobian::velocities;
 use verne_solver::{Machine, Posture, forward_working};
 
-use crate::machines::{Draw, scale};
 use crate::oracle::Legs;
-use crate::oracle::built::postures;
+use crate::oracle::constructed_postures::postures;
+use crate::random_machines::{Draw, scale};
 
 fn pose(posture: &Posture) -> [f64; 4] {
     let p = &posture.pose;
@@ -40,7 +40,7 @@ fn check(machine: &Machine, posture: &Posture, step: f64, tolerance: f64) -> usi
 }
 
 #[test]
-fn of_the_reference_machine_within_its_strokes() {
+fn velocities_of_the_reference_machine_equal_central_differences() {
     let (machine, mut draw, mut checked) = (Machine::verne(), Draw::seeded(111), 0);
     for _ in 0..1000 {
         let rho = [0, 1, 2].map(|_| draw.between(50.0, 700.0));
@@ -51,7 +51,7 @@ fn of_the_reference_machine_within_its_strokes() {
 }
 
 #[test]
-fn of_random_machines() {
+fn velocities_of_random_machines_equal_central_differences() {
     let mut checked = 0;
     for (machine, found) in postures(112, 4000) {
         let legs = Legs::of(&machine);
@@ -65,7 +65,7 @@ fn of_random_machines() {
 }
 
 #[test]
-fn all_sliders_together_carry_the_platform_along() {
+fn equal_slider_velocities_move_the_platform_along_z() {
     for (machine, found) in postures(113, 300) {
         let Some(rates) = velocities(&machine, &found.posture(&Legs::of(&machine))) else { continue };
         let together = rates.map(|row| row.iter().sum::<f64>());

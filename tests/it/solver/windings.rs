@@ -1,10 +1,10 @@
-//! Whole turns of the table's angles.
+//! Windings of the table's angles.
 
 use std::f64::consts::{PI, TAU};
 
 use verne_solver::{Machine, SplitAngle, table_windings};
 
-use crate::machines::Draw;
+use crate::random_machines::Draw;
 
 /// A machine with these ranges of tilt and rotary angle.
 fn machine(tilt: [f64; 2], rotary: [f64; 2]) -> Machine {
@@ -19,7 +19,7 @@ fn admissible([low, high]: [f64; 2], angle: f64) -> Vec<f64> {
 }
 
 #[test]
-fn the_nearest_one_within_the_range_is_chosen() {
+fn the_nearest_winding_within_the_range_is_chosen() {
     let mut draw = Draw::seeded(191);
     for _ in 0..20_000 {
         let ranges = [0; 2].map(|_| {
@@ -44,7 +44,7 @@ fn the_nearest_one_within_the_range_is_chosen() {
 }
 
 #[test]
-fn without_a_place_nearby_the_one_asked_for_stays() {
+fn a_winding_outside_the_range_stays_as_requested() {
     let machine = machine([-1.5, 1.5], [-TAU, TAU]);
     for (angle, turns, expected) in
         [(0.5, 0.0, 0.5), (-0.5, 1.0, TAU - 0.5), (0.5, 1.0, 0.5), (3.0, -1.0, 3.0 - TAU)]

@@ -4,7 +4,7 @@ use verne_solver::machine::{Geometry, Limits};
 use verne_solver::{Constraint, Element, Machine, Margin, Margins, Posture, TableAngles};
 
 use crate::oracle::Legs;
-use crate::oracle::built::{hung, leaning, upright};
+use crate::oracle::constructed_postures::{hung, leaning, upright};
 
 /// The reference machine with every limit out of the way but what `change` sets.
 fn machine(change: impl FnOnce(&mut Limits, &mut Geometry)) -> Machine {
@@ -40,7 +40,7 @@ fn worst(machine: &Machine, table: Option<TableAngles>) -> (Constraint, Element)
 }
 
 #[test]
-fn none_is_negative_inside() {
+fn no_margin_is_negative_inside_the_limits() {
     for machine in [machine(|_, _| ()), Machine::verne()] {
         let margins = Margins::of(&machine, &posture(1250.0), Some(TableAngles::default()));
         let worst = margins.worst(&machine);
@@ -49,7 +49,7 @@ fn none_is_negative_inside() {
 }
 
 #[test]
-fn stroke_names_the_slider_and_its_end() {
+fn a_stroke_margin_names_the_slider_and_its_end() {
     let rho = posture(1250.0).rho;
     for (i, slider) in [(0, 1), (1, 2), (2, 3)] {
         let low = machine(|limits, _| limits.stroke[i] = [rho[i] + 0.5, 1e4]);
@@ -62,7 +62,7 @@ fn stroke_names_the_slider_and_its_end() {
 }
 
 #[test]
-fn a_stroke_s_end_is_feasible() {
+fn the_end_of_a_stroke_is_feasible() {
     let rho = posture(1250.0).rho;
     let machine = machine(|limits, _| limits.stroke[1] = [rho[1], 1e4]);
     let margins = Margins::of(&machine, &posture(1250.0), None);
@@ -73,7 +73,7 @@ fn a_stroke_s_end_is_feasible() {
 }
 
 #[test]
-fn serial_singularity_names_the_rod() {
+fn a_serial_singularity_names_the_rod() {
     let legs = Legs::of(&Machine::verne());
     let p = posture(1250.0);
     let q = nalgebra::Vector4::new(p.pose.x, p.pose.y, p.pose.z, p.pose.alpha);
@@ -85,7 +85,7 @@ fn serial_singularity_names_the_rod() {
 }
 
 #[test]
-fn parallel_singularity_names_the_platform() {
+fn a_parallel_singularity_names_the_platform() {
     // Near the edge of the workspace: in the middle det_P exceeds every limit there may be.
     let machine = machine(|limits, _| limits.parallel_margin = 0.99);
     let legs = Legs::of(&machine);
@@ -97,7 +97,7 @@ fn parallel_singularity_names_the_platform() {
 }
 
 #[test]
-fn joints_name_the_rod() {
+fn a_joint_margin_names_the_rod() {
     let narrow = machine(|limits, _| limits.slider_cone = 1e-3);
     let (constraint, element) = worst(&narrow, None);
     assert_eq!(constraint, Constraint::SliderJoint);
@@ -109,7 +109,7 @@ fn joints_name_the_rod() {
 }
 
 #[test]
-fn thick_rods_name_the_pair() {
+fn rod_interference_names_the_pair() {
     let thick = machine(|_, geometry| geometry.rod_radius = 150.0);
     let margins = Margins::of(&thick, &posture(1250.0), None);
     let [a, b] = margins.nearest_rods;
@@ -117,7 +117,7 @@ fn thick_rods_name_the_pair() {
 }
 
 #[test]
-fn the_table_names_its_range() {
+fn a_table_margin_names_its_range() {
     let machine = machine(|_, _| ());
     let at = |theta1: f64, theta2: f64| Some(TableAngles { theta1, theta2 });
     assert_eq!(worst(&machine, at(1.6, 0.0)), (Constraint::Tilt, Element::Range { high: true }));

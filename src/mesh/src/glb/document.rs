@@ -9,8 +9,8 @@ use gltf_json::{Accessor, Asset, Buffer, Extras, Index, Material, Node, Root, Sc
 use serde_json::value::to_raw_value;
 use serde_json::{Value, json};
 
-use super::Options;
-use super::layout::{Layout, Part, STRIDE};
+use super::layout::{Layout, PrimitiveLayout, STRIDE};
+use super::options::Options;
 use super::placement::Placement;
 use crate::{Mesh, Swatch};
 
@@ -32,15 +32,15 @@ pub(super) fn of(
 ) -> serde_json::Result<Root> {
     let mut root = empty(options)?;
     let views = views(&mut root, layout);
-    let mut primitives = Vec::with_capacity(layout.parts.len());
-    for part in &layout.parts {
-        let swatch = &mesh.palette()[usize::from(part.tag)];
+    let mut primitives = Vec::with_capacity(layout.primitives.len());
+    for range in &layout.primitives {
+        let swatch = &mesh.palette()[usize::from(range.tag)];
         let material = root.push(material(swatch));
-        let extras = extras(&json!({ "tag": part.tag }))?;
+        let extras = extras(&json!({ "tag": range.tag }))?;
         primitives.push(Primitive {
             material: Some(material),
             extras,
-            ..primitive(&mut root, views, layout, part)
+            ..primitive(&mut root, views, layout, range)
         });
     }
     let object = root.push(gltf_json::Mesh {
@@ -66,21 +66,21 @@ fn primitive(
     root: &mut Root,
     [vertices, indices]: [Index<View>; 2],
     layout: &Layout,
-    part: &Part,
+    range: &PrimitiveLayout,
 ) -> Primitive {
-    let first = (part.vertices.start * STRIDE) as u64;
+    let first = (range.vertices.start * STRIDE) as u64;
     let mut attribute = |offset: u64, bounds: Option<[[f32; 3]; 2]>| {
         let [min, max] = bounds.map_or([None, None], |corners| corners.map(|corner| Some(json!(corner))));
-        let accessor = accessor(vertices, part.vertices.len(), ComponentType::F32, Type::Vec3);
+        let accessor = accessor(vertices, range.vertices.len(), ComponentType::F32, Type::Vec3);
         root.push(Accessor { byte_offset: Some((first + offset).into()), min, max, ..accessor })
     };
-    let position = attribute(0, Some(part.bounds));
+    let position = attribute(0, Some(range.bounds));
     let normal = attribute(12, None);
     let width = if layout.short_indices() { ComponentType::U16 } else { ComponentType::U32 };
-    let from = part.indices.start as u64 * layout.index_size();
+    let from = range.indices.start as u64 * layout.index_size();
     let indices = root.push(Accessor {
         byte_offset: Some(from.into()),
-        ..accessor(indices, part.indices.len(), width, Type::Scalar)
+        ..accessor(indices, range.indices.len(), width, Type::Scalar)
     });
     Primitive {
         attributes: [(Valid(Semantic::Positions), position), (Valid(Semantic::Normals), normal)].into(),
@@ -93,7 +93,7 @@ fn primitive(
     }
 }
 
-/// The buffer's two parts: vertices and indices.
+/// The two views of the buffer: vertices and indices.
 fn views(root: &mut Root, layout: &Layout) -> [Index<View>; 2] {
     let buffer = root.push(Buffer {
         byte_length: layout.bytes().into(),

@@ -13,15 +13,15 @@ pub(super) const STRIDE: usize = 24;
 /// The binary chunk's measures.
 pub(super) struct Layout {
     /// One for each tag that occurs.
-    pub(super) parts: Vec<Part>,
+    pub(super) primitives: Vec<PrimitiveLayout>,
 }
 
 /// The data of one tag.
-pub(super) struct Part {
+pub(super) struct PrimitiveLayout {
     pub(super) tag: u8,
     /// The range of its split vertices.
     pub(super) vertices: Range<usize>,
-    /// The range of its indices, three a triangle. They count from the part's first vertex.
+    /// The range of its indices, three a triangle. They count from the primitive's first vertex.
     pub(super) indices: Range<usize>,
     /// The least and greatest coordinates of the written vertices, m.
     pub(super) bounds: [[f32; 3]; 2],
@@ -29,25 +29,25 @@ pub(super) struct Part {
 
 impl Layout {
     pub(super) fn new(mesh: &Mesh, groups: &Groups, shading: &Shading, placement: &Placement) -> Self {
-        let parts = groups.iter().map(|group| {
+        let primitives = groups.iter().map(|group| {
             let vertices = shading.vertices.partition_point(|vertex| vertex.tag < group.tag)
                 ..shading.vertices.partition_point(|vertex| vertex.tag <= group.tag);
             let positions = shading.vertices[vertices.clone()]
                 .iter()
                 .map(|vertex| placement.position(mesh.positions()[vertex.vertex as usize]));
-            Part {
+            PrimitiveLayout {
                 tag: group.tag,
                 bounds: bounds(positions),
                 vertices,
                 indices: 3 * group.triangles.start..3 * group.triangles.end,
             }
         });
-        Self { parts: parts.collect() }
+        Self { primitives: primitives.collect() }
     }
 
     /// True if 16 bits hold every index; 65535 itself is reserved by glTF.
     pub(super) fn short_indices(&self) -> bool {
-        self.parts.iter().all(|part| u16::try_from(part.vertices.len()).is_ok())
+        self.primitives.iter().all(|primitive| u16::try_from(primitive.vertices.len()).is_ok())
     }
 
     /// Bytes of an index.
@@ -56,11 +56,11 @@ impl Layout {
     }
 
     pub(super) fn vertex_bytes(&self) -> u64 {
-        self.parts.last().map_or(0, |part| part.vertices.end) as u64 * STRIDE as u64
+        self.primitives.last().map_or(0, |primitive| primitive.vertices.end) as u64 * STRIDE as u64
     }
 
     pub(super) fn index_bytes(&self) -> u64 {
-        self.parts.last().map_or(0, |part| part.indices.end) as u64 * self.index_size()
+        self.primitives.last().map_or(0, |primitive| primitive.indices.end) as u64 * self.index_size()
     }
 
     pub(super) fn bytes(&self) -> u64 {
@@ -89,21 +89,22 @@ fn bounds(positions: impl Iterator<Item = [f32; 3]>) -> [[f32; 3]; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::{Layout, Part};
+    use super::{Layout, PrimitiveLayout};
 
     fn layout(vertices: usize, indices: usize) -> Layout {
-        let part = |tag, vertices, indices| Part { tag, vertices, indices, bounds: [[0.0; 3]; 2] };
-        Layout { parts: vec![part(0, 0..3, 0..3), part(1, 3..3 + vertices, 3..3 + indices)] }
+        let primitive =
+            |tag, vertices, indices| PrimitiveLayout { tag, vertices, indices, bounds: [[0.0; 3]; 2] };
+        Layout { primitives: vec![primitive(0, 0..3, 0..3), primitive(1, 3..3 + vertices, 3..3 + indices)] }
     }
 
     #[test]
-    fn indices_grow_where_a_part_needs_more_than_sixteen_bits() {
+    fn indices_have_32_bits_if_a_primitive_needs_them() {
         assert_eq!(layout(65_535, 3).index_bytes(), 12);
         assert_eq!(layout(65_536, 3).index_bytes(), 24);
     }
 
     #[test]
-    fn the_chunk_ends_on_a_multiple_of_four() {
+    fn the_length_of_the_chunk_is_a_multiple_of_four() {
         for triangles in 1..5 {
             let layout = layout(3, 3 * triangles);
             assert_eq!(layout.bytes() + layout.padding() as u64, layout.chunk());

@@ -13,7 +13,7 @@ pub enum Up {
 }
 
 impl Up {
-    fn turn(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    fn rotate(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match self {
             Self::PositiveZ => [x, z, -y],
             Self::NegativeZ => [x, -z, y],
@@ -33,21 +33,21 @@ pub(super) struct Placement {
 
 impl Placement {
     pub(super) fn new(up: Up, bounds: Bounds) -> Self {
-        let middle = up.turn(bounds.centre());
+        let middle = up.rotate(bounds.centre());
         let translation = single(middle.map(|mm| (mm * METRES * GRID).round() / GRID));
         Self { up, translation }
     }
 
     /// A vertex, in metres from the node.
     pub(super) fn position(&self, point: [f64; 3]) -> [f32; 3] {
-        let turned = self.up.turn(point);
+        let rotated = self.up.rotate(point);
         let [x, y, z] = self.translation.map(f64::from);
-        single([turned[0] * METRES - x, turned[1] * METRES - y, turned[2] * METRES - z])
+        single([rotated[0] * METRES - x, rotated[1] * METRES - y, rotated[2] * METRES - z])
     }
 
     /// A unit vector.
     pub(super) fn direction(&self, unit: [f64; 3]) -> [f32; 3] {
-        single(self.up.turn(unit))
+        single(self.up.rotate(unit))
     }
 }
 
@@ -64,16 +64,16 @@ mod tests {
     use crate::Bounds;
 
     #[test]
-    fn both_turns_keep_handedness_and_put_up_at_y() {
+    fn both_rotations_keep_handedness_and_put_up_at_y() {
         for (up, z) in [(Up::PositiveZ, 1.0), (Up::NegativeZ, -1.0)] {
-            let [i, j, k] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| up.turn(axis));
+            let [i, j, k] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| up.rotate(axis));
             assert_eq!(crate::vector::cross(i, j), k);
-            assert_eq!(up.turn([0.0, 0.0, z]), [0.0, 1.0, 0.0]);
+            assert_eq!(up.rotate([0.0, 0.0, z]), [0.0, 1.0, 0.0]);
         }
     }
 
     #[test]
-    fn the_node_and_the_vertex_add_up() {
+    fn translation_plus_vertex_is_the_position() {
         let placement = Placement::new(
             Up::NegativeZ,
             Bounds { min: [-407.0, -540.5, 870.6], max: [392.0, 540.5, 1627.0] },

@@ -15,13 +15,13 @@ pub(crate) fn palette() -> Vec<Swatch> {
 
 /// Vertices, triangles and tags under construction.
 #[derive(Default)]
-pub(crate) struct Parts {
+pub(crate) struct SolidBuilder {
     positions: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
     tags: Vec<u8>,
 }
 
-impl Parts {
+impl SolidBuilder {
     /// A box between two corners, its ends at least and greatest z; inside out if `hollow`.
     pub(crate) fn block(mut self, low: [f64; 3], high: [f64; 3], hollow: bool) -> Self {
         let base = u32::try_from(self.positions.len()).unwrap();
@@ -113,15 +113,15 @@ impl Parts {
 
 /// A box of 30 × 20 × 10 mm, somewhere off the origin.
 pub(crate) fn block() -> Mesh {
-    Parts::default().block([-10.0, 5.0, 900.0], [20.0, 25.0, 910.0], false).mesh()
+    SolidBuilder::default().block([-10.0, 5.0, 900.0], [20.0, 25.0, 910.0], false).mesh()
 }
 
 /// A coarse ball of radius 12.5 mm.
 pub(crate) fn ball() -> Mesh {
-    Parts::default().ball([100.0, -50.0, 1000.0], 12.5, 2).mesh()
+    SolidBuilder::default().ball([100.0, -50.0, 1000.0], 12.5, 2).mesh()
 }
 
 /// No triangles.
 pub(crate) fn empty() -> Mesh {
-    Parts::default().mesh()
+    SolidBuilder::default().mesh()
 }

@@ -13,7 +13,7 @@ use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode};
 use axum::response::{IntoResponse, Response};
 use headers::{ETag, HeaderMapExt, IfNoneMatch, IfRange};
-use verne_store::Found;
+use verne_store::ContentReader;
 
 use crate::http::error::HttpError;
 use crate::limits::response_memory::Own;
@@ -55,7 +55,7 @@ impl<S: Sync> FromRequestParts<S> for Conditions {
 #[derive(Debug)]
 pub(crate) struct Delivery {
     /// The bytes, sent as they are read.
-    pub content: Found,
+    pub content: ContentReader,
     /// They were made for this answer.
     pub own: bool,
     /// Their media type.
@@ -109,14 +109,14 @@ fn header(name: HeaderName, value: &str) -> Option<(HeaderName, HeaderValue)> {
     HeaderValue::from_str(value).ok().map(|value| (name, value))
 }
 
-fn partial(mut headers: HeaderMap, content: &Found, range: RangeInclusive<u64>) -> Response {
+fn partial(mut headers: HeaderMap, content: &ContentReader, range: RangeInclusive<u64>) -> Response {
     let (first, last) = (*range.start(), *range.end());
     headers.extend(header(CONTENT_RANGE, &format!("bytes {first}-{last}/{}", content.len())));
     sent(StatusCode::PARTIAL_CONTENT, headers, content, first..last + 1)
 }
 
 /// What cannot be read to its end breaks the connection off: the length was promised.
-fn sent(status: StatusCode, mut headers: HeaderMap, content: &Found, range: Range<u64>) -> Response {
+fn sent(status: StatusCode, mut headers: HeaderMap, content: &ContentReader, range: Range<u64>) -> Response {
     headers.insert(CONTENT_LENGTH, (range.end - range.start).into());
     (status, headers, Body::from_stream(content.stream(range))).into_response()
 }

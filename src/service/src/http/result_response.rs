@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use axum::response::Response;
-use verne_store::Found;
+use verne_store::ContentReader;
 
 use crate::http::base_path::linked;
 use crate::http::conditional_response::{Conditions, Delivery};
@@ -60,7 +60,7 @@ impl Surface {
         Ok(Self { id, set, blob })
     }
 
-    fn delivery(&self, format: MeshFormat, content: Found, own: bool) -> Delivery {
+    fn delivery(&self, format: MeshFormat, content: ContentReader, own: bool) -> Delivery {
         let (id, name) = (self.id, format.name());
         let set = self.set.map(|set| format!("&set={}", set.name())).unwrap_or_default();
         Delivery {
@@ -102,7 +102,7 @@ pub(crate) async fn mesh(
 
 /// The file of a mesh.
 struct Made {
-    content: Found,
+    content: ContentReader,
     /// Whether this request made it, and not another one or the job.
     own: bool,
 }

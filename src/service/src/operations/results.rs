@@ -4,7 +4,7 @@ use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use verne_mesh::{Mesh, packed};
-use verne_store::{Content, Found, Kept as Durability, Store};
+use verne_store::{Content, ContentReader, Durability, Store};
 
 use crate::operations::question::Question;
 use crate::operations::question_cache::QuestionCache;
@@ -126,8 +126,8 @@ impl Results {
     }
 
     /// A blob of a result, to be sent.
-    pub(crate) async fn find_blob(&self, id: ResultId, name: &str) -> Option<Found> {
-        self.store.find(&id.key(name)).await
+    pub(crate) async fn find_blob(&self, id: ResultId, name: &str) -> Option<ContentReader> {
+        self.store.reader(&id.key(name)).await
     }
 
     /// A blob of a result, in memory.

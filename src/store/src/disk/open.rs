@@ -1,4 +1,4 @@
-//! Opening: one process at a time, no remains of a crash, and an index that agrees with the objects.
+//! Opens a directory: locks it, removes what a crash left, and makes the index agree with the objects.
 
 use std::collections::HashMap;
 use std::fs::{self, File, TryLockError};
@@ -12,56 +12,56 @@ use object_store::local::LocalFileSystem;
 use object_store::{ObjectMeta, ObjectStore};
 
 use super::{Disk, PROBE};
-use crate::Key;
-use crate::fault::{DiskFault, OpenError};
+use crate::error::{BackingStoreError, OpenError};
+use crate::format::{self, FormatError};
 use crate::health::Health;
-use crate::index::{Found, Index};
-use crate::object::{self, Damage};
-use crate::objects::Objects;
-use crate::stats::Counts;
+use crate::index::{Index, OpenedIndex};
+use crate::key::Key;
+use crate::object_io::ObjectIo;
+use crate::stats::Counters;
 
-/// So many headers are read at once.
-const AT_ONCE: usize = 16;
+/// Headers that are read at the same time.
+const HEADERS_IN_FLIGHT: usize = 16;
 
 impl Disk {
-    /// Opens a directory, with its objects in it or elsewhere.
+    /// Opens a directory whose index and objects may use `limit` bytes. `objects`, if given, contains the objects.
     pub(crate) async fn open(
         directory: &Path,
-        elsewhere: Option<Arc<dyn ObjectStore>>,
-        bound: u64,
-        counts: Arc<Counts>,
+        objects: Option<Arc<dyn ObjectStore>>,
+        limit: u64,
+        counters: Arc<Counters>,
     ) -> Result<Arc<Self>, OpenError> {
         let lock = lock(directory).await?;
-        let objects = match elsewhere {
+        let objects = match objects {
             Some(objects) => objects,
-            None => local(directory).await?,
+            None => open_objects(directory).await?,
         };
-        let place = directory.to_path_buf();
-        let found = tokio::task::spawn_blocking(move || Index::open(&place)).await;
-        let Found { index, sizes, next_use } = found
+        let path = directory.to_path_buf();
+        let opened = tokio::task::spawn_blocking(move || Index::open(&path)).await;
+        let OpenedIndex { index, sizes, next_use } = opened
             .map_err(Into::into)
             .flatten()
             .map_err(|source| OpenError::Index { directory: directory.to_path_buf(), source })?;
         let disk = Self {
-            objects: Objects::on_disk(objects),
+            io: ObjectIo::on_disk(objects),
             index: Arc::new(Mutex::new(index)),
-            bound,
-            total: Arc::default(),
+            limit,
+            bytes: Arc::default(),
             next_use: AtomicU64::new(next_use),
             uses: Mutex::default(),
-            turn: tokio::sync::Mutex::default(),
+            changes: tokio::sync::Mutex::default(),
             health: Health::default(),
-            counts,
+            counters,
             _lock: lock,
         };
-        disk.settle(sizes).await.map_err(|fault| refusal(directory, fault))?;
+        disk.reconcile(sizes).await.map_err(|error| open_error(directory, error))?;
         Ok(Arc::new(disk))
     }
 
-    /// Makes the index agree with the objects, keeps the bound, and sees that an object can be written.
-    async fn settle(&self, mut sizes: HashMap<Key, u64>) -> Result<(), DiskFault> {
+    /// Makes the index agree with the objects, evicts what exceeds the limit, and tests whether the disk is writable.
+    async fn reconcile(&self, mut sizes: HashMap<Key, u64>) -> Result<(), BackingStoreError> {
         let mut unknown = Vec::new();
-        let mut listing = self.objects.store().list(None);
+        let mut listing = self.io.store().list(None);
         while let Some(file) = listing.try_next().await? {
             if let Some(key) = Key::at(&file.location)
                 && sizes.remove(&key) != Some(file.size)
@@ -69,26 +69,26 @@ impl Disk {
                 unknown.push((key, file));
             }
         }
-        let gone: Vec<Key> = sizes.into_keys().chain(unknown.iter().map(|(key, _)| *key)).collect();
-        let found = self.recognise(unknown).await;
-        if !gone.is_empty() {
+        let wrong: Vec<Key> = sizes.into_keys().chain(unknown.iter().map(|(key, _)| *key)).collect();
+        let found = self.objects_among(unknown).await;
+        if !wrong.is_empty() {
             tracing::warn!(
-                changed = gone.len(),
-                found = found.len(),
-                "the index did not agree with the objects"
+                rows = wrong.len(),
+                objects = found.len(),
+                "the index disagrees with the objects: correcting it"
             );
             let first_use = self.next_use.fetch_add(found.len() as u64, Ordering::Relaxed);
-            self.with_index(move |index| index.reconcile(&gone, &found, first_use)).await?;
+            self.with_index(move |index| index.replace(&wrong, &found, first_use)).await?;
         }
         self.make_room(None).await?;
-        Ok(self.objects.probe(PROBE).await?)
+        Ok(self.io.probe(PROBE).await?)
     }
 
-    /// Those of the files that are objects, oldest first.
-    async fn recognise(&self, files: Vec<(Key, ObjectMeta)>) -> Vec<(Key, u64)> {
+    /// The files that are objects, oldest first.
+    async fn objects_among(&self, files: Vec<(Key, ObjectMeta)>) -> Vec<(Key, u64)> {
         let mut found: Vec<(Key, ObjectMeta)> = stream::iter(files)
             .map(|(key, file)| async move { self.is_object(key, &file).await.then_some((key, file)) })
-            .buffer_unordered(AT_ONCE)
+            .buffer_unordered(HEADERS_IN_FLIGHT)
             .filter_map(future::ready)
             .collect()
             .await;
@@ -96,69 +96,69 @@ impl Disk {
         found.into_iter().map(|(key, file)| (key, file.size)).collect()
     }
 
-    /// Whether a file begins as its key's object and is as long as it says. What is left of a damaged object is
-    /// removed; what never was an object is left alone.
+    /// Whether a file begins as the object of its key and has the length that it states. Removes a damaged object, but
+    /// not a file that never was an object.
     async fn is_object(&self, key: Key, file: &ObjectMeta) -> bool {
-        let damage = match self.objects.start(key, file.size.min(object::FIXED as u64)).await {
-            Ok(start) => match object::claim(&key, &start, file.size) {
+        let damage = match self.io.start(key, file.size.min(format::FIXED as u64)).await {
+            Ok(start) => match format::claim(&key, &start, file.size) {
                 Ok(_) => return true,
                 Err(damage) => damage,
             },
-            Err(fault) => {
-                self.counts.read_failures.add(1);
-                tracing::error!(%key, %fault, "an object cannot be read");
+            Err(error) => {
+                self.counters.read_failures.add(1);
+                tracing::error!(%key, %error, "cannot read an object");
                 return false;
             }
         };
-        self.counts.damaged.add(1);
-        if damage == Damage::Foreign {
-            tracing::warn!(%key, %damage, "a file where objects lie: left alone");
+        self.counters.damaged.add(1);
+        if damage == FormatError::Foreign {
+            tracing::warn!(%key, error = %damage, "ignoring a foreign file in the directory of objects");
         } else {
-            tracing::error!(%key, %damage, "a damaged object: removed");
-            if let Err(fault) = self.objects.delete(key).await {
-                tracing::error!(%key, %fault, "a damaged object cannot be removed");
+            tracing::error!(%key, error = %damage, "removing a damaged object");
+            if let Err(error) = self.io.delete(key).await {
+                tracing::error!(%key, %error, "cannot remove a damaged object");
             }
         }
         false
     }
 }
 
-/// Makes the directory and keeps other processes out of it while the file is open.
+/// Creates the directory, and keeps other processes out of it while the returned file is open.
 async fn lock(directory: &Path) -> Result<File, OpenError> {
-    let place = directory.to_path_buf();
+    let path = directory.to_path_buf();
     let locked = blocking(directory, move || {
-        fs::create_dir_all(&place)?;
-        let lock = File::create(place.join("lock"))?;
+        fs::create_dir_all(&path)?;
+        let lock = File::create(path.join("lock"))?;
         match lock.try_lock() {
             Ok(()) => Ok(Some(lock)),
             Err(TryLockError::WouldBlock) => Ok(None),
-            Err(TryLockError::Error(fault)) => Err(fault),
+            Err(TryLockError::Error(error)) => Err(error),
         }
     });
     locked.await?.ok_or_else(|| OpenError::InUse { directory: directory.to_path_buf() })
 }
 
-/// The objects in a directory.
-async fn local(directory: &Path) -> Result<Arc<dyn ObjectStore>, OpenError> {
-    let (place, root) = (directory.to_path_buf(), directory.join("objects"));
+/// Opens the objects in a directory.
+async fn open_objects(directory: &Path) -> Result<Arc<dyn ObjectStore>, OpenError> {
+    let (path, root) = (directory.to_path_buf(), directory.join("objects"));
     let objects = blocking(directory, move || {
         fs::create_dir_all(&root)?;
         remove_unfinished(&root)?;
-        for place in fs::read_dir(&root)? {
-            let place = place?;
-            if place.file_type()?.is_dir() {
-                remove_unfinished(&place.path())?;
+        for entry in fs::read_dir(&root)? {
+            let entry = entry?;
+            if entry.file_type()?.is_dir() {
+                remove_unfinished(&entry.path())?;
             }
         }
-        // Flushed with the first object otherwise: its own directory, but not this one's entry.
-        File::open(&place)?.sync_all()?;
+        // Writing an object flushes the object's own directory, but not this one.
+        File::open(&path)?.sync_all()?;
         LocalFileSystem::new_with_prefix(&root).map_err(io::Error::other)
     });
     Ok(Arc::new(objects.await?.with_fsync(true)))
 }
 
-/// Removes what a crash left of files that were being written: object_store writes `name#1` and moves it to
-/// `name`, and its listings pass such names over.
+/// Removes files that a crash left unfinished: object_store writes `name#1` and renames it to `name`, and its listings
+/// omit such names.
 fn remove_unfinished(directory: &Path) -> io::Result<()> {
     for entry in fs::read_dir(directory)? {
         let entry = entry?;
@@ -182,13 +182,13 @@ async fn blocking<T: Send + 'static>(
     done.map_err(|source| OpenError::Directory { directory: directory.to_path_buf(), source })
 }
 
-fn refusal(directory: &Path, fault: DiskFault) -> OpenError {
+fn open_error(directory: &Path, error: BackingStoreError) -> OpenError {
     let directory = directory.to_path_buf();
-    match fault {
-        DiskFault::Objects(source) => OpenError::Objects { directory, source },
-        DiskFault::Index(source) => OpenError::Index { directory, source: Box::new(source) },
-        fault @ (DiskFault::NoRoom | DiskFault::Ended(_)) => {
-            OpenError::Directory { directory, source: io::Error::other(fault.to_string()) }
+    match error {
+        BackingStoreError::Objects(source) => OpenError::Objects { directory, source },
+        BackingStoreError::Index(source) => OpenError::Index { directory, source: Box::new(source) },
+        error @ (BackingStoreError::NoRoom | BackingStoreError::Cancelled(_)) => {
+            OpenError::Directory { directory, source: io::Error::other(error.to_string()) }
         }
     }
 }

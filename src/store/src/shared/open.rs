@@ -1,4 +1,4 @@
-//! Opening a shared store: which one an address means, and that it takes objects.
+//! Opens the shared store at an address, and tests whether it is writable.
 
 use std::fs;
 use std::path::PathBuf;
@@ -12,103 +12,98 @@ use object_store::prefix::PrefixStore;
 use object_store::{BackoffConfig, Error, ObjectStore, RetryConfig};
 use url::Url;
 
-use super::{Marker, Shared};
-use crate::OpenError;
-use crate::objects::Objects;
-use crate::stats::Counts;
+use super::Shared;
+use crate::error::OpenError;
+use crate::marker::Marker;
+use crate::object_io::ObjectIo;
 
-/// For so long what the store refuses is asked again.
-const PATIENCE: Duration = Duration::from_secs(30);
+/// For how long an operation is repeated that the store refuses.
+const RETRY: Duration = Duration::from_secs(30);
 
-/// A single request to S3 is repeated so often and for so long: of what is refused one time in ten, one in 10^11
-/// fails. What is left of the patience is for what consists of several requests.
-const REPEATS: usize = 10;
-const REPEATED: Duration = Duration::from_secs(10);
+/// A single request to S3 is repeated so often, and for so long: if the store refuses one request in ten, one in 10^11
+/// fails. The rest of [`RETRY`] is for operations of several requests.
+const REQUEST_RETRIES: usize = 10;
+const REQUEST_RETRY: Duration = Duration::from_secs(10);
 
-/// Longer than one request is repeated: what the store says is worth waiting for.
-const OPENED: Duration = Duration::from_secs(20);
+/// Longer than [`REQUEST_RETRY`], so that the error of the store is reported, not the timeout.
+const OPEN_TIMEOUT: Duration = Duration::from_secs(20);
 
 impl Shared {
     /// Opens the store at an address.
-    pub(crate) async fn open(address: &str, counts: Arc<Counts>) -> Result<Arc<Self>, OpenError> {
-        let url = read(address)?;
-        let objects = match url.scheme() {
+    pub(crate) async fn open(address: &str) -> Result<Arc<Self>, OpenError> {
+        let url = parse(address)?;
+        let io = match url.scheme() {
             "s3" => bucket(&url, address)?,
             "file" => directory(&url, address).await?,
-            _ => return Err(wrong(address, "it begins with neither s3:// nor file:///")),
+            _ => return Err(invalid(address, "it begins with neither s3:// nor file:///")),
         };
-        Self::tried_over(objects, address, counts).await
+        Self::open_io(io, address).await
     }
 
-    /// Makes the directory at an address, and its marker, where they are not there. Answers whether the marker was
-    /// made.
+    /// Creates the directory at an address, and its marker, unless they exist. Returns whether the marker was created.
     pub(crate) fn init(address: &str) -> Result<bool, OpenError> {
-        let url = read(address)?;
+        let url = parse(address)?;
         if url.scheme() != "file" {
-            return Err(wrong(address, "only a directory, file:///..., is prepared"));
+            return Err(invalid(address, "only a directory, file:///..., can be prepared"));
         }
         let directory = path(&url, address)?;
-        let made = fs::create_dir_all(&directory).and_then(|()| Marker::of(&directory).make());
-        made.map_err(|source| OpenError::Directory { directory, source })
+        let created = fs::create_dir_all(&directory).and_then(|()| Marker::of(&directory).create());
+        created.map_err(|source| OpenError::Directory { directory, source })
     }
 
-    /// Opens a store whose objects lie where the caller says.
-    pub(crate) async fn open_over(
-        objects: Arc<dyn ObjectStore>,
-        counts: Arc<Counts>,
-    ) -> Result<Arc<Self>, OpenError> {
+    /// Opens a store of given objects.
+    pub(crate) async fn open_over(objects: Arc<dyn ObjectStore>) -> Result<Arc<Self>, OpenError> {
         let address = objects.to_string();
-        Self::tried_over(Objects::far_away(objects, PATIENCE), &address, counts).await
+        Self::open_io(ObjectIo::remote(objects, RETRY), &address).await
     }
 
-    async fn tried_over(
-        objects: Objects,
-        address: &str,
-        counts: Arc<Counts>,
-    ) -> Result<Arc<Self>, OpenError> {
-        let shared = Self::new(objects, counts);
-        shared.tried(OPENED).await.map_err(|source| refusal(address, source))?;
+    async fn open_io(io: ObjectIo, address: &str) -> Result<Arc<Self>, OpenError> {
+        let shared = Self::new(io);
+        shared.probe(OPEN_TIMEOUT).await.map_err(|source| open_error(address, source))?;
         Ok(Arc::new(shared))
     }
 }
 
-fn wrong(address: &str, reason: &str) -> OpenError {
+fn invalid(address: &str, reason: &str) -> OpenError {
     OpenError::Address { address: address.to_owned(), reason: reason.to_owned() }
 }
 
-fn read(address: &str) -> Result<Url, OpenError> {
-    let url = Url::parse(address).map_err(|fault| wrong(address, &fault.to_string()))?;
+fn parse(address: &str) -> Result<Url, OpenError> {
+    let url = Url::parse(address).map_err(|error| invalid(address, &error.to_string()))?;
     if url.query().is_some() || url.fragment().is_some() || !url.username().is_empty() {
-        return Err(wrong(address, "it has more than a bucket or directory and a path"));
+        return Err(invalid(address, "it has more than a bucket or directory and a path"));
     }
     Ok(url)
 }
 
 fn path(url: &Url, address: &str) -> Result<PathBuf, OpenError> {
-    url.to_file_path().map_err(|()| wrong(address, "it names no directory of this machine"))
+    url.to_file_path().map_err(|()| invalid(address, "it does not name a directory of this computer"))
 }
 
-/// A bucket, reached with what the environment says. Each request has object_store's own bounds, 5 s to connect
-/// and 30 s in all; `AWS_CONNECT_TIMEOUT` and `AWS_TIMEOUT` change them.
-fn bucket(url: &Url, address: &str) -> Result<Objects, OpenError> {
-    let wrong = |reason: &str| wrong(address, reason);
-    let name = url.host_str().filter(|name| !name.is_empty()).ok_or_else(|| wrong("it names no bucket"))?;
+/// A bucket, with the endpoint and the credentials of the environment. Each request has the limits of object_store: 5 s
+/// to connect and 30 s in all, unless `AWS_CONNECT_TIMEOUT` and `AWS_TIMEOUT` are set.
+fn bucket(url: &Url, address: &str) -> Result<ObjectIo, OpenError> {
+    let invalid = |reason: &str| invalid(address, reason);
+    let name = url.host_str().filter(|name| !name.is_empty()).ok_or_else(|| invalid("it names no bucket"))?;
     if url.port().is_some() {
-        return Err(wrong("it has a port: the endpoint is named by AWS_ENDPOINT"));
+        return Err(invalid("it has a port: set the endpoint with AWS_ENDPOINT"));
     }
-    let prefix = Path::from_url_path(url.path()).map_err(|fault| wrong(&fault.to_string()))?;
-    let retry =
-        RetryConfig { backoff: BackoffConfig::default(), max_retries: REPEATS, retry_timeout: REPEATED };
+    let prefix = Path::from_url_path(url.path()).map_err(|error| invalid(&error.to_string()))?;
+    let retry = RetryConfig {
+        backoff: BackoffConfig::default(),
+        max_retries: REQUEST_RETRIES,
+        retry_timeout: REQUEST_RETRY,
+    };
     let bucket = AmazonS3Builder::from_env().with_bucket_name(name).with_retry(retry).build();
-    let bucket = bucket.map_err(|source| refusal(address, source))?;
-    Ok(Objects::far_away(Arc::new(PrefixStore::new(bucket, prefix)), PATIENCE))
+    let bucket = bucket.map_err(|source| open_error(address, source))?;
+    Ok(ObjectIo::remote(Arc::new(PrefixStore::new(bucket, prefix)), RETRY))
 }
 
-/// A directory that has its marker.
-async fn directory(url: &Url, address: &str) -> Result<Objects, OpenError> {
+/// A directory that has a marker.
+async fn directory(url: &Url, address: &str) -> Result<ObjectIo, OpenError> {
     let directory = path(url, address)?;
     let opened = tokio::task::spawn_blocking(move || {
-        // Its marker as it is seen now, wherever a link leads later.
+        // Without links, so that the marker is that of the directory as it is now.
         let directory = directory.canonicalize().unwrap_or(directory);
         let marker = Marker::of(&directory);
         match fs::metadata(marker.path()) {
@@ -116,13 +111,13 @@ async fn directory(url: &Url, address: &str) -> Result<Objects, OpenError> {
             Err(source) => Err((marker.path(), source)),
         }
     });
-    let opened = opened.await.map_err(|fault| refusal(address, fault.into()))?;
+    let opened = opened.await.map_err(|error| open_error(address, error.into()))?;
     let no_marker = |(marker, source)| OpenError::NoMarker { address: address.to_owned(), marker, source };
     let (objects, marker) = opened.map_err(no_marker)?;
-    let objects = objects.map_err(|source| refusal(address, source))?.with_fsync(true);
-    Ok(Objects::in_shared_directory(Arc::new(objects), PATIENCE, marker))
+    let objects = objects.map_err(|source| open_error(address, source))?.with_fsync(true);
+    Ok(ObjectIo::in_shared_directory(Arc::new(objects), RETRY, marker))
 }
 
-fn refusal(address: &str, source: Error) -> OpenError {
+fn open_error(address: &str, source: Error) -> OpenError {
     OpenError::Shared { address: address.to_owned(), source }
 }

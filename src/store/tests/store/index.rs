@@ -1,58 +1,61 @@
-//! The index after a crash, and when it is lost: the objects say what it should.
+//! The index after a crash, or after its loss, is reconciled with the objects.
 
 use std::fs;
 
 use tokio::runtime::Runtime;
 
-use crate::place::{HEADER, Place, bytes, key};
+use crate::directory::{HEADER, TestDirectory, bytes, key};
 
 /// Three objects of 1000 bytes, written in the order of their numbers.
-async fn three(place: &Place) {
-    let store = place.open().await;
+async fn three(directory: &TestDirectory) {
+    let store = directory.open().await;
     for number in 1..=3 {
         store.put(&key(number), bytes(number, 1000)).await;
     }
 }
 
 #[tokio::test]
-async fn an_object_that_the_index_does_not_know_is_adopted() {
-    let place = Place::new();
-    three(&place).await;
-    place.sql(&format!("DELETE FROM objects WHERE key = x'{}'", key(2)));
-    let store = place.open().await;
+async fn an_object_without_a_row_is_entered_in_the_index() {
+    let directory = TestDirectory::new();
+    three(&directory).await;
+    directory.sql(&format!("DELETE FROM objects WHERE key = x'{}'", key(2)));
+    let store = directory.open().await;
     assert_eq!(store.stats().disk_bytes, Some(3 * (1000 + HEADER)));
     assert_eq!(store.get(&key(2)).await.unwrap().bytes, bytes(2, 1000));
 }
 
 #[tokio::test]
-async fn a_row_whose_object_has_gone_is_struck_out() {
-    let place = Place::new();
-    three(&place).await;
-    fs::remove_file(place.file(key(2))).unwrap();
-    let store = place.open().await;
+async fn a_row_without_an_object_is_deleted() {
+    let directory = TestDirectory::new();
+    three(&directory).await;
+    fs::remove_file(directory.file(key(2))).unwrap();
+    let store = directory.open().await;
     assert_eq!(store.stats().disk_bytes, Some(2 * (1000 + HEADER)));
     assert_eq!(store.get(&key(2)).await, None);
-    assert_eq!(place.rows(), 2);
+    assert_eq!(directory.rows(), 2);
 }
 
 #[tokio::test]
-async fn an_index_that_is_lost_damaged_or_of_another_version_is_made_anew() {
-    let lose = |place: &Place| fs::remove_file(place.path().join("index.sqlite3")).unwrap();
-    let overwrite = |place: &Place| fs::write(place.path().join("index.sqlite3"), "no data base").unwrap();
-    let shorten = |place: &Place| {
-        let index = fs::File::options().write(true).open(place.path().join("index.sqlite3")).unwrap();
+async fn a_lost_damaged_or_foreign_index_is_created_anew() {
+    let lose = |directory: &TestDirectory| fs::remove_file(directory.path().join("index.sqlite3")).unwrap();
+    let overwrite = |directory: &TestDirectory| {
+        fs::write(directory.path().join("index.sqlite3"), "no data base").unwrap();
+    };
+    let shorten = |directory: &TestDirectory| {
+        let index = fs::File::options().write(true).open(directory.path().join("index.sqlite3")).unwrap();
         index.set_len(5000).unwrap();
     };
-    let of_later = |place: &Place| place.sql("PRAGMA user_version = 2");
-    let without_table = |place: &Place| place.sql("DROP TABLE objects");
-    let nonsense = |place: &Place| place.sql("UPDATE objects SET key = x'00' WHERE used = 1");
-    let negative = |place: &Place| place.sql("UPDATE objects SET size = -5");
-    let ways: [fn(&Place); 7] = [lose, overwrite, shorten, of_later, without_table, nonsense, negative];
-    for (way, spoil) in ways.into_iter().enumerate() {
-        let place = Place::new();
-        three(&place).await;
-        spoil(&place);
-        let store = place.open().await;
+    let of_later = |directory: &TestDirectory| directory.sql("PRAGMA user_version = 2");
+    let without_table = |directory: &TestDirectory| directory.sql("DROP TABLE objects");
+    let nonsense = |directory: &TestDirectory| directory.sql("UPDATE objects SET key = x'00' WHERE used = 1");
+    let negative = |directory: &TestDirectory| directory.sql("UPDATE objects SET size = -5");
+    let ways: [fn(&TestDirectory); 7] =
+        [lose, overwrite, shorten, of_later, without_table, nonsense, negative];
+    for (way, damage) in ways.into_iter().enumerate() {
+        let directory = TestDirectory::new();
+        three(&directory).await;
+        damage(&directory);
+        let store = directory.open().await;
         assert_eq!(store.stats().disk_bytes, Some(3 * (1000 + HEADER)), "way {way}");
         for number in 1..=3 {
             assert_eq!(store.get(&key(number)).await.unwrap().bytes, bytes(number, 1000), "way {way}");
@@ -63,53 +66,53 @@ async fn an_index_that_is_lost_damaged_or_of_another_version_is_made_anew() {
 
 #[test]
 fn a_crash_between_an_object_and_its_row_loses_nothing() {
-    let place = Place::new();
+    let directory = TestDirectory::new();
     let before = Runtime::new().unwrap();
     before.block_on(async {
-        let objects = place.objects();
-        let store = place.open_over(&objects, 1 << 30).await;
+        let objects = directory.objects();
+        let store = directory.open_over(&objects, 1 << 30).await;
         objects.close_gate();
         tokio::spawn(async move { store.put(&key(1), bytes(1, 1000)).await });
         objects.arrival().await;
     });
-    // The tasks end where they wait: the object is written, the row is not.
+    // The tasks end where they wait: the object is written, its row is not.
     drop(before);
-    assert_eq!(place.rows(), 0);
+    assert_eq!(directory.rows(), 0);
     Runtime::new().unwrap().block_on(async {
-        let store = place.open().await;
+        let store = directory.open().await;
         assert_eq!(store.stats().disk_bytes, Some(1000 + HEADER));
         assert_eq!(store.get(&key(1)).await.unwrap().bytes, bytes(1, 1000));
     });
 }
 
 #[test]
-fn a_crash_between_an_eviction_and_its_row_leaves_no_ghost() {
-    let place = Place::new();
+fn a_crash_between_an_eviction_and_its_row_leaves_no_row() {
+    let directory = TestDirectory::new();
     let before = Runtime::new().unwrap();
     before.block_on(async {
-        let objects = place.objects();
-        let store = place.open_over(&objects, 2000).await;
+        let objects = directory.objects();
+        let store = directory.open_over(&objects, 2000).await;
         store.put(&key(1), bytes(1, 1000)).await;
         objects.close_gate();
         tokio::spawn(async move { store.put(&key(2), bytes(2, 1000)).await });
         objects.arrival().await;
     });
     drop(before);
-    assert!(!place.file(key(1)).exists());
-    assert_eq!(place.rows(), 1);
+    assert!(!directory.file(key(1)).exists());
+    assert_eq!(directory.rows(), 1);
     Runtime::new().unwrap().block_on(async {
-        let store = place.open_bounded(2000).await;
+        let store = directory.open_with_limit(2000).await;
         assert_eq!(store.stats().disk_bytes, Some(0));
         assert_eq!(store.get(&key(1)).await, None);
     });
 }
 
 #[test]
-fn a_caller_that_goes_away_does_not_stop_the_writing() {
-    let place = Place::new();
+fn a_write_continues_after_its_caller_is_dropped() {
+    let directory = TestDirectory::new();
     Runtime::new().unwrap().block_on(async {
-        let objects = place.objects();
-        let store = place.open_over(&objects, 1 << 30).await;
+        let objects = directory.objects();
+        let store = directory.open_over(&objects, 1 << 30).await;
         objects.close_gate();
         let caller = {
             let store = store.clone();
@@ -119,7 +122,7 @@ fn a_caller_that_goes_away_does_not_stop_the_writing() {
         caller.abort();
         assert!(caller.await.unwrap_err().is_cancelled());
         objects.open_gate();
-        // Writers take turns: after this one, the first is done.
+        // Changes are serialized: after this one, the first is complete.
         store.put(&key(2), bytes(2, 1000)).await;
         assert_eq!(store.stats().disk_bytes, Some(2 * (1000 + HEADER)));
     });

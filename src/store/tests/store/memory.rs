@@ -1,4 +1,4 @@
-//! The layer in memory: what it holds, and who works while the others wait.
+//! The memory cache, and one computation for concurrent callers.
 
 use std::future;
 use std::sync::Arc;
@@ -7,28 +7,58 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use bytes::Bytes;
 use tokio::sync::Semaphore;
 use tokio::task::JoinSet;
-use verne_store::{Kept, Store};
+use verne_store::{Durability, Store};
 
-use crate::place::{bytes, key};
+use crate::directory::{bytes, key};
 
-/// Whether a content is let go: not at the first moment, for other tests' threads keep moka's garbage alive too.
-async fn forgotten(store: &Store, number: u8) -> bool {
-    for _ in 0..1_000_000 {
-        if store.get(&key(number)).await.is_none() {
-            return true;
-        }
-        tokio::task::yield_now().await;
+/// A buffer that is counted while it is alive.
+struct Counted(Vec<u8>, Arc<AtomicU32>);
+
+impl Counted {
+    fn bytes(alive: &Arc<AtomicU32>) -> Bytes {
+        alive.fetch_add(1, Ordering::SeqCst);
+        Bytes::from_owner(Self(vec![0; 60 << 10], Arc::clone(alive)))
     }
-    false
+}
+
+impl AsRef<[u8]> for Counted {
+    fn as_ref(&self) -> &[u8] {
+        &self.0
+    }
+}
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        self.1.fetch_sub(1, Ordering::SeqCst);
+    }
 }
 
 #[tokio::test]
-async fn what_is_put_is_got_with_its_hash() {
+async fn the_memory_limit_counts_live_buffers() {
+    // Room for four contents, and for none.
+    for (memory_bytes, most) in [(250 << 10, 4), (50 << 10, 0)] {
+        let (store, alive) = (Store::in_memory(memory_bytes), Arc::new(AtomicU32::new(0)));
+        for number in 0..40 {
+            store.put(&key(number), Counted::bytes(&alive)).await;
+            assert!(alive.load(Ordering::SeqCst) <= most, "put {number}");
+        }
+        for number in 40..80 {
+            let make = async { Ok::<_, String>(Counted::bytes(&alive)) };
+            let made = store.get_or_make(&key(number), make).await;
+            assert!(made.is_ok());
+            drop(made);
+            assert!(alive.load(Ordering::SeqCst) <= most, "made {number}");
+        }
+    }
+}
+
+#[tokio::test]
+async fn a_stored_content_is_returned_with_its_hash() {
     let store = Store::in_memory(1 << 20);
     assert_eq!(store.get(&key(1)).await, None);
-    let (put, kept) = store.put(&key(1), bytes(1, 100_000)).await;
+    let (put, durability) = store.put(&key(1), bytes(1, 100_000)).await;
     assert_eq!(put.hash, blake3::hash(&bytes(1, 100_000)));
-    assert_eq!(kept, Kept::MemoryOnly);
+    assert_eq!(durability, Durability::MemoryOnly);
     let got = store.get(&key(1)).await.unwrap();
     assert_eq!(got.bytes, bytes(1, 100_000));
     assert_eq!(got.hash, put.hash);
@@ -38,16 +68,16 @@ async fn what_is_put_is_got_with_its_hash() {
 }
 
 #[tokio::test]
-async fn what_is_put_again_takes_the_place_of_what_was_there() {
+async fn a_second_content_replaces_the_first() {
     let store = Store::in_memory(1 << 20);
     let (old, _) = store.put(&key(1), bytes(1, 100)).await;
     store.put(&key(1), bytes(2, 100)).await;
     assert_eq!(store.get(&key(1)).await.unwrap().bytes, bytes(2, 100));
-    assert_eq!(old.bytes, bytes(1, 100), "a holder's bytes never change");
+    assert_eq!(old.bytes, bytes(1, 100), "the bytes of a content never change");
 }
 
 #[tokio::test]
-async fn memory_keeps_to_its_bound_and_forgets_what_was_used_least_recently() {
+async fn memory_evicts_the_least_recently_used_content_at_its_limit() {
     let store = Store::in_memory(400 << 10);
     for number in 1..=3 {
         store.put(&key(number), bytes(number, 100 << 10)).await;
@@ -57,22 +87,22 @@ async fn memory_keeps_to_its_bound_and_forgets_what_was_used_least_recently() {
     for number in [1, 3, 4] {
         assert!(store.get(&key(number)).await.is_some(), "{number}");
     }
-    assert!(forgotten(&store, 2).await);
+    assert_eq!(store.get(&key(2)).await, None);
     assert!(store.stats().memory_bytes <= 400 << 10);
 }
 
 #[tokio::test]
-async fn what_is_larger_than_memory_is_not_held_by_it() {
+async fn a_content_larger_than_the_memory_limit_is_not_cached() {
     let store = Store::in_memory(10 << 10);
     let (content, _) = store.put(&key(1), bytes(1, 20 << 10)).await;
     assert_eq!(store.stats().memory_bytes, 0);
-    assert!(store.get(&key(1)).await.is_some(), "the caller's own buffer is found");
+    assert!(store.get(&key(1)).await.is_some(), "the buffer of the caller is found");
     drop(content);
-    assert!(forgotten(&store, 1).await);
+    assert_eq!(store.get(&key(1)).await, None);
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 4)]
-async fn a_thousand_callers_are_one_computation() {
+async fn a_thousand_concurrent_callers_cause_one_computation() {
     // The content is of 100 kB: memory has room for it, or not, or for nothing.
     for memory in [1 << 20, 50 << 10, 0] {
         let store = Store::in_memory(memory);
@@ -103,18 +133,18 @@ async fn a_thousand_callers_are_one_computation() {
 }
 
 #[tokio::test]
-async fn a_failure_is_answered_and_not_remembered() {
+async fn an_error_is_returned_and_not_stored() {
     let store = Store::in_memory(1 << 20);
     let failed = store.get_or_make(&key(1), future::ready(Err("no"))).await;
     assert_eq!(failed.unwrap_err(), "no");
     let made = store.get_or_make(&key(1), future::ready(Ok::<_, &str>(bytes(1, 10)))).await;
     assert_eq!(made.unwrap().bytes, bytes(1, 10));
-    let kept = store.get_or_make(&key(1), future::ready(Err("not asked"))).await;
-    assert_eq!(kept.unwrap().bytes, bytes(1, 10));
+    let durability = store.get_or_make(&key(1), future::ready(Err("not asked"))).await;
+    assert_eq!(durability.unwrap().bytes, bytes(1, 10));
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn another_takes_over_from_a_caller_that_is_dropped() {
+async fn another_caller_takes_over_from_a_dropped_one() {
     let store = Store::in_memory(1 << 20);
     let began = Arc::new(Semaphore::new(0));
     let first = {

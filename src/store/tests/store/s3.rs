@@ -1,12 +1,12 @@
-//! The same over S3. Runs where `VERNE_S3_TEST_URL` names a bucket, `s3://bucket/prefix`, and the usual `AWS_*`
-//! variables say how it is reached.
+//! A store on S3. Needs a bucket: `VERNE_S3_TEST_URL` is its address, `s3://bucket/prefix`, and the `AWS_*` variables give
+//! endpoint and credentials.
 
 use futures_util::{StreamExt, TryStreamExt};
-use verne_store::{Kept, Key, OpenError, Store};
+use verne_store::{Durability, Key, OpenError, Store};
 
-use crate::place::bytes;
+use crate::directory::bytes;
 
-/// Keys that no earlier run has used.
+/// A key that no earlier run has used.
 fn fresh() -> Key {
     let file = tempfile::NamedTempFile::new().unwrap();
     let now = std::time::SystemTime::now();
@@ -20,18 +20,18 @@ async fn open() -> Store {
 
 #[tokio::test]
 #[ignore = "needs a bucket"]
-async fn results_of_every_size_are_found_by_another_process() {
+async fn another_process_reads_contents_of_every_size() {
     let (writer, reader) = (open().await, open().await);
-    // Of one request, of two, of several chunks, and of several parts.
+    // With one request, two requests, several chunks, and several parts.
     for (number, length) in
         (0..).zip([0, 1, 50_000, 70_000, 1 << 20, 3 << 20, (8 << 20) - 1000, (20 << 20) + 3])
     {
         let (key, all) = (fresh(), bytes(number, length));
-        assert!(reader.find(&key).await.is_none());
-        let (put, kept) = writer.put(&key, all.clone()).await;
-        assert_eq!(kept, Kept::Durable);
+        assert!(reader.reader(&key).await.is_none());
+        let (put, durability) = writer.put(&key, all.clone()).await;
+        assert_eq!(durability, Durability::Durable);
         drop(put);
-        let found = reader.find(&key).await.unwrap();
+        let found = reader.reader(&key).await.unwrap();
         assert_eq!((found.len(), found.hash()), (length as u64, blake3::hash(&all)));
         let (start, end) = (length / 3, length - length / 5);
         let pieces: Vec<_> = found.stream(start as u64..end as u64).try_collect().await.unwrap();
@@ -46,14 +46,14 @@ async fn results_of_every_size_are_found_by_another_process() {
 
 #[tokio::test]
 #[ignore = "needs a bucket"]
-async fn many_readers_and_writers_of_one_large_result() {
+async fn many_processes_read_and_write_one_large_content() {
     let (key, all) = (fresh(), bytes(7, 9 << 20));
     let mut tasks = tokio::task::JoinSet::new();
     for _ in 0..4 {
         let (store, all) = (open().await, all.clone());
         tasks.spawn(async move {
-            assert_eq!(store.put(&key, all.clone()).await.1, Kept::Durable);
-            let found = store.find(&key).await.unwrap();
+            assert_eq!(store.put(&key, all.clone()).await.1, Durability::Durable);
+            let found = store.reader(&key).await.unwrap();
             let mut stream = Box::pin(found.stream(0..found.len()));
             let mut read = Vec::new();
             while let Some(piece) = stream.next().await {
@@ -67,8 +67,8 @@ async fn many_readers_and_writers_of_one_large_result() {
 
 #[tokio::test]
 #[ignore = "needs a bucket"]
-async fn a_bucket_that_is_not_there_is_an_error_at_the_start() {
+async fn opening_a_missing_bucket_fails_with_its_name() {
     let opened = Store::open_shared("s3://verne-there-is-no-such-bucket/results", 0).await;
-    let Err(fault @ OpenError::Shared { .. }) = opened else { panic!("opened") };
-    assert!(fault.to_string().contains("verne-there-is-no-such-bucket"), "{fault}");
+    let Err(error @ OpenError::Shared { .. }) = opened else { panic!("opened") };
+    assert!(error.to_string().contains("verne-there-is-no-such-bucket"), "{error}");
 }
