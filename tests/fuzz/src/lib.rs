@@ -24,6 +24,7 @@ mod json;
 mod keys;
 mod machines;
 mod mesh;
+mod programs;
 mod requests;
 mod settings;
 mod solver;
@@ -42,12 +43,16 @@ pub struct Target {
 }
 
 /// All of them.
-pub const TARGETS: [Target; 10] = [
+pub const TARGETS: [Target; 14] = [
+    Target { name: "apt", run: programs::apt, few: 5_000 },
     Target { name: "body", run: requests::body, few: 500 },
+    Target { name: "csv", run: programs::csv, few: 5_000 },
     Target { name: "headers", run: requests::headers, few: 500 },
     Target { name: "keys", run: keys::keys, few: 200 },
     Target { name: "machine", run: requests::machine, few: 500 },
     Target { name: "mesh", run: mesh::mesh, few: 2_000 },
+    Target { name: "ndjson", run: programs::ndjson, few: 5_000 },
+    Target { name: "packed_program", run: programs::packed, few: 2_000 },
     Target { name: "query", run: requests::query, few: 500 },
     Target { name: "settings", run: settings::settings, few: 100 },
     Target { name: "solver", run: solver::solver, few: 20_000 },
