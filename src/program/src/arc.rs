@@ -54,7 +54,8 @@ impl Arc {
         let miss = (to.radius - from.radius).abs();
         if miss > MISS + 1e-3 * from.radius {
             return Err(format!(
-                "the end misses the circle of radius {:.6} mm by {miss:.6} mm; accepted are 0.01 mm and 0.1 % of the radius",
+                "the end misses the circle of radius {:.6} mm by {miss:.6} mm; accepted are 0.01 mm and 0.1 % of \
+                 the radius",
                 from.radius
             ));
         }

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use crate::arc::{Arc, Sweep};
 use crate::diagnostics::Diagnostics;
-use crate::error::{ProgramError, ProgramErrors};
+use crate::error::{ProgramError, ProgramErrors, Warnings};
 use crate::event::{Event, EventKind};
 use crate::moves::{Feed, Move, MoveKind};
 use crate::options::{ReadOptions, Units};
@@ -66,7 +66,7 @@ impl Builder {
             moves: Vec::new(),
             arcs: Vec::new(),
             events: Vec::new(),
-            warnings: crate::Warnings::default(),
+            warnings: Warnings::default(),
         };
         let (diagnostics, known, event_bytes) = (Diagnostics::default(), false, 0);
         Self { diagnostics, options: *options, program, known, event_bytes }

@@ -4,8 +4,8 @@
 //! applied by those who plan the motion. Lengths are millimetres, angles radians, in the program's own frame. The tool
 //! axis is a unit vector from the tip to the holder.
 //!
-//! A [`Reader`] takes chunks of bytes, [`read`] takes a [`BufRead`](std::io::BufRead). Both read line by line: beside the
-//! program itself they hold one statement of at most 64 KiB. Nothing panics, and no number of a program is a NaN.
+//! A [`Reader`] takes chunks of bytes, [`read`] takes a [`BufRead`](std::io::BufRead). Both read line by line: beside
+//! the program itself they hold one statement of at most 64 KiB. Nothing panics, and no number of a program is a NaN.
 //!
 //! ```
 //! use verne_program::{Format, MoveKind, ReadOptions, read};
@@ -24,7 +24,8 @@
 //! use verne_program::{Format, ReadError, ReadOptions, read};
 //!
 //! let text = "UNITS/MM\nGOTO/0,0\n";
-//! let Err(ReadError::Program(refused)) = read(Format::Apt, text.as_bytes(), &ReadOptions::default()) else { panic!() };
+//! let outcome = read(Format::Apt, text.as_bytes(), &ReadOptions::default());
+//! let Err(ReadError::Program(refused)) = outcome else { panic!() };
 //! let error = &refused.errors[0];
 //! assert_eq!((error.line, error.column, error.word.as_str()), (2, 1, "GOTO"));
 //! assert!(error.detail.contains("3 or 6 numbers"));

@@ -1,7 +1,7 @@
 //! The canonical bytes of a program, for storage and for content ids: equal programs have equal bytes.
 //!
-//! The bytes are those of [postcard](https://postcard.jamesmunns.com) for a layout mark, the unit, moves, arcs, events and
-//! warnings. They are written and read as a stream.
+//! The bytes are those of [postcard](https://postcard.jamesmunns.com) for a layout mark, the unit, moves, arcs, events
+//! and warnings. They are written and read as a stream.
 
 use std::borrow::Cow;
 use std::fmt;

@@ -111,8 +111,8 @@ impl Assembler {
 
     /// The line without the number of a card.
     ///
-    /// A line is a card if digits, perhaps after letters, fill columns 73 to 80, and column 72 is blank; after the first
-    /// such line, also if column 72 is not blank. So a long line in free form stays whole.
+    /// A line is a card if digits, perhaps after letters, fill columns 73 to 80, and column 72 is blank; after the
+    /// first such line, also if column 72 is not blank. So a long line in free form stays whole.
     fn card<'a>(&mut self, line: &'a str) -> &'a str {
         let (Some(card), Some(sequence)) = (line.get(..CARD), line.get(CARD..)) else { return line };
         let sequence = sequence.trim_end();

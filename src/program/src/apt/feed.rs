@@ -14,8 +14,8 @@ pub(crate) struct Rate {
 }
 
 /// What FEDRAT accepts.
-pub(crate) const ACCEPTED: &str = "FEDRAT/value,unit or FEDRAT/unit,value with the unit MMPM, IPM, FPM, MMPR, IPR, FPR, \
-                                   INVERS, DPM, PERMIN or PERREV";
+pub(crate) const ACCEPTED: &str = "FEDRAT/value,unit or FEDRAT/unit,value with the unit MMPM, IPM, FPM, MMPR, IPR, \
+                                   FPR, INVERS, DPM, PERMIN or PERREV";
 
 /// The largest feed, in its unit.
 const LARGEST: f64 = 1e9;

@@ -8,8 +8,8 @@ use crate::moves::MoveKind;
 
 /// A row of a program.
 ///
-/// In JSON it is an array of 3, 5 or 6 numbers, `[x, y, z]`, `[x, y, z, phi1, phi2]` or `[x, y, z, i, j, k]`, or an object
-/// with these names and optionally `feed`, `kind` and `line`. Further names of an object are ignored.
+/// In JSON it is an array of 3, 5 or 6 numbers, `[x, y, z]`, `[x, y, z, phi1, phi2]` or `[x, y, z, i, j, k]`, or an
+/// object with these names and optionally `feed`, `kind` and `line`. Further names of an object are ignored.
 ///
 /// ```
 /// use verne_program::{Row, RowOrientation};

@@ -35,7 +35,7 @@ fn at_most_twenty_faults_are_collected() {
 
 #[test]
 fn warnings_are_listed_once_and_counted() {
-    let text: String = (0..150).map(|n| format!("WORD{n}/1\nWORD{n}/2\n")).collect();
+    let text = (0..150).map(|n| format!("WORD{n}/1\nWORD{n}/2\n")).collect::<Vec<_>>().concat();
     let program = mm(&format!("{text}RAPID\nGOTO/0,0,0"));
     assert_eq!((program.warnings().list.len(), program.warnings().total), (100, 300));
 }

@@ -5,9 +5,10 @@ use verne_program::{Format, Program, ReadOptions, read};
 
 use crate::apt;
 
-const TEXT: &str = "PARTNO/WITH EVERYTHING\nUNITS/INCHES\nLOADTL/1,LENGTH,2.5\nSPINDL/900,RPM,CLW\nCOOLNT/MIST\nDELAY/2\n\
-                    WHATEVER/1\nFROM/0,0,9\nGOHOME\nRAPID\nGOTO/1,0,0\nFEDRAT/.125,IPR\nCIRCLE/0,0,0,0,0,1,1.,TIMES,2\n\
-                    GOTO/0,1,2,0,1,1\nCYCLE/DRILL,DEPTH,.5,CLEAR,.1\nGOTO/3,3,3\nCYCLE/OFF\nSTOP\nFINI\n";
+const TEXT: &str = "PARTNO/WITH EVERYTHING\nUNITS/INCHES\nLOADTL/1,LENGTH,2.5\nSPINDL/900,RPM,CLW\nCOOLNT/MIST\n\
+                    DELAY/2\nWHATEVER/1\nFROM/0,0,9\nGOHOME\nRAPID\nGOTO/1,0,0\nFEDRAT/.125,IPR\n\
+                    CIRCLE/0,0,0,0,0,1,1.,TIMES,2\nGOTO/0,1,2,0,1,1\n\
+                    CYCLE/DRILL,DEPTH,.5,CLEAR,.1\nGOTO/3,3,3\nCYCLE/OFF\nSTOP\nFINI\n";
 
 fn bytes_of(program: &Program) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -35,7 +36,7 @@ fn equal_programs_have_equal_bytes_whatever_their_line_breaks() {
 
 #[test]
 fn a_move_takes_about_60_bytes() {
-    let text: String = (0..1000).map(|n| format!("[{n}.5,0,300,0.1,0.2,0.3]\n")).collect();
+    let text = (0..1000).map(|n| format!("[{n}.5,0,300,0.1,0.2,0.3]\n")).collect::<Vec<_>>().concat();
     let program = read(Format::Ndjson, text.as_bytes(), &ReadOptions::default()).unwrap();
     assert!(bytes_of(&program).len() < 70_000);
 }

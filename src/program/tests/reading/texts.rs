@@ -26,8 +26,9 @@ fn a_fault_in_a_continued_statement_names_its_own_line() {
 
 #[test]
 fn texts_are_events_in_their_places() {
-    let text = "PARTNO PART 7/B\nFEDRAT/9,MMPM\nREMARK -> A / B\nGOTO/0,0,0\n$$ between\nPPRINT/'it''s \"quoted\", GOTO/1'\nPPWORD/RETURN,7\n\
-                TPRINT/DRILL 5$\nINSERT/M21 (GOTO/1,2,3)\nGOTO/1,0,0 $$ behind";
+    let text = "PARTNO PART 7/B\nFEDRAT/9,MMPM\nREMARK -> A / B\nGOTO/0,0,0\n$$ between\n\
+                PPRINT/'it''s \"quoted\", GOTO/1'\n\
+                PPWORD/RETURN,7\nTPRINT/DRILL 5$\nINSERT/M21 (GOTO/1,2,3)\nGOTO/1,0,0 $$ behind";
     let program = mm(text);
     let found: Vec<_> = program
         .steps()
@@ -71,7 +72,8 @@ fn a_continued_comment_ends_where_its_numbers_end() {
 #[test]
 fn columns_73_to_80_of_card_images_are_numbers_of_cards() {
     let cards = ["PARTNO CARDS", "UNITS/MM", "GOTO/1,2,3,$", "0,0,1", "FINI"];
-    let text: String = (1..).zip(cards).map(|(n, card)| format!("{card:<72}{:08}\n", 10 * n)).collect();
+    let text =
+        (1..).zip(cards).map(|(n, card)| format!("{card:<72}{:08}\n", 10 * n)).collect::<Vec<_>>().concat();
     let program = apt(&text);
     assert_eq!(tips(&program), [[1.0, 2.0, 3.0]]);
     assert_eq!(&*program.events()[0].text, "CARDS");
