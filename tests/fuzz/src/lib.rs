@@ -27,6 +27,7 @@ mod json;
 mod keys;
 mod machines;
 mod mesh;
+mod programs;
 mod requests;
 mod settings;
 mod solver;
@@ -45,12 +46,16 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 10] = [
+pub const TARGETS: [Target; 14] = [
+    Target { name: "apt", run: programs::apt, default_inputs: 5_000 },
     Target { name: "body", run: requests::body, default_inputs: 500 },
+    Target { name: "csv", run: programs::csv, default_inputs: 5_000 },
     Target { name: "headers", run: requests::headers, default_inputs: 500 },
     Target { name: "keys", run: keys::keys, default_inputs: 200 },
     Target { name: "machine", run: requests::machine, default_inputs: 500 },
     Target { name: "mesh", run: mesh::mesh, default_inputs: 2_000 },
+    Target { name: "ndjson", run: programs::ndjson, default_inputs: 5_000 },
+    Target { name: "packed_program", run: programs::packed, default_inputs: 2_000 },
     Target { name: "query", run: requests::query, default_inputs: 500 },
     Target { name: "settings", run: settings::settings, default_inputs: 100 },
     Target { name: "solver", run: solver::solver, default_inputs: 20_000 },

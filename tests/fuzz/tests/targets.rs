@@ -13,4 +13,6 @@ macro_rules! campaigns {
     )* };
 }
 
-campaigns! { body headers keys machine mesh query settings solver store workspaces }
+campaigns! {
+    apt body csv headers keys machine mesh ndjson packed_program query settings solver store workspaces
+}

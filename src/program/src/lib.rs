@@ -1,0 +1,61 @@
+//! Readers for tool path programs. Every format becomes one list of moves with source lines: a [`Program`].
+//!
+//! The crate reads what a file states. It knows no machine, no solver and no HTTP: set-up, offsets and tool lengths are
+//! applied by those who plan the motion. Lengths are millimetres, angles radians, in the program's own frame. The tool
+//! axis is a unit vector from the tip to the holder.
+//!
+//! A [`Reader`] takes chunks of bytes, [`read`] takes a [`BufRead`](std::io::BufRead). Both read line by line: beside
+//! the program itself they hold one statement of at most 64 KiB. Nothing panics, and no number of a program is a NaN.
+//!
+//! ```
+//! use verne_program::{Format, MoveKind, ReadOptions, read};
+//!
+//! let text = "UNITS/MM\nRAPID\nGOTO/0,0,320\nFEDRAT/1000,MMPM\nGOTO/0,0,300,0,-3,4\nFINI\n";
+//! let program = read(Format::Apt, text.as_bytes(), &ReadOptions::default())?;
+//! let last = program.moves()[1];
+//! assert_eq!((last.line(), last.kind(), last.tip()), (5, MoveKind::Feed, [0.0, 0.0, 300.0]));
+//! assert_eq!(last.axis(), [0.0, -0.6, 0.8]);
+//! # Ok::<(), verne_program::ReadError>(())
+//! ```
+//!
+//! A fault names its line, column and word, and what would be accepted:
+//!
+//! ```
+//! use verne_program::{Format, ReadError, ReadOptions, read};
+//!
+//! let text = "UNITS/MM\nGOTO/0,0\n";
+//! let outcome = read(Format::Apt, text.as_bytes(), &ReadOptions::default());
+//! let Err(ReadError::Program(refused)) = outcome else { panic!() };
+//! let error = &refused.errors[0];
+//! assert_eq!((error.line, error.column, error.word.as_str()), (2, 1, "GOTO"));
+//! assert!(error.detail.contains("3 or 6 numbers"));
+//! ```
+
+mod apt;
+mod arc;
+mod builder;
+mod diagnostics;
+mod error;
+mod event;
+mod format;
+mod lines;
+mod moves;
+mod options;
+mod orientation;
+pub mod packed;
+mod program;
+mod reader;
+mod rows;
+
+pub use arc::Arc;
+pub use error::{ProgramError, ProgramErrors, ReadError, Warning, Warnings};
+pub use event::{Coolant, Dwell, Event, EventKind, Rotation, Spindle};
+pub use format::{Format, FormatError};
+pub use lines::{LONGEST_LINE, line_texts};
+pub use moves::{Feed, FeedUnit, Move, MoveKind};
+pub use options::{Compensation, ReadOptions, Units};
+pub use orientation::Orientation;
+pub use program::{Bounds, Program, Segment, Step, Steps, Tool};
+pub use reader::{Reader, read};
+pub use rows::points::read_points;
+pub use rows::row::{Row, RowOrientation};
