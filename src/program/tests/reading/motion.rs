@@ -8,8 +8,8 @@ fn feeds(text: &str) -> Vec<Option<Feed>> {
     mm(text).moves().iter().map(verne_program::Move::feed).collect()
 }
 
-fn feed(value: f64, unit: FeedUnit) -> Option<Feed> {
-    Some(Feed { value, unit })
+fn feed(value: f64, unit: FeedUnit) -> Feed {
+    Feed { value, unit }
 }
 
 #[test]
@@ -35,14 +35,14 @@ fn a_feed_has_value_and_unit_in_any_order() {
         ("300", feed(300.0, MillimetresPerMinute)),
         ("PERREV,2", feed(2.0, MillimetresPerRevolution)),
     ] {
-        assert_eq!(feeds(&format!("FEDRAT/{words}\nGOTO/0,0,0")), [expected], "{words}");
+        assert_eq!(feeds(&format!("FEDRAT/{words}\nGOTO/0,0,0")), [Some(expected)], "{words}");
     }
 }
 
 #[test]
 fn a_feed_without_a_unit_is_in_the_unit_of_the_file() {
     let program = apt("UNITS/INCHES\nFEDRAT/10\nGOTO/1,2,3\nFINI\n");
-    assert_eq!(program.moves()[0].feed(), feed(254.0, FeedUnit::MillimetresPerMinute));
+    assert_eq!(program.moves()[0].feed(), Some(feed(254.0, FeedUnit::MillimetresPerMinute)));
     assert_near(program.moves()[0].tip(), [25.4, 50.8, 76.2]);
     assert_eq!(program.units(), Units::Inches);
 }
@@ -154,8 +154,8 @@ fn the_feed_of_a_turning_axis_is_no_speed_of_the_tip() {
     use FeedUnit::{DegreesPerMinute, InverseMinutes};
     let turn = "\nGOTO/0,0,0\nGOTO/0,0,0,0,-1,1";
     assert_eq!(feeds(&format!("FEDRAT/100,MMPM{turn}"))[1], None);
-    assert_eq!(feeds(&format!("FEDRAT/DPM,360{turn}"))[1], feed(360.0, DegreesPerMinute));
-    assert_eq!(feeds(&format!("FEDRAT/INVERS,4{turn}"))[1], feed(4.0, InverseMinutes));
+    assert_eq!(feeds(&format!("FEDRAT/DPM,360{turn}"))[1], Some(feed(360.0, DegreesPerMinute)));
+    assert_eq!(feeds(&format!("FEDRAT/INVERS,4{turn}"))[1], Some(feed(4.0, InverseMinutes)));
     assert!(warnings(&mm(&format!("FEDRAT/100,MMPM{turn}")))[0].contains("the drives decide"));
 }
 
