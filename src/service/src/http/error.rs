@@ -137,7 +137,7 @@ impl From<SubmitError> for JobError {
         match error {
             SubmitError::Full { retry_after } => Self::QueueFull(retry_after.as_secs().max(1)),
             SubmitError::Draining => Self::Stopping,
-            SubmitError::UnavailableError(unavailable) => Self::RecordsUnavailable(unavailable),
+            SubmitError::Unavailable(unavailable) => Self::RecordsUnavailable(unavailable),
         }
     }
 }

@@ -27,9 +27,9 @@ use crate::wire::workspace_summary::WorkspaceSummary;
             **Units**: lengths are in mm, angles in degrees; z points down in the base frame. Field names are the \
             symbols of the paper.\n\n\
             **Machines**: a request names a machine or contains a complete machine object. The built-in machine \
-            `verne` has invented, round dimensions that reproduce the solution counts printed in the paper. They are not \
-            Fatronik's dimensions, which the paper does not give. Every answer has the hash of the machine (BLAKE3 of \
-            geometry, table and limits), so clients can compare answers.\n\n\
+            `verne` has invented, round dimensions that reproduce the solution counts printed in the paper. They are \
+            not Fatronik's dimensions, which the paper does not give. Every answer has the hash of the machine (BLAKE3 \
+            of geometry, table and limits), so clients can compare answers.\n\n\
             **No solution is not an error**: the status is 200, `solutions` is empty, and the answer has `reason` and \
             the `constraint` that prevents a solution.\n\n\
             **Order**: the working solution comes first, then alpha and rho determine the order. With `near`, the \

@@ -2,10 +2,10 @@
 
 pub(crate) mod code;
 
-use axum::BoxError;
 use axum::body::{Body, Bytes, HttpBody};
 use axum::http::{HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use axum::{BoxError, Extension};
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -67,12 +67,17 @@ impl From<HttpError> for Problem {
     }
 }
 
+/// Extension of a response with a problem document: the status in the document. tower-http's compression may replace
+/// the status of the response by 406.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Documented(StatusCode);
+
 impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
         let body = serde_json::to_vec(&self).unwrap_or_default();
         let media = [(header::CONTENT_TYPE, HeaderValue::from_static(PROBLEM_JSON))];
-        (status, media, body).into_response()
+        (status, Extension(Documented(status)), media, body).into_response()
     }
 }
 
@@ -119,8 +124,8 @@ where
     B::Error: Into<BoxError>,
 {
     let status = response.status();
-    let is_problem = response.headers().get(header::CONTENT_TYPE).is_some_and(|media| media == PROBLEM_JSON);
-    if !(status.is_client_error() || status.is_server_error()) || is_problem {
+    let is_documented = response.extensions().get() == Some(&Documented(status));
+    if !(status.is_client_error() || status.is_server_error()) || is_documented {
         return response.map(Body::new);
     }
     let (mut parts, _) = response.into_parts();

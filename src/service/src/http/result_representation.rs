@@ -80,8 +80,8 @@ impl Surface {
     }
 }
 
-/// The mesh of a surface as a file, or the job that computes the mesh. `question` is the question of the result; it is needed
-/// if the file is not stored.
+/// The mesh of a surface as a file, or the job that computes the mesh. `question` is the question of the result; it is
+/// needed if the file is not stored.
 pub(crate) async fn mesh_or_job(
     state: &AppState,
     surface: &Surface,
@@ -108,8 +108,8 @@ pub(crate) async fn mesh_or_job(
 
 /// The file of a mesh, and whether this call encoded it; `None` if the store has neither the file nor the mesh.
 ///
-/// Concurrent calls for the same file share one encoding. The encoding has a permit until the file is stored; if all callers
-/// leave, until the file is encoded.
+/// Concurrent calls for the same file share one encoding. The encoding has a permit until the file is stored; if all
+/// callers leave, until the file is encoded.
 async fn found_or_encoded(
     state: &AppState,
     question: &Arc<Question>,
