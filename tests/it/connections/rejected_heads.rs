@@ -15,11 +15,7 @@ fn request_for(path: &str, headers: &str) -> String {
     format!("GET {path} HTTP/1.1\r\nOrigin: https://example.org\r\n{headers}Connection: close\r\n\r\n")
 }
 
-<<<<<<<< HEAD:tests/it/connections/rejected_heads.rs
 /// Asserts a problem document with this status and code, a request id and CORS headers.
-========
-/// Checks for a problem document with this status and code, an id, and CORS headers.
->>>>>>>> store:tests/it/connections/invalid_heads.rs
 #[track_caller]
 fn assert_problem(answer: &str, status: u16, code: &str) {
     let (head, body) = answer.split_once("\r\n\r\n").unwrap_or_else(|| panic!("{answer}"));
@@ -38,11 +34,7 @@ fn assert_problem(answer: &str, status: u16, code: &str) {
 }
 
 #[tokio::test]
-<<<<<<<< HEAD:tests/it/connections/rejected_heads.rs
 async fn malformed_heads_are_answered_with_a_problem_document() {
-========
-async fn an_invalid_request_head_is_answered_with_a_problem() {
->>>>>>>> store:tests/it/connections/invalid_heads.rs
     let served = serve("--cors-origin https://example.org").await;
     for (path, headers) in [
         ("/fk", ""),
@@ -63,11 +55,7 @@ async fn an_invalid_request_head_is_answered_with_a_problem() {
 }
 
 #[tokio::test]
-<<<<<<<< HEAD:tests/it/connections/rejected_heads.rs
 async fn large_heads_are_rejected() {
-========
-async fn large_request_heads_are_refused() {
->>>>>>>> store:tests/it/connections/invalid_heads.rs
     let served = serve("--cors-origin https://example.org").await;
     let localhost = "Host: localhost\r\n";
     let uri = format!("/fk?rho={}", "1".repeat(20_000));
@@ -85,11 +73,7 @@ async fn large_request_heads_are_refused() {
 }
 
 #[tokio::test]
-<<<<<<<< HEAD:tests/it/connections/rejected_heads.rs
 async fn a_malformed_head_ends_a_connection_after_earlier_responses() {
-========
-async fn an_invalid_request_closes_the_connection_after_earlier_answers() {
->>>>>>>> store:tests/it/connections/invalid_heads.rs
     let served = serve("--cors-origin https://example.org").await;
     let mut stream = served.connect().await;
     assert!(super::probe(&mut stream).await);
@@ -99,11 +83,7 @@ async fn an_invalid_request_closes_the_connection_after_earlier_answers() {
 }
 
 #[tokio::test]
-<<<<<<<< HEAD:tests/it/connections/rejected_heads.rs
 async fn the_service_does_not_ask_for_a_body_that_is_too_large() {
-========
-async fn a_body_declared_too_large_is_refused_before_it_is_sent() {
->>>>>>>> store:tests/it/connections/invalid_heads.rs
     let served = serve("--cors-origin https://example.org --max-body-bytes 1000000").await;
     for (path, bytes) in [("/fk", 70_000), ("/fk/batch", 2_000_000)] {
         let head = format!(

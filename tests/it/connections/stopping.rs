@@ -1,8 +1,4 @@
-<<<<<<<< HEAD:tests/it/connections/stopping.rs
 //! The end of the service.
-========
-//! Shutdown of a service on a socket.
->>>>>>>> store:tests/it/connections/shutdown.rs
 
 use tempfile::TempDir;
 use tokio::io::AsyncWriteExt;
@@ -12,11 +8,7 @@ use super::{in_time, probe, rest, serve};
 use crate::cli::verne;
 
 #[tokio::test]
-<<<<<<<< HEAD:tests/it/connections/stopping.rs
 async fn a_stopping_service_closes_idle_connections_and_finishes_requests() {
-========
-async fn shutdown_closes_idle_connections_and_finishes_requests() {
->>>>>>>> store:tests/it/connections/shutdown.rs
     let served = serve("--drain 60 --header-timeout 60 --timeout 60").await;
     let (mut idle, mut silent, mut busy) =
         (served.connect().await, served.connect().await, served.connect().await);
@@ -28,11 +20,7 @@ async fn shutdown_closes_idle_connections_and_finishes_requests() {
         "POST /fk HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: {length}"
     );
     busy.write_all(format!("{head}\r\nExpect: 100-continue\r\n\r\n").as_bytes()).await.unwrap();
-<<<<<<<< HEAD:tests/it/connections/stopping.rs
     // The service asks for the body, so the request is in progress.
-========
-    // The service asks for the body: the request has started.
->>>>>>>> store:tests/it/connections/shutdown.rs
     let mut expected = [0; 25];
     in_time(tokio::io::AsyncReadExt::read_exact(&mut busy, &mut expected)).await.unwrap();
     assert_eq!(&expected, b"HTTP/1.1 100 Continue\r\n\r\n");
@@ -49,11 +37,7 @@ async fn shutdown_closes_idle_connections_and_finishes_requests() {
 }
 
 #[tokio::test]
-<<<<<<<< HEAD:tests/it/connections/stopping.rs
 async fn an_unfinished_request_does_not_keep_a_stopping_service() {
-========
-async fn a_stalled_client_does_not_delay_shutdown() {
->>>>>>>> store:tests/it/connections/shutdown.rs
     let served = serve("--drain 1 --header-timeout 600 --timeout 600").await;
     let mut stream = served.connect().await;
     assert!(probe(&mut stream).await);
@@ -63,13 +47,8 @@ async fn a_stalled_client_does_not_delay_shutdown() {
 }
 
 #[tokio::test]
-<<<<<<<< HEAD:tests/it/connections/stopping.rs
 async fn a_service_that_waits_for_the_broker_stops_at_once() {
     // No program listens there.
-========
-async fn shutdown_ends_the_wait_for_the_broker() {
-    // Nobody listens there.
->>>>>>>> store:tests/it/connections/shutdown.rs
     let broker = TcpListener::bind("127.0.0.1:0").await.unwrap().local_addr().unwrap();
     let directory = TempDir::new().unwrap();
     let store = format!("file://{}", directory.path().display());
@@ -79,11 +58,7 @@ async fn shutdown_ends_the_wait_for_the_broker() {
 
 #[cfg(unix)]
 #[tokio::test]
-<<<<<<<< HEAD:tests/it/connections/stopping.rs
 async fn sighup_does_not_end_a_service_without_keys() {
-========
-async fn a_hangup_signal_without_keys_changes_nothing() {
->>>>>>>> store:tests/it/connections/shutdown.rs
     let served = serve("").await;
     let mut stream = served.connect().await;
     assert!(probe(&mut stream).await);
