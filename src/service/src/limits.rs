@@ -12,3 +12,4 @@ pub(crate) mod keys_file;
 pub(crate) mod rate;
 pub(crate) mod response_memory;
 pub(crate) mod toml_error;
+pub(crate) mod usage;

@@ -1,4 +1,4 @@
-//! The service under a path of a proxy's: requests with that path or without it, and links that begin with it.
+//! Serves the API below a path of a proxy. The proxy may keep the path in the requests or remove it.
 
 use axum::Router;
 use axum::extract::Request;
@@ -12,32 +12,36 @@ use tower::ServiceBuilder;
 use crate::http::proxy::BasePath;
 use crate::wire::result_id::ResultId;
 
-/// The routes with the path itself, which leads to the page below it.
-pub(crate) fn with_page<S: Clone + Send + Sync + 'static>(routes: Router<S>, base: &BasePath) -> Router<S> {
+/// Adds a redirect from the base path to the page below it. Without the slash at its end the page would look for its
+/// files beside the base path.
+pub(crate) fn with_redirect<S: Clone + Send + Sync + 'static>(
+    routes: Router<S>,
+    base: &BasePath,
+) -> Router<S> {
     if base.as_str().is_empty() {
         return routes;
     }
-    // Without the slash at its end the page would look for its files beside the path.
     routes.route(base.as_str(), get(async || Redirect::permanent("/")))
 }
 
-/// The service, which answers below the path and says so in its headers.
-pub(crate) fn under(service: Router, base: &BasePath) -> Router {
+/// The routes below the base path. The headers of the responses begin with it.
+pub(crate) fn nest(routes: Router, base: &BasePath) -> Router {
     if base.as_str().is_empty() {
-        return service;
+        return routes;
     }
-    let (of_requests, of_answers) = (base.clone(), base.clone());
-    // Layers of a router come after its choice of a route.
+    let (of_requests, of_responses) = (base.clone(), base.clone());
+    // The layers of a router run after it has chosen the route.
     Router::new().fallback_service(
         ServiceBuilder::new()
-            .map_request(move |request| without(&of_requests, request))
-            .map_response(move |response| told(&of_answers, response))
-            .service(service),
+            .map_request(move |request| remove_from_uri(&of_requests, request))
+            .map_response(move |response| add_to_headers(&of_responses, response))
+            .service(routes),
     )
 }
 
-/// A summary's bytes with links that begin with the path. Its links are those below its id, which stands nowhere else.
-pub(crate) fn linked(summary: &[u8], id: ResultId, base: &BasePath) -> Option<Vec<u8>> {
+/// A summary with links that begin with the base path; `None` without one. All links are below the id, which occurs
+/// nowhere else.
+pub(crate) fn summary_below(base: &BasePath, summary: &[u8], id: ResultId) -> Option<Vec<u8>> {
     if base.as_str().is_empty() {
         return None;
     }
@@ -46,7 +50,7 @@ pub(crate) fn linked(summary: &[u8], id: ResultId, base: &BasePath) -> Option<Ve
     Some(text.replace(&link, &format!("\"{base}{}", id.path())).into_bytes())
 }
 
-fn without(base: &BasePath, mut request: Request) -> Request {
+fn remove_from_uri(base: &BasePath, mut request: Request) -> Request {
     let uri = request.uri();
     let rest = uri.path_and_query().and_then(|whole| whole.as_str().strip_prefix(base.as_str()));
     let Some(Ok(rest)) = rest.filter(|rest| rest.starts_with('/')).map(str::parse::<PathAndQuery>) else {
@@ -60,7 +64,7 @@ fn without(base: &BasePath, mut request: Request) -> Request {
     request
 }
 
-fn told<B>(base: &BasePath, mut response: Response<B>) -> Response<B> {
+fn add_to_headers<B>(base: &BasePath, mut response: Response<B>) -> Response<B> {
     for name in [LOCATION, CONTENT_LOCATION] {
         let headers = response.headers_mut();
         let path =

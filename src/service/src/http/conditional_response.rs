@@ -1,4 +1,4 @@
-//! Sends content that never changes: entity tags, 304, byte ranges.
+//! Responses to conditional requests and to requests for a byte range (RFC 9110, 13 and 14): 200, 206, 304 or 416.
 
 use std::convert::Infallible;
 use std::ops::{Range, RangeInclusive};
@@ -7,7 +7,7 @@ use axum::body::Body;
 use axum::extract::FromRequestParts;
 use axum::http::header::{
     ACCEPT_RANGES, CACHE_CONTROL, CONTENT_DISPOSITION, CONTENT_LENGTH, CONTENT_LOCATION, CONTENT_RANGE,
-    CONTENT_TYPE, ETAG, IF_RANGE, RANGE, VARY,
+    CONTENT_TYPE, IF_RANGE, RANGE, VARY,
 };
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode};
@@ -16,13 +16,19 @@ use headers::{ETag, HeaderMapExt, IfNoneMatch, IfRange};
 use verne_store::ContentReader;
 
 use crate::http::error::HttpError;
-use crate::limits::response_memory::Own;
+use crate::limits::response_memory::UnsharedBytes;
 use crate::wire::error::OperationError;
 
-/// For what lies under its own id.
-pub(crate) const FOR_EVER: &str = "public, max-age=31536000, immutable";
+/// Cache-Control of content whose path contains its hash or id: the content of a path never changes.
+pub(crate) const IMMUTABLE: &str = "public, max-age=31536000, immutable";
 
-/// Under which conditions, and of which part, a representation is wanted.
+/// The strong tag of a representation: the first 32 digits of its hash, and its coding.
+pub(crate) fn entity_tag(hash: &blake3::Hash, coding: Option<&str>) -> Result<ETag, OperationError> {
+    let coding = coding.map(|name| format!("-{name}")).unwrap_or_default();
+    format!("\"{:.32}{coding}\"", hash.to_hex()).parse().map_err(|_| OperationError::Internal)
+}
+
+/// The conditions of a request, and the range that it asks for.
 #[derive(Debug, Default)]
 pub(crate) struct Conditions {
     if_none_match: Option<IfNoneMatch>,
@@ -34,15 +40,15 @@ impl<S: Sync> FromRequestParts<S> for Conditions {
     type Rejection = Infallible;
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
-        // They mean something for GET and HEAD only, a range for GET only.
+        // Conditions apply to GET and HEAD only, a range to GET only.
         if ![Method::GET, Method::HEAD].contains(&parts.method) {
             return Ok(Self::default());
         }
         let if_range = parts.headers.typed_get();
-        // A condition that cannot be read is not fulfilled: all is sent.
+        // An If-Range that cannot be read counts as not fulfilled: the response has the whole content.
         let is_unreadable = if_range.is_none() && parts.headers.contains_key(IF_RANGE);
-        let may_be_part = parts.method == Method::GET && !is_unreadable;
-        let range = parts.headers.get(RANGE).filter(|_| may_be_part);
+        let may_be_partial = parts.method == Method::GET && !is_unreadable;
+        let range = parts.headers.get(RANGE).filter(|_| may_be_partial);
         Ok(Self {
             if_none_match: parts.headers.typed_get(),
             if_range,
@@ -51,57 +57,88 @@ impl<S: Sync> FromRequestParts<S> for Conditions {
     }
 }
 
-/// Content with what is said about it.
+impl Conditions {
+    /// Whether the client has the representation with this tag, so that 304 is the response.
+    pub(crate) fn are_unmodified(&self, etag: &ETag) -> bool {
+        self.if_none_match.as_ref().is_some_and(|condition| !condition.precondition_passes(etag))
+    }
+
+    /// The range that the request asks for, unless If-Range names another tag.
+    fn range(&self, etag: &ETag, length: u64) -> Option<Result<RangeInclusive<u64>, HttpError>> {
+        let is_modified =
+            self.if_range.as_ref().is_some_and(|condition| condition.is_modified(Some(etag), None));
+        byte_range(self.range.as_deref().filter(|_| !is_modified)?, length)
+    }
+}
+
+/// Content with the metadata that a response states.
 #[derive(Debug)]
-pub(crate) struct Delivery {
-    /// The bytes, sent as they are read.
+pub(crate) struct Representation {
+    /// The bytes. The response reads them while it is sent.
     pub content: ContentReader,
-    /// They were made for this answer.
-    pub own: bool,
-    /// Their media type.
+    /// Whether the bytes were made for this response and are in memory for it alone.
+    pub is_unshared: bool,
+    /// The media type.
     pub media: &'static str,
-    /// How long they may be kept; nothing for answers to POST.
+    /// The value of Cache-Control; none for responses to POST.
     pub cache_control: Option<&'static str>,
-    /// The path at which the same bytes are had by GET.
+    /// The path at which GET returns the same bytes.
     pub location: String,
-    /// The name under which a browser saves them.
+    /// The name under which a browser saves the content.
     pub file_name: Option<String>,
 }
 
-impl Delivery {
-    /// The answer to a request with these conditions.
-    pub(crate) fn answer(self, conditions: &Conditions) -> Result<Response, HttpError> {
-        let tag = format!("\"{}\"", &self.content.hash().to_hex()[..32]);
-        let headers = self.headers(&tag);
-        let Ok(etag) = tag.parse::<ETag>() else { return Err(OperationError::Internal.into()) };
-        if conditions.if_none_match.as_ref().is_some_and(|condition| !condition.precondition_passes(&etag)) {
+impl Representation {
+    /// JSON that GET returns at a path.
+    pub(crate) fn json(content: impl Into<ContentReader>, location: String) -> Self {
+        Self {
+            content: content.into(),
+            is_unshared: false,
+            media: "application/json",
+            cache_control: None,
+            location,
+            file_name: None,
+        }
+    }
+
+    /// The representation with a value of Cache-Control.
+    pub(crate) fn cached(self, cache_control: &'static str) -> Self {
+        Self { cache_control: Some(cache_control), ..self }
+    }
+
+    /// The response to a request with these conditions.
+    pub(crate) fn respond(self, conditions: &Conditions) -> Result<Response, HttpError> {
+        let etag = entity_tag(&self.content.hash(), None)?;
+        let mut headers = self.headers();
+        headers.typed_insert(etag.clone());
+        if conditions.are_unmodified(&etag) {
             return Ok((StatusCode::NOT_MODIFIED, headers).into_response());
         }
         let length = self.content.len();
-        let outdated =
-            conditions.if_range.as_ref().is_some_and(|condition| condition.is_modified(Some(&etag), None));
-        let range = conditions.range.as_deref().filter(|_| !outdated);
-        let mut answer = match range.and_then(|range| wanted(range, length)) {
-            None => sent(StatusCode::OK, headers, &self.content, 0..length),
-            Some(range) => partial(headers, &self.content, range?),
+        let mut response = match conditions.range(&etag, length) {
+            None => send(StatusCode::OK, headers, &self.content, 0..length),
+            Some(range) => {
+                let (first, last) = range?.into_inner();
+                headers.extend(header(CONTENT_RANGE, &format!("bytes {first}-{last}/{length}")));
+                send(StatusCode::PARTIAL_CONTENT, headers, &self.content, first..last + 1)
+            }
         };
-        if self.own {
-            answer.extensions_mut().insert(Own(length));
+        if self.is_unshared {
+            response.extensions_mut().insert(UnsharedBytes(length));
         }
-        Ok(answer)
+        Ok(response)
     }
 
-    fn headers(&self, tag: &str) -> HeaderMap {
-        let fixed = [
+    fn headers(&self) -> HeaderMap {
+        let headers = [
             (CONTENT_TYPE, Some(self.media.to_owned())),
-            (ETAG, Some(tag.to_owned())),
             (VARY, Some("accept".to_owned())),
             (ACCEPT_RANGES, self.cache_control.map(|_| "bytes".to_owned())),
             (CACHE_CONTROL, self.cache_control.map(str::to_owned)),
             (CONTENT_LOCATION, Some(self.location.clone())),
             (CONTENT_DISPOSITION, self.file_name.as_ref().map(|name| format!("inline; filename=\"{name}\""))),
         ];
-        fixed.into_iter().filter_map(|(name, value)| header(name, &value?)).collect()
+        headers.into_iter().filter_map(|(name, value)| header(name, &value?)).collect()
     }
 }
 
@@ -109,21 +146,16 @@ fn header(name: HeaderName, value: &str) -> Option<(HeaderName, HeaderValue)> {
     HeaderValue::from_str(value).ok().map(|value| (name, value))
 }
 
-fn partial(mut headers: HeaderMap, content: &ContentReader, range: RangeInclusive<u64>) -> Response {
-    let (first, last) = (*range.start(), *range.end());
-    headers.extend(header(CONTENT_RANGE, &format!("bytes {first}-{last}/{}", content.len())));
-    sent(StatusCode::PARTIAL_CONTENT, headers, content, first..last + 1)
-}
-
-/// What cannot be read to its end breaks the connection off: the length was promised.
-fn sent(status: StatusCode, mut headers: HeaderMap, content: &ContentReader, range: Range<u64>) -> Response {
+/// A response with these bytes of the content. If they cannot be read to the end, the connection breaks off, because
+/// the head has promised the length.
+fn send(status: StatusCode, mut headers: HeaderMap, content: &ContentReader, range: Range<u64>) -> Response {
     headers.insert(CONTENT_LENGTH, (range.end - range.start).into());
     (status, headers, Body::from_stream(content.stream(range))).into_response()
 }
 
-/// The bytes that a header Range asks for. Nothing, so that all are sent, if it is none of `bytes=a-b`, `bytes=a-` and
-/// `bytes=-n`: several ranges at once included, which a server may answer in full.
-fn wanted(header: &str, length: u64) -> Option<Result<RangeInclusive<u64>, HttpError>> {
+/// The bytes that a header Range selects. `None` selects the whole content, for headers other than `bytes=a-b`,
+/// `bytes=a-` and `bytes=-n`: a server may ignore several ranges at once.
+fn byte_range(header: &str, length: u64) -> Option<Result<RangeInclusive<u64>, HttpError>> {
     let (unit, range) = header.split_once('=')?;
     let (first, last) = range.trim().split_once('-')?;
     if !unit.trim().eq_ignore_ascii_case("bytes") {
@@ -152,11 +184,11 @@ fn wanted(header: &str, length: u64) -> Option<Result<RangeInclusive<u64>, HttpE
 
 #[cfg(test)]
 mod tests {
-    use super::wanted;
+    use super::byte_range;
     use crate::http::error::HttpError;
 
     #[test]
-    fn ranges_as_rfc_9110_has_them() {
+    fn ranges_follow_rfc_9110() {
         for (header, range) in [
             ("bytes=0-0", Some(Ok(0..=0))),
             ("bytes=2-", Some(Ok(2..=9))),
@@ -174,7 +206,7 @@ mod tests {
             ("lines=0-1", None),
             ("bytes", None),
         ] {
-            assert_eq!(wanted(header, 10), range, "{header}");
+            assert_eq!(byte_range(header, 10), range, "{header}");
         }
     }
 }

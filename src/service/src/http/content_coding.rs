@@ -1,4 +1,4 @@
-//! How the body of a request is encoded (RFC 9110, 8.4).
+//! The content coding of a request body (RFC 9110, 8.4).
 
 use std::io::Read;
 
@@ -10,7 +10,7 @@ use crate::http::error::{HttpError, RequestError};
 use crate::limits::error::LimitError;
 
 /// Bytes that are decoded at once.
-const PIECE: usize = 8 * 1024;
+const CHUNK_BYTES: usize = 8 * 1024;
 
 /// A coding that the service decodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,10 +20,10 @@ pub(crate) enum Coding {
 }
 
 impl Coding {
-    /// Their names, as the header Accept-Encoding lists them.
+    /// The names of all codings, as the header Accept-Encoding lists them.
     pub(crate) const ACCEPTED: &str = "gzip, br";
 
-    /// The coding of a body with these headers; nothing for a plain body.
+    /// The coding of a body with these headers; `None` for a body that is not compressed.
     pub(crate) fn of(headers: &HeaderMap) -> Result<Option<Self>, RequestError> {
         let declared: Vec<_> = headers
             .get_all(CONTENT_ENCODING)
@@ -40,25 +40,25 @@ impl Coding {
         }
     }
 
-    /// The decoded body of at most `limit` bytes; `hold` is asked for its memory before it grows. To be called on the worker
-    /// threads: a few hostile bytes can take milliseconds.
+    /// Decodes a body of at most `limit` bytes. Calls `reserve` with the new length before the decoded body grows.
+    /// Call it on the worker threads: a few hostile bytes can take milliseconds.
     pub(crate) fn decode(
         self,
         encoded: &[u8],
         limit: usize,
-        hold: impl FnMut(usize) -> Result<(), LimitError>,
+        reserve: impl FnMut(usize) -> Result<(), LimitError>,
     ) -> Result<Vec<u8>, HttpError> {
         match self {
             Self::Gzip => {
                 let mut decoder = GzDecoder::new(encoded);
-                let decoded = self.read(&mut decoder, limit, hold)?;
+                let decoded = self.read(&mut decoder, limit, reserve)?;
                 if decoder.into_inner().is_empty() {
                     Ok(decoded)
                 } else {
-                    Err(self.lost("extra bytes follow the end of the compressed data").into())
+                    Err(self.unreadable("extra bytes follow the end of the compressed data").into())
                 }
             }
-            Self::Brotli => self.read(&mut brotli::Decompressor::new(encoded, PIECE), limit, hold),
+            Self::Brotli => self.read(&mut brotli::Decompressor::new(encoded, CHUNK_BYTES), limit, reserve),
         }
     }
 
@@ -66,24 +66,24 @@ impl Coding {
         self,
         decoder: &mut impl Read,
         limit: usize,
-        mut hold: impl FnMut(usize) -> Result<(), LimitError>,
+        mut reserve: impl FnMut(usize) -> Result<(), LimitError>,
     ) -> Result<Vec<u8>, HttpError> {
-        let (mut decoded, mut piece) = (Vec::new(), [0; PIECE]);
+        let (mut decoded, mut chunk) = (Vec::new(), [0; CHUNK_BYTES]);
         loop {
-            let count = decoder.read(&mut piece).map_err(|error| self.lost(&error.to_string()))?;
-            let read = piece.get(..count).unwrap_or_default();
+            let count = decoder.read(&mut chunk).map_err(|error| self.unreadable(&error.to_string()))?;
+            let read = chunk.get(..count).unwrap_or_default();
             if read.is_empty() {
                 return Ok(decoded);
             }
             if decoded.len() + count > limit {
                 return Err(RequestError::BodyTooLarge(limit).into());
             }
-            hold(decoded.len() + count)?;
+            reserve(decoded.len() + count)?;
             decoded.extend_from_slice(read);
         }
     }
 
-    fn lost(self, reason: &str) -> RequestError {
+    fn unreadable(self, reason: &str) -> RequestError {
         let name = match self {
             Self::Gzip => "gzip",
             Self::Brotli => "br",
@@ -101,7 +101,7 @@ mod tests {
     use super::Coding;
 
     #[test]
-    fn codings_are_read_as_rfc_9110_has_them() {
+    fn content_encoding_follows_rfc_9110() {
         for (declared, coding) in [
             ("gzip", Some(Some(Coding::Gzip))),
             ("GZIP", Some(Some(Coding::Gzip))),

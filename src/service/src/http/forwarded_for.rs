@@ -1,8 +1,8 @@
-//! Who is behind a proxy: the client that X-Forwarded-For names.
+//! The address of a client behind trusted proxies, from the header X-Forwarded-For.
 //!
-//! Each proxy adds the address that it was asked from at the end. So the list is read from its end, for as long as its
-//! addresses are proxies that the operator trusts; what stands before them anybody can have written. The header
-//! Forwarded is not read: a proxy that adds to one of the two passes the other on as the client has sent it.
+//! Each proxy appends the address from which it received the request. The service reads the list from its end as long
+//! as the addresses belong to trusted proxies; anybody can have written the addresses before them. It ignores the
+//! header Forwarded: a proxy that appends to one of the two headers passes the other on as the client sent it.
 
 use std::net::{IpAddr, SocketAddr};
 
@@ -13,7 +13,7 @@ use crate::http::proxy::ProxyNetwork;
 
 const FORWARDED_FOR: HeaderName = HeaderName::from_static("x-forwarded-for");
 
-/// Puts the client in the place of the proxies through which a request has come.
+/// Replaces the address of a trusted proxy by that of its client.
 pub(crate) fn client_behind(
     proxies: Vec<ProxyNetwork>,
 ) -> impl Fn(Request) -> Request + Clone + Send + Sync + 'static {
@@ -21,14 +21,14 @@ pub(crate) fn client_behind(
         if let Some(&ConnectInfo(peer)) = request.extensions().get::<ConnectInfo<SocketAddr>>()
             && let Some(client) = client(peer.ip(), request.headers(), &proxies)
         {
-            // The port is the proxy's: nothing is told of the client's.
+            // The port stays that of the proxy: the header has none.
             request.extensions_mut().insert(ConnectInfo(SocketAddr::new(client, peer.port())));
         }
         request
     }
 }
 
-/// The last address that is no proxy; the first proxy where all are. `None`: the peer itself.
+/// The last address that is not a proxy, or the first address if all are proxies; `None` if the peer is the client.
 fn client(peer: IpAddr, headers: &HeaderMap, proxies: &[ProxyNetwork]) -> Option<IpAddr> {
     let is_proxy = |address: &IpAddr| proxies.iter().any(|proxies| proxies.contains(address.to_canonical()));
     if !is_proxy(&peer) {
@@ -37,7 +37,7 @@ fn client(peer: IpAddr, headers: &HeaderMap, proxies: &[ProxyNetwork]) -> Option
     let lists = headers.get_all(FORWARDED_FOR).iter().rev();
     let entries = lists.flat_map(|list| list.to_str().unwrap_or_default().rsplit(','));
     let mut first = None;
-    // What is no address ends the list: a proxy that is trusted has not written it.
+    // An entry that is no address ends the list: no trusted proxy wrote it.
     for address in entries.map_while(|entry| address(entry.trim())) {
         first = Some(address);
         if !is_proxy(&address) {
@@ -61,7 +61,7 @@ mod tests {
     use super::{FORWARDED_FOR, client};
 
     #[test]
-    fn the_client_is_the_last_address_that_is_no_proxy() {
+    fn the_client_is_the_last_address_that_is_not_a_proxy() {
         let proxies = ["10.0.0.0/8", "2001:db8::1"].map(|network| network.parse().unwrap());
         for (peer, lists, expected) in [
             ("10.0.0.1", &["192.0.2.7"] as &[&str], Some("192.0.2.7")),

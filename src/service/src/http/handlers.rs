@@ -1,11 +1,10 @@
-//! One function for each operation: HTTP in, a typed answer out.
+//! The handlers, one module for each group of paths. `router` says how to add a route.
 
 pub(crate) mod batch;
-pub(crate) mod contains;
 pub(crate) mod dexterity;
 pub(crate) mod jobs;
 pub(crate) mod kinematics;
 pub(crate) mod machines;
+pub(crate) mod results;
 pub(crate) mod service;
 pub(crate) mod workspace;
-pub(crate) mod workspace_results;

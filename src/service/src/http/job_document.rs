@@ -1,16 +1,20 @@
-//! A job as it is shown.
+//! The JSON of a job, and the response 202 with it.
 
 use std::time::SystemTime;
 
+use axum::Json;
+use axum::http::StatusCode;
+use axum::http::header::{CACHE_CONTROL, LOCATION, RETRY_AFTER};
+use axum::response::{IntoResponse, Response};
 use humantime::format_rfc3339_millis;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
-use verne_jobs::{Job, JobId, State};
+use verne_jobs::{Failure, Job, JobId, State};
 
+use crate::http::error::{HttpError, JobError};
 use crate::http::problem::Problem;
 use crate::http::proxy::BasePath;
-use crate::http::result_or_job::failure;
 use crate::operations::question_text::QuestionHeader;
 use crate::wire::answer::MachineId;
 use crate::wire::error::OperationError;
@@ -23,7 +27,8 @@ pub(crate) struct JobObject {
     /// The id of the result. Equal requests share one job.
     pub id: String,
     /// State of the job.
-    pub state: StateName,
+    #[schema(value_type = StateName)]
+    pub state: &'static str,
     /// Fraction of the work that is done, 0 to 1.
     #[schema(minimum = 0, maximum = 1)]
     pub progress: f64,
@@ -60,7 +65,7 @@ pub(crate) struct JobLinks {
 }
 
 /// State of a job.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Clone, Copy, Debug, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = JobState)]
 pub(crate) enum StateName {
@@ -76,18 +81,6 @@ pub(crate) enum StateName {
     Cancelled,
 }
 
-impl From<State> for StateName {
-    fn from(state: State) -> Self {
-        match state {
-            State::Queued => Self::Queued,
-            State::Running => Self::Running,
-            State::Succeeded => Self::Succeeded,
-            State::Failed => Self::Failed,
-            State::Cancelled => Self::Cancelled,
-        }
-    }
-}
-
 impl From<StateName> for State {
     fn from(name: StateName) -> Self {
         match name {
@@ -101,14 +94,14 @@ impl From<StateName> for State {
 }
 
 impl JobObject {
-    /// The job in the contract's words, with links that begin with the path under which the service is published.
+    /// The job, with links below the base path.
     pub(crate) fn new(job: &Job, base: &BasePath) -> Result<Self, OperationError> {
         let header = QuestionHeader::read(&job.payload).map_err(|_| OperationError::Internal)?;
         let time = |time: SystemTime| format_rfc3339_millis(time).to_string();
         let itself = format!("{base}{}", Self::path(job.id));
         Ok(Self {
             id: job.id.to_string(),
-            state: job.state.into(),
+            state: job.state.name(),
             progress: job.progress,
             request: header.request.to_owned(),
             machine: header.machine(),
@@ -126,6 +119,27 @@ impl JobObject {
     pub(crate) fn path(id: JobId) -> String {
         format!("/jobs/{id}")
     }
+}
+
+/// The reason why a job failed.
+pub(crate) fn failure(job: &Job) -> HttpError {
+    match &job.failure {
+        Some(Failure::Work(reason)) => {
+            serde_json::from_slice(reason).unwrap_or(OperationError::Internal).into()
+        }
+        Some(Failure::DeadlinePassed) => JobError::DeadlinePassed.into(),
+        Some(Failure::Panicked(_) | Failure::TooManyAttempts) | None => OperationError::Internal.into(),
+    }
+}
+
+/// The response 202: the job computes the result.
+pub(crate) fn accepted(job: &Job, base: &BasePath) -> Result<Response, OperationError> {
+    let headers = [
+        (LOCATION, JobObject::path(job.id)),
+        (RETRY_AFTER, "1".to_owned()),
+        (CACHE_CONTROL, "no-store".to_owned()),
+    ];
+    Ok((StatusCode::ACCEPTED, headers, Json(JobObject::new(job, base)?)).into_response())
 }
 
 /// Jobs, newest first.

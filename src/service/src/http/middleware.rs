@@ -1,4 +1,4 @@
-//! What happens around every request: ids, observation, CORS, compression, time-outs, panics.
+//! The layers around all routes: request ids, log and metrics, CORS, problems, compression, time limit, panics.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -17,62 +17,53 @@ use tower_http::request_id::{MakeRequestUuid, PropagateRequestIdLayer, SetReques
 use tower_http::timeout::TimeoutLayer;
 
 use crate::http::forwarded_for::client_behind;
-use crate::http::problem::give_every_failure_a_document;
+use crate::http::problem::add_missing_problem;
 use crate::http::proxy::ProxyNetwork;
-use crate::http::request_log::{Observer, observe, without_long_id};
-use crate::http::security_headers::Browsers;
+use crate::http::request_log::{RequestObserver, observe, remove_long_id};
+use crate::http::security_headers::BrowserPolicy;
 use crate::telemetry::metrics::requests::RequestMetrics;
 
-/// Wraps the routes; the first layer here is the outermost. One stack: each call of `Router::layer` would box every
-/// request once more.
+/// Adds the layers to the routes. The first layer here is the outermost. They are one stack because each call of
+/// `Router::layer` boxes every request once more.
 pub(crate) fn wrap(
     routes: Router,
     requests: Arc<RequestMetrics>,
     time_limit: Duration,
-    browsers: &Browsers,
+    browsers: &BrowserPolicy,
     proxies: Vec<ProxyNetwork>,
 ) -> Router {
     routes.layer(
         ServiceBuilder::new()
             .map_request(client_behind(proxies))
-            .map_request(without_long_id)
+            .map_request(remove_long_id)
             .layer(SetRequestIdLayer::x_request_id(MakeRequestUuid))
-            .layer(from_fn_with_state(Observer::new(requests), observe))
+            .layer(from_fn_with_state(RequestObserver::new(requests), observe))
             .layer(PropagateRequestIdLayer::x_request_id())
             .option_layer(browsers.cors())
-            .map_response(browsers.protect())
-            .map_response(give_every_failure_a_document)
+            .map_response(browsers.add_headers())
+            .map_response(add_missing_problem)
             .layer(compression())
             .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, time_limit))
             .layer(CatchPanicLayer::new()),
     )
 }
 
-/// Compresses what is small, and at the first level: a runtime's thread does it, in less than half a millisecond.
+/// Most bytes of a body that is compressed. Larger bodies, such as those of batches, are not.
+const MOST_COMPRESSED_BYTES: u64 = 48 * 1024;
+
+/// Compresses small bodies at the lowest level: a thread of the runtime needs less than half a millisecond for it.
 fn compression() -> CompressionLayer<impl Predicate> {
-    let when = DefaultPredicate::new().and(Untagged).and(Small);
+    let when = DefaultPredicate::new().and(Compressible);
     CompressionLayer::new().quality(CompressionLevel::Fastest).compress_when(when)
 }
 
-/// Most bytes of a body that is compressed.
-const SMALL: u64 = 48 * 1024;
-
-/// Batches, for one, are sent as they are.
 #[derive(Clone, Copy)]
-struct Small;
+struct Compressible;
 
-impl Predicate for Small {
+impl Predicate for Compressible {
     fn should_compress<B: HttpBody>(&self, response: &Response<B>) -> bool {
-        response.body().size_hint().upper().is_some_and(|bytes| bytes <= SMALL)
-    }
-}
-
-/// A strong ETag promises these very bytes, and ranges count them: what carries one is sent as it is.
-#[derive(Clone, Copy)]
-struct Untagged;
-
-impl Predicate for Untagged {
-    fn should_compress<B: HttpBody>(&self, response: &Response<B>) -> bool {
+        // A strong ETag and byte ranges refer to the identical bytes.
         !response.headers().contains_key(ETAG)
+            && response.body().size_hint().upper().is_some_and(|bytes| bytes <= MOST_COMPRESSED_BYTES)
     }
 }

@@ -1,25 +1,32 @@
-//! Which of several representations a request accepts (RFC 9110, 12.5.1).
+//! Chooses among representations by the weights in Accept and Accept-Encoding (RFC 9110, 12.5).
 
 use std::convert::Infallible;
 
 use axum::extract::FromRequestParts;
-use axum::http::HeaderMap;
 use axum::http::header::ACCEPT;
 use axum::http::request::Parts;
+use axum::http::{HeaderMap, HeaderName};
 
 use crate::http::error::HttpError;
 
-/// The media ranges of the header Accept; without it, everything.
-#[derive(Debug)]
-pub(crate) struct Accept(Vec<Range>);
-
-/// One media range with its weight.
-#[derive(Debug)]
-struct Range {
-    kind: String,
-    subtype: String,
-    weight: f32,
+/// The alternatives of a header, in lowercase, with their weights from 0 to 1. Parameters other than the weight are
+/// ignored.
+pub(crate) fn weighted(headers: &HeaderMap, name: HeaderName) -> impl Iterator<Item = (String, f32)> {
+    let values = headers.get_all(name).iter().filter_map(|value| value.to_str().ok());
+    values.flat_map(|value| value.split(',')).map(|alternative| {
+        let mut parts = alternative.split(';').map(str::trim);
+        let name = parts.next().unwrap_or_default().to_ascii_lowercase();
+        let weight = parts.find_map(|part| {
+            let (name, value) = part.split_once('=')?;
+            name.trim().eq_ignore_ascii_case("q").then(|| value.trim().parse().unwrap_or(0.0))
+        });
+        (name, weight.unwrap_or(1.0_f32).clamp(0.0, 1.0))
+    })
 }
+
+/// The media ranges of the header Accept with their weights. Without the header it is empty and accepts everything.
+#[derive(Debug)]
+pub(crate) struct Accept(Vec<(String, f32)>);
 
 impl<S: Sync> FromRequestParts<S> for Accept {
     type Rejection = Infallible;
@@ -31,60 +38,49 @@ impl<S: Sync> FromRequestParts<S> for Accept {
 
 impl Accept {
     fn of(headers: &HeaderMap) -> Self {
-        let values = headers.get_all(ACCEPT).iter().filter_map(|value| value.to_str().ok());
-        Self(values.flat_map(|value| value.split(',')).filter_map(Range::parse).collect())
+        Self(weighted(headers, ACCEPT).filter(|(range, _)| range.contains('/')).collect())
     }
 
-    /// The offer that is accepted best, the first of equals.
+    /// The offer with the greatest weight, the first of equals.
     pub(crate) fn choose<T>(
         &self,
         offers: impl IntoIterator<Item = (&'static str, T)>,
     ) -> Result<T, HttpError> {
-        let mut refused = Vec::new();
+        let mut available = Vec::new();
         let mut best: Option<(f32, T)> = None;
         for (media, offer) in offers {
-            refused.push(media);
+            available.push(media);
             let weight = self.weight(media);
             if weight > best.as_ref().map_or(0.0, |(weight, _)| *weight) {
                 best = Some((weight, offer));
             }
         }
-        best.map(|(_, offer)| offer).ok_or(HttpError::NotAcceptable(refused))
+        best.map(|(_, offer)| offer).ok_or(HttpError::NotAcceptable(available))
     }
 
-    /// The weight of a media type: that of the most specific range it falls into.
+    /// Requires that JSON is accepted.
+    pub(crate) fn require_json(&self) -> Result<(), HttpError> {
+        self.choose([("application/json", ())])
+    }
+
+    /// The weight of a media type: that of the most specific range that contains it.
     fn weight(&self, media: &str) -> f32 {
         if self.0.is_empty() {
             return 1.0;
         }
-        let fitting =
-            self.0.iter().filter_map(|range| range.fits(media).map(|closeness| (closeness, range.weight)));
-        fitting.max_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map_or(0.0, |(_, weight)| weight)
+        let matching =
+            self.0.iter().filter_map(|(range, weight)| Some((specificity(range, media)?, *weight)));
+        matching.max_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map_or(0.0, |(_, weight)| weight)
     }
 }
 
-impl Range {
-    /// One media range; nothing if it is none. Parameters other than the weight make no difference here.
-    fn parse(text: &str) -> Option<Self> {
-        let mut parts = text.split(';').map(str::trim);
-        let (kind, subtype) = parts.next()?.split_once('/')?;
-        let weight = parts.find_map(|part| {
-            let (name, value) = part.split_once('=')?;
-            name.trim().eq_ignore_ascii_case("q").then(|| value.trim().parse::<f32>().unwrap_or(0.0))
-        });
-        let (kind, subtype) = (kind.to_ascii_lowercase(), subtype.to_ascii_lowercase());
-        Some(Self { kind, subtype, weight: weight.unwrap_or(1.0).clamp(0.0, 1.0) })
-    }
-
-    /// How closely a media type fits: 0 for `*/*`, 2 for its very name.
-    fn fits(&self, media: &str) -> Option<u8> {
-        let (kind, subtype) = media.split_once('/')?;
-        match (self.kind.as_str(), self.subtype.as_str()) {
-            ("*", "*") => Some(0),
-            (own, "*") if own == kind => Some(1),
-            (own, own_subtype) if own == kind && own_subtype == subtype => Some(2),
-            _ => None,
-        }
+/// How specific a range is that contains the media type: 0 for `*/*`, 1 for `type/*`, 2 for the type itself.
+fn specificity(range: &str, media: &str) -> Option<u8> {
+    match range.split_once('/')? {
+        _ if range == media => Some(2),
+        ("*", "*") => Some(0),
+        (kind, "*") if media.split_once('/')?.0 == kind => Some(1),
+        _ => None,
     }
 }
 

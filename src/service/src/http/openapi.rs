@@ -1,21 +1,22 @@
-//! The OpenAPI document: what the handlers say, completed with examples that the solver answers.
+//! The OpenAPI document: generated from the handlers, with examples whose answers the solver computes.
 
-pub(crate) mod access;
-pub(crate) mod binary;
+pub(crate) mod body_schemas;
 pub(crate) mod examples;
-pub(crate) mod inlined;
 pub(crate) mod machine_schema;
-pub(crate) mod problems;
+pub(crate) mod problem_responses;
+pub(crate) mod security;
 
 use serde_json::{Value, json};
 use utoipa::OpenApi;
 
+use crate::http::openapi::examples::examples;
+use crate::http::openapi::machine_schema::join_descriptions;
 use crate::http::problem::Problem;
 use crate::wire::dexterity::DexteritySummary;
 use crate::wire::family::FamilySummary;
 use crate::wire::workspace_summary::WorkspaceSummary;
 
-/// What the document says beside its routes.
+/// The parts of the document that belong to no route.
 #[derive(OpenApi)]
 #[openapi(
     info(
@@ -25,10 +26,10 @@ use crate::wire::workspace_summary::WorkspaceSummary;
             every limit. Workspaces: volumes, watertight meshes, slices and tests of points.\n\n\
             **Units**: lengths are in mm, angles in degrees; z points down in the base frame. Field names are the \
             symbols of the paper.\n\n\
-            **Machines**: a request names a machine or contains a complete machine object. The built-in machine `verne` \
-            has invented, round dimensions that reproduce the solution counts printed in the paper. They are not \
-            Fatronik's dimensions, which the paper does not give. Every answer has the hash of the machine (BLAKE3 of \
-            geometry, table and limits), so clients can compare answers.\n\n\
+            **Machines**: a request names a machine or contains a complete machine object. The built-in machine \
+            `verne` has invented, round dimensions that reproduce the solution counts printed in the paper. They are \
+            not Fatronik's dimensions, which the paper does not give. Every answer has the hash of the machine (BLAKE3 \
+            of geometry, table and limits), so clients can compare answers.\n\n\
             **No solution is not an error**: the status is 200, `solutions` is empty, and the answer has `reason` and \
             the `constraint` that prevents a solution.\n\n\
             **Order**: the working solution comes first, then alpha and rho determine the order. With `near`, the \
@@ -59,12 +60,12 @@ use crate::wire::workspace_summary::WorkspaceSummary;
 )]
 pub(crate) struct Document;
 
-/// The document as JSON, with an example of each request and the answer it gets.
+/// The document as JSON, with an example of each request and its answer.
 pub(crate) fn complete(api: &utoipa::openapi::OpenApi) -> Value {
     let mut document = json!(api);
-    for example in crate::http::openapi::examples::examples() {
+    for example in examples() {
         example.write_into(&mut document);
     }
-    crate::http::openapi::inlined::join_descriptions(&mut document);
+    join_descriptions(&mut document);
     document
 }

@@ -1,4 +1,4 @@
-//! The origin of a page, as browsers send it.
+//! The origin of a web page, as browsers send it.
 
 use std::str::FromStr;
 
@@ -6,12 +6,12 @@ use axum::http::{HeaderValue, Uri};
 
 const ANY: &str = "*";
 
-/// Scheme, host and perhaps port of a page, or any.
+/// The scheme, host and optional port of a web page, or every origin.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin(pub(crate) HeaderValue);
 
 impl Origin {
-    /// Whether all origins are meant.
+    /// Whether it stands for every origin.
     pub(crate) fn is_any(&self) -> bool {
         self.0 == ANY
     }
@@ -21,21 +21,21 @@ impl FromStr for Origin {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let refusal = || "must be an origin such as https://example.org, without a path, or *".to_owned();
-        let header = |text: &str| HeaderValue::from_str(text).map(Self).map_err(|_| refusal());
+        let error = || "must be an origin such as https://example.org, without a path, or *".to_owned();
+        let header = |text: &str| HeaderValue::from_str(text).map(Self).map_err(|_| error());
         if text == ANY {
             return header(text);
         }
-        let uri: Uri = text.parse().map_err(|_| refusal())?;
+        let uri: Uri = text.parse().map_err(|_| error())?;
         let (Some(scheme), Some(authority)) = (uri.scheme_str(), uri.authority()) else {
-            return Err(refusal());
+            return Err(error());
         };
-        // Browsers write them in small letters, and compare letter by letter.
+        // Browsers send origins in lowercase.
         let origin = format!("{scheme}://{authority}").to_ascii_lowercase();
         let is_origin = ["http", "https"].contains(&scheme)
             && !authority.as_str().contains('@')
             && text.to_ascii_lowercase() == origin;
-        if is_origin { header(&origin) } else { Err(refusal()) }
+        if is_origin { header(&origin) } else { Err(error()) }
     }
 }
 

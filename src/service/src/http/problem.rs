@@ -1,4 +1,4 @@
-//! From errors to HTTP: the problem document (RFC 9457) with status and stable `code`, and its headers.
+//! Problem documents (RFC 9457): the response to each [`HttpError`], with status, stable `code` and headers.
 
 pub(crate) mod code;
 
@@ -15,10 +15,10 @@ use crate::http::problem::code::Code;
 use crate::limits::error::LimitError;
 use crate::wire::error::{FieldError, OperationError};
 
-/// Seconds after which a service that is being restarted is worth asking again.
-const PAUSE: u64 = 5;
+/// Retry-After of a service that may be restarting, in seconds.
+const RESTART_SECONDS: u64 = 5;
 
-/// Media type of every failure.
+/// Media type of problem documents.
 pub(crate) const PROBLEM_JSON: &str = "application/problem+json";
 
 /// A problem document (RFC 9457).
@@ -41,8 +41,8 @@ pub(crate) struct Problem {
     errors: Vec<FieldError>,
 }
 
-/// The error behind a bare status that the framework answered by itself.
-fn error_behind(status: StatusCode) -> HttpError {
+/// The error of a bare status that axum or tower returned.
+fn error_of_status(status: StatusCode) -> HttpError {
     match status {
         StatusCode::METHOD_NOT_ALLOWED => HttpError::MethodNotAllowed,
         StatusCode::NOT_FOUND => HttpError::UnknownPath,
@@ -67,7 +67,8 @@ impl From<HttpError> for Problem {
     }
 }
 
-/// The status that a response's document speaks of.
+/// Extension of a response with a problem document: the status in the document. tower-http's compression may replace
+/// the status of the response by 406.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Documented(StatusCode);
 
@@ -94,13 +95,13 @@ impl IntoResponse for HttpError {
 
 /// The header that an error adds to its document.
 fn header_of(error: &HttpError) -> Option<(HeaderName, HeaderValue)> {
-    let pause = |seconds: u64| Some((header::RETRY_AFTER, seconds.into()));
+    let retry_after = |seconds: u64| Some((header::RETRY_AFTER, seconds.into()));
     match error {
         HttpError::Job(JobError::QueueFull(seconds))
-        | HttpError::Limit(LimitError::TooManyRequests(seconds)) => pause(*seconds),
-        HttpError::Limit(LimitError::Overloaded) => pause(1),
+        | HttpError::Limit(LimitError::TooManyRequests(seconds)) => retry_after(*seconds),
+        HttpError::Limit(LimitError::Overloaded) => retry_after(1),
         HttpError::Job(JobError::Stopping | JobError::RecordsUnavailable(_))
-        | HttpError::Operation(OperationError::StoreUnavailable) => pause(PAUSE),
+        | HttpError::Operation(OperationError::StoreUnavailable) => retry_after(RESTART_SECONDS),
         HttpError::Access(AccessError::Unauthorized) => {
             Some((header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer")))
         }
@@ -115,28 +116,25 @@ fn header_of(error: &HttpError) -> Option<(HeaderName, HeaderValue)> {
     }
 }
 
-/// Gives a problem document to every failure that the framework answered without one (a method
-/// that is not allowed, a time-out, a panic, no encoding that is accepted); headers such as Allow stay.
-pub(crate) fn give_every_failure_a_document<B>(response: axum::http::Response<B>) -> Response
+/// Adds a problem document to an error response of axum or tower that has none: wrong method, time limit, panic, no
+/// acceptable coding. Headers such as Allow stay.
+pub(crate) fn add_missing_problem<B>(response: axum::http::Response<B>) -> Response
 where
     B: HttpBody<Data = Bytes> + Send + 'static,
     B::Error: Into<BoxError>,
 {
     let status = response.status();
-    if !(status.is_client_error() || status.is_server_error()) || is_documented(&response) {
+    let is_documented = response.extensions().get() == Some(&Documented(status));
+    if !(status.is_client_error() || status.is_server_error()) || is_documented {
         return response.map(Body::new);
     }
     let (mut parts, _) = response.into_parts();
-    let (document, body) = error_behind(status).into_response().into_parts();
-    // Those of the answer that is not sent.
+    let (document, body) = error_of_status(status).into_response().into_parts();
+    // These describe the body that is replaced.
     for name in [header::CONTENT_LENGTH, header::CACHE_CONTROL, header::ETAG] {
         parts.headers.remove(name);
     }
     parts.headers.extend(document.headers);
     parts.status = document.status;
     Response::from_parts(parts, body)
-}
-
-fn is_documented<B>(response: &axum::http::Response<B>) -> bool {
-    response.extensions().get() == Some(&Documented(response.status()))
 }

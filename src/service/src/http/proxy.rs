@@ -1,4 +1,4 @@
-//! Settings of a service that stands behind a proxy, and the names it has there.
+//! Settings of a service behind a proxy: its path and host names there, and the proxies that it trusts.
 
 use std::fmt;
 use std::net::IpAddr;
@@ -49,7 +49,7 @@ impl fmt::Display for BasePath {
 pub struct ProxyNetwork(IpNet);
 
 impl ProxyNetwork {
-    /// Whether the address, in canonical form, is one of them.
+    /// Whether the network contains the address, which is in canonical form.
     pub(crate) fn contains(&self, address: IpAddr) -> bool {
         self.0.contains(&address)
     }
@@ -64,7 +64,7 @@ impl FromStr for ProxyNetwork {
     }
 }
 
-/// A name in the header Host, in small letters and without a port; or any.
+/// A name in the header Host, in lowercase and without a port, or every name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HostName(String);
 
@@ -72,7 +72,7 @@ impl HostName {
     /// Every name.
     const ANY: &str = "*";
 
-    /// Whether every name is meant.
+    /// Whether it stands for every name.
     pub(crate) fn is_any(&self) -> bool {
         self.0 == Self::ANY
     }
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn networks_and_names() {
+    fn networks_and_host_names_are_checked() {
         for text in ["10.0.0.0/8", "10.1.2.3", "2001:db8::/32", "::1"] {
             assert!(text.parse::<ProxyNetwork>().is_ok(), "{text}");
         }

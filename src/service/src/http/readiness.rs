@@ -1,4 +1,4 @@
-//! Whether the service can do what it is for.
+//! Whether the service is ready: it accepts jobs and stores results.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::http::error::{HttpError, JobError};
 use crate::operations::results::Results;
 use crate::wire::health::{Health, HealthStatus, SharedPart};
 
-/// Asked by `/readyz`.
+/// The state behind `/readyz`.
 pub(crate) struct Readiness {
     results: Results,
     jobs: Arc<dyn Backend>,
@@ -18,14 +18,15 @@ pub(crate) struct Readiness {
 }
 
 impl Readiness {
-    /// Of these parts of the service.
+    /// Checks these parts of the service.
     pub(crate) fn new(results: Results, jobs: Arc<dyn Backend>, stopping: CancellationToken) -> Self {
         Self { results, jobs, stopping }
     }
 
-    /// Ready, or why not. What all processes share is told of and no reason to turn requests away: they would be turned
-    /// away everywhere at once, those too that need none of it.
-    pub(crate) async fn told(&self) -> Result<Json<Health>, HttpError> {
+    /// Returns the health, or the reason why the service is not ready. If a part fails that all processes share, the
+    /// service reports it and stays ready: otherwise all processes would reject all requests, even those that do not
+    /// need the part.
+    pub(crate) async fn check(&self) -> Result<Json<Health>, HttpError> {
         if self.stopping.is_cancelled() {
             return Err(JobError::Stopping.into());
         }
@@ -66,37 +67,37 @@ mod tests {
     use crate::http::error::{HttpError, JobError};
     use crate::operations::results::Results;
 
-    /// Jobs that cannot be recorded.
-    struct Refusing {
+    /// Job records that cannot be read or written.
+    struct UnavailableJobs {
         shared: bool,
     }
 
-    fn refused<T>() -> Result<T, UnavailableError> {
+    fn unavailable<T>() -> Result<T, UnavailableError> {
         Err(UnavailableError("the disk is full".to_owned()))
     }
 
     #[async_trait]
-    impl Backend for Refusing {
+    impl Backend for UnavailableJobs {
         async fn submit(&self, _: Submission) -> Result<Claim, SubmitError> {
-            Ok(refused()?)
+            Ok(unavailable()?)
         }
         async fn get(&self, _: JobId) -> Result<Option<Job>, UnavailableError> {
-            refused()
+            unavailable()
         }
         async fn list(&self, _: Filter) -> Result<Page, UnavailableError> {
-            refused()
+            unavailable()
         }
         async fn watch(&self, _: JobId) -> Result<Option<Watcher>, UnavailableError> {
-            refused()
+            unavailable()
         }
         async fn cancel(&self, _: JobId) -> Result<Option<Job>, UnavailableError> {
-            refused()
+            unavailable()
         }
         async fn leave(&self, _: JobId, _: &str) -> Result<Option<Job>, UnavailableError> {
-            refused()
+            unavailable()
         }
         async fn reachable(&self) -> Result<(), UnavailableError> {
-            refused()
+            unavailable()
         }
         fn is_shared(&self) -> bool {
             self.shared
@@ -109,14 +110,14 @@ mod tests {
 
     fn readiness(shared: bool) -> Readiness {
         let results = Results::new(Store::in_memory(1));
-        Readiness::new(results, Arc::new(Refusing { shared }), CancellationToken::new())
+        Readiness::new(results, Arc::new(UnavailableJobs { shared }), CancellationToken::new())
     }
 
     #[tokio::test]
     async fn a_process_that_cannot_record_its_jobs_is_not_ready() {
-        let error = readiness(false).told().await.map(drop).unwrap_err();
+        let error = readiness(false).check().await.map(drop).unwrap_err();
         assert!(matches!(error, HttpError::Job(JobError::RecordsUnavailable(_))), "{error:?}");
-        let health = readiness(true).told().await.unwrap();
+        let health = readiness(true).check().await.unwrap();
         assert_eq!(json!(*health), json!({"status": "degraded", "failing": ["broker"]}));
     }
 }

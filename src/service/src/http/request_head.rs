@@ -1,7 +1,8 @@
-//! The head of a request: what hyper lets pass and the service does not take.
+//! Checks the head of a request more strictly than hyper does.
 //!
-//! hyper's own bounds lie above these. What it refuses by itself, it refuses without a document, an id and a word about
-//! origins.
+//! hyper rejects a head by itself with a bare status, without problem document, id and CORS headers. Therefore its
+//! limits are above those of the service, and a rejected head becomes a request that passes all layers to the
+//! problem.
 
 use axum::http::header::HOST;
 use axum::http::uri::Authority;
@@ -9,31 +10,31 @@ use axum::http::{HeaderMap, Request, StatusCode, Uri, Version};
 
 use crate::http::error::RequestError;
 
-/// Most bytes of a request's address.
+/// Most bytes of a request's URI.
 const URI_BYTES: usize = 16 * 1024;
 
 /// Most bytes of a request's headers.
 const HEADER_BYTES: usize = 32 * 1024;
 
-/// Most bytes of line and headers that hyper reads.
-pub(crate) const READ_BYTES: u16 = 60 * 1024;
+/// Most bytes of request line and headers that hyper reads.
+pub(crate) const HYPER_HEAD_BYTES: u16 = 60 * 1024;
 
-/// The path of what cannot be read: none of the service's.
-const NOWHERE: &str = "/unreadable";
+/// The path of a request with an invalid head. The service has no route with this path.
+const NO_ROUTE: &str = "/unreadable";
 
-/// Why a request cannot be read, beside the request that is sent through the layers in its place.
+/// Extension of a request with an invalid head: the error.
 #[derive(Clone, Debug)]
-pub(crate) struct Unreadable(pub RequestError);
+pub(crate) struct InvalidHead(pub RequestError);
 
-/// Sends a request whose head the service does not take to where it is refused.
+/// Redirects a request with an invalid head to the fallback route, which responds with the problem.
 pub(crate) fn check<B>(request: &mut Request<B>) {
-    if let Err(error) = checked(request) {
-        refuse(request, error);
+    if let Err(error) = validate(request) {
+        mark_invalid(request, error);
     }
 }
 
-/// A request in the place of one that hyper has refused with this status.
-pub(crate) fn refused<B: Default>(status: StatusCode) -> Request<B> {
+/// A request that replaces one that hyper rejected with this status.
+pub(crate) fn replacement<B: Default>(status: StatusCode) -> Request<B> {
     let mut request = Request::new(B::default());
     let error = match status {
         StatusCode::URI_TOO_LONG => RequestError::UriTooLong(URI_BYTES),
@@ -42,16 +43,16 @@ pub(crate) fn refused<B: Default>(status: StatusCode) -> Request<B> {
             "The request is not valid HTTP: its first line or a header is malformed.",
         ),
     };
-    refuse(&mut request, error);
+    mark_invalid(&mut request, error);
     request
 }
 
-fn refuse<B>(request: &mut Request<B>, error: RequestError) {
-    *request.uri_mut() = Uri::from_static(NOWHERE);
-    request.extensions_mut().insert(Unreadable(error));
+fn mark_invalid<B>(request: &mut Request<B>, error: RequestError) {
+    *request.uri_mut() = Uri::from_static(NO_ROUTE);
+    request.extensions_mut().insert(InvalidHead(error));
 }
 
-fn checked<B>(request: &Request<B>) -> Result<(), RequestError> {
+fn validate<B>(request: &Request<B>) -> Result<(), RequestError> {
     let uri = request.uri();
     if uri.path().len() + uri.query().map_or(0, str::len) > URI_BYTES {
         return Err(RequestError::UriTooLong(URI_BYTES));
@@ -60,7 +61,7 @@ fn checked<B>(request: &Request<B>) -> Result<(), RequestError> {
         return Err(RequestError::MalformedHead("The request target is neither a path nor a URL."));
     }
     let headers = request.headers();
-    // As in the first line: name, colon, value, end of line.
+    // Each header has a colon, a space and the end of its line.
     let bytes: usize = headers.iter().map(|(name, value)| name.as_str().len() + value.len() + 4).sum();
     if bytes > HEADER_BYTES {
         return Err(RequestError::HeadersTooLarge);
@@ -68,7 +69,7 @@ fn checked<B>(request: &Request<B>) -> Result<(), RequestError> {
     check_host(request.version(), uri, headers)
 }
 
-/// HTTP/1.1 has one Host in each request, whatever its first line says; HTTP/2 has `:authority` or Host.
+/// Every request of HTTP/1.1 has one Host; a request of HTTP/2 has `:authority` or Host.
 fn check_host(version: Version, uri: &Uri, headers: &HeaderMap) -> Result<(), RequestError> {
     let mut hosts = headers.get_all(HOST).iter();
     let (host, second) = (hosts.next(), hosts.next());
@@ -93,7 +94,7 @@ fn check_host(version: Version, uri: &Uri, headers: &HeaderMap) -> Result<(), Re
 
 fn is_host(text: &str) -> bool {
     let Ok(authority) = text.parse::<Authority>() else { return false };
-    // With a user before it, it does not begin with the host.
+    // An authority with a user name does not begin with its host.
     let port = text.strip_prefix(authority.host());
     !authority.host().is_empty() && port.is_some_and(|port| port.is_empty() || authority.port_u16().is_some())
 }
@@ -104,49 +105,49 @@ mod tests {
     use axum::http::header::HOST;
     use axum::http::{Request, Version};
 
-    use super::checked;
+    use super::validate;
     use crate::http::error::RequestError;
 
-    fn refusal(version: Version, uri: &str, hosts: &[&[u8]]) -> Option<RequestError> {
+    fn error(version: Version, uri: &str, hosts: &[&[u8]]) -> Option<RequestError> {
         let mut request = Request::get(uri).version(version);
         for host in hosts {
             request = request.header(HOST, *host);
         }
-        checked(&request.body(()).unwrap()).err()
+        validate(&request.body(()).unwrap()).err()
     }
 
     #[test]
-    fn a_request_has_one_host() {
+    fn a_request_needs_one_valid_host() {
         for host in ["verne", "verne.example.org:8080", "127.0.0.1", "[::1]:8080", "localhost"] {
-            assert_eq!(refusal(Version::HTTP_11, "/fk", &[host.as_bytes()]), None, "{host}");
+            assert_eq!(error(Version::HTTP_11, "/fk", &[host.as_bytes()]), None, "{host}");
         }
         let bad: [&[u8]; 8] =
             [b"", b"a b", b"me@verne", b"verne:port", b"[::1", b"\xff", b"verne/fk", b":80"];
         for host in bad {
-            let refused = refusal(Version::HTTP_11, "/fk", &[host]);
+            let error = error(Version::HTTP_11, "/fk", &[host]);
             assert!(
-                matches!(refused, Some(RequestError::MalformedHead(_))),
+                matches!(error, Some(RequestError::MalformedHead(_))),
                 "{:?}",
                 String::from_utf8_lossy(host)
             );
         }
-        assert!(refusal(Version::HTTP_11, "/fk", &[]).is_some());
-        assert!(refusal(Version::HTTP_11, "/fk", &[b"a", b"a"]).is_some());
-        assert!(refusal(Version::HTTP_11, "http://verne/fk", &[]).is_some());
-        assert_eq!(refusal(Version::HTTP_10, "/fk", &[]), None);
-        assert_eq!(refusal(Version::HTTP_2, "http://verne/fk", &[]), None);
-        assert!(refusal(Version::HTTP_2, "/fk", &[]).is_some());
+        assert!(error(Version::HTTP_11, "/fk", &[]).is_some());
+        assert!(error(Version::HTTP_11, "/fk", &[b"a", b"a"]).is_some());
+        assert!(error(Version::HTTP_11, "http://verne/fk", &[]).is_some());
+        assert_eq!(error(Version::HTTP_10, "/fk", &[]), None);
+        assert_eq!(error(Version::HTTP_2, "http://verne/fk", &[]), None);
+        assert!(error(Version::HTTP_2, "/fk", &[]).is_some());
     }
 
     #[test]
-    fn address_and_headers_have_a_bound() {
+    fn uri_and_headers_have_limits() {
         let uri = |bytes: usize| format!("/fk?{}", "x".repeat(bytes));
-        assert_eq!(refusal(Version::HTTP_11, &uri(16_000), &[b"verne"]), None);
+        assert_eq!(error(Version::HTTP_11, &uri(16_000), &[b"verne"]), None);
         assert_eq!(
-            refusal(Version::HTTP_11, &uri(17_000), &[b"verne"]),
+            error(Version::HTTP_11, &uri(17_000), &[b"verne"]),
             Some(RequestError::UriTooLong(16 * 1024))
         );
         let long = Request::get("/fk").header(HOST, "verne").header("x-long", "x".repeat(33_000));
-        assert_eq!(checked(&long.body(()).unwrap()), Err(RequestError::HeadersTooLarge));
+        assert_eq!(validate(&long.body(()).unwrap()), Err(RequestError::HeadersTooLarge));
     }
 }

@@ -1,6 +1,6 @@
-//! What is told of each request: a span with its id and who sent it, a line where it failed or its sender may not, and its
-//! share of the metrics.
+//! Records each request: a span with its id and client, a line in the log if it fails or is rejected, and the metrics.
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -8,52 +8,61 @@ use axum::extract::{MatchedPath, Request, State};
 use axum::http::{HeaderMap, StatusCode};
 use axum::middleware::Next;
 use axum::response::Response;
+use governor::{DefaultDirectRateLimiter, Quota, RateLimiter};
 use opentelemetry::global;
 use opentelemetry_http::HeaderExtractor;
 use tracing::{Instrument, Span, debug, error, field, info, info_span};
 use tracing_opentelemetry::OpenTelemetrySpanExt;
 
-use crate::http::refusal_log::Refusals;
 use crate::telemetry::metrics::requests::RequestMetrics;
 
-/// Paths that are no route of the API: the viewer's files, and what does not exist.
-const ELSEWHERE: &str = "other";
+/// The route of paths outside the API, such as the viewer's files and unknown paths.
+const OTHER_ROUTE: &str = "other";
 
 /// The header with a request's id.
 const ID: &str = "x-request-id";
 
-/// Most bytes of what a client sends that are repeated in the log.
-const LONGEST: usize = 128;
+/// Most bytes of a value from the client in the log.
+const MOST_BYTES: usize = 128;
 
-/// Where what is observed goes.
+/// Ten: most lines at once for a kind of rejection, and per minute after that. The metrics count all rejections.
+const REJECTIONS_PER_MINUTE: NonZeroU32 = NonZeroU32::MIN.saturating_add(9);
+
+/// Counts and logs requests.
 #[derive(Clone)]
-pub(crate) struct Observer {
+pub(crate) struct RequestObserver {
     requests: Arc<RequestMetrics>,
-    /// Whose key is not known.
-    unknown: Arc<Refusals>,
-    /// Who may not what was asked for, or not from where.
-    forbidden: Arc<Refusals>,
+    /// Requests without a valid key.
+    unauthorized: Arc<DefaultDirectRateLimiter>,
+    /// Requests that the role, the origin or the host name forbids.
+    forbidden: Arc<DefaultDirectRateLimiter>,
 }
 
-impl Observer {
-    /// Counts requests.
+impl RequestObserver {
+    /// Counts requests in these metrics.
     pub(crate) fn new(requests: Arc<RequestMetrics>) -> Self {
-        Self { requests, unknown: Arc::default(), forbidden: Arc::default() }
+        let limiter = || Arc::new(RateLimiter::direct(Quota::per_minute(REJECTIONS_PER_MINUTE)));
+        Self { requests, unauthorized: limiter(), forbidden: limiter() }
     }
 
-    /// Whether an answer with this status has a line in the log that its sender was refused.
-    fn tells(&self, status: StatusCode) -> bool {
+    /// Whether a response with this status gets a line in the log about a rejection.
+    fn logs_rejection(&self, status: StatusCode) -> bool {
         match status {
-            StatusCode::UNAUTHORIZED => self.unknown.has_line(status.as_u16()),
-            _ => self.forbidden.has_line(status.as_u16()),
+            StatusCode::UNAUTHORIZED => self.unauthorized.check().is_ok(),
+            StatusCode::FORBIDDEN | StatusCode::MISDIRECTED_REQUEST => self.forbidden.check().is_ok(),
+            _ => false,
         }
     }
 }
 
-/// Observes a request until the head of its answer is there.
-pub(crate) async fn observe(State(observer): State<Observer>, request: Request, next: Next) -> Response {
+/// Records a request when the head of its response is complete.
+pub(crate) async fn observe(
+    State(observer): State<RequestObserver>,
+    request: Request,
+    next: Next,
+) -> Response {
     let route = request.extensions().get::<MatchedPath>().map(|path| path.as_str().to_owned());
-    let route = route.unwrap_or_else(|| ELSEWHERE.to_owned());
+    let route = route.unwrap_or_else(|| OTHER_ROUTE.to_owned());
     let method = request.method().clone();
     let id = request.headers().get(ID).and_then(|id| id.to_str().ok()).unwrap_or_default();
     let span = info_span!(
@@ -67,7 +76,7 @@ pub(crate) async fn observe(State(observer): State<Observer>, request: Request, 
         http.route = route,
         http.response.status_code = field::Empty,
     );
-    continued(&span, request.headers());
+    continue_trace(&span, request.headers());
     let answering = observer.requests.begin(&method, route);
     let began = Instant::now();
     let response = next.run(request).instrument(span.clone()).await;
@@ -75,30 +84,26 @@ pub(crate) async fn observe(State(observer): State<Observer>, request: Request, 
     answering.end(status.as_u16(), latency);
     span.record("http.response.status_code", status.as_u16());
     span.in_scope(|| {
-        match status {
-            StatusCode::UNAUTHORIZED | StatusCode::FORBIDDEN | StatusCode::MISDIRECTED_REQUEST
-                if observer.tells(status) =>
-            {
-                info!(status = status.as_u16(), ?latency, "refused");
-            }
-            // Refusing for want of room is no failure, and must not be slowed down by telling of it: the metrics do.
-            status if status.is_server_error() && status != StatusCode::SERVICE_UNAVAILABLE => {
-                error!(status = status.as_u16(), ?latency, "failed");
-            }
-            _ => debug!(status = status.as_u16(), ?latency, "answered"),
+        if observer.logs_rejection(status) {
+            info!(status = status.as_u16(), ?latency, "refused");
+        } else if status.is_server_error() && status != StatusCode::SERVICE_UNAVAILABLE {
+            error!(status = status.as_u16(), ?latency, "failed");
+        } else {
+            // Full services reject requests with 503. This must be fast, so only the metrics record it.
+            debug!(status = status.as_u16(), ?latency, "answered");
         }
     });
     response
 }
 
-/// Who sends the request at hand, once that is known: the name of a key, or an address.
-pub(crate) fn sent_by(client: &str) {
+/// Records the client of the current request: the name of a key, or an address.
+pub(crate) fn record_client(client: &str) {
     Span::current().record("client", client);
 }
 
-/// Takes a client's own id of its request away if it is too long for the log.
-pub(crate) fn without_long_id(mut request: Request) -> Request {
-    if request.headers().get(ID).is_some_and(|id| id.len() > LONGEST) {
+/// Removes the client's own request id if it is too long for the log.
+pub(crate) fn remove_long_id(mut request: Request) -> Request {
+    if request.headers().get(ID).is_some_and(|id| id.len() > MOST_BYTES) {
         request.headers_mut().remove(ID);
     }
     request
@@ -106,15 +111,15 @@ pub(crate) fn without_long_id(mut request: Request) -> Request {
 
 /// A path for the log.
 fn shortened(path: &str) -> &str {
-    path.get(..LONGEST).unwrap_or(path)
+    path.get(..MOST_BYTES).unwrap_or(path)
 }
 
-/// The trace of the caller goes on, if it sent one (W3C Trace Context) and traces are collected.
-fn continued(span: &Span, headers: &HeaderMap) {
+/// Continues the trace of the client (W3C Trace Context), if it sent one and traces are collected.
+fn continue_trace(span: &Span, headers: &HeaderMap) {
     if headers.contains_key("traceparent") {
-        let caller = global::get_text_map_propagator(|known| known.extract(&HeaderExtractor(headers)));
-        // Refused where nobody collects.
-        drop(span.set_parent(caller));
+        let parent = global::get_text_map_propagator(|known| known.extract(&HeaderExtractor(headers)));
+        // Fails if no traces are collected.
+        drop(span.set_parent(parent));
     }
 }
 
@@ -136,11 +141,11 @@ mod tests {
     use crate::process::service::Service;
     use crate::telemetry::captured_log::CapturedLog;
 
-    /// A service with one key, which may read, and the key.
+    /// A service with one key with the role read, and the key.
     async fn service() -> (Service, Key) {
-        let key = Key::fresh().unwrap();
-        let place = TempDir::new().unwrap();
-        let keys = place.path().join("keys.toml");
+        let key = Key::generate().unwrap();
+        let directory = TempDir::new().unwrap();
+        let keys = directory.path().join("keys.toml");
         let entry = format!("[[key]]\nname = 'ada'\nrole = 'read'\nhash = '{}'\n", key.hash());
         std::fs::write(&keys, entry).unwrap();
         let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
@@ -149,25 +154,28 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_flood_of_refusals_is_a_few_lines() {
+    async fn many_rejections_write_few_lines() {
         let (service, known) = service().await;
         let logged = CapturedLog::begin();
         for _ in 0..200 {
             let request = Request::get("/machines").body(Body::empty()).unwrap();
             assert_eq!(service.router.clone().oneshot(request).await.unwrap().status(), 401);
         }
-        assert_eq!(logged.text().lines().count(), 10);
-        // They hide no other refusal.
+        // Ten at once, and then one every six seconds.
+        let lines = logged.text().lines().count();
+        assert!((10..30).contains(&lines), "{lines}");
+        assert!(!logged.text().contains("\"status\":403"));
+        // Another kind of rejection has lines of its own.
         let request = Request::get("/workspace").header(AUTHORIZATION, format!("Bearer {known}"));
         service.router.oneshot(request.body(Body::empty()).unwrap()).await.unwrap();
-        assert_eq!(logged.text().lines().count(), 11);
+        assert!(logged.text().contains("\"status\":403"));
     }
 
     #[tokio::test]
-    async fn a_refusal_tells_who_was_refused_and_no_secret() {
-        let ((service, known), unknown) = (service().await, Key::fresh().unwrap());
+    async fn the_line_of_a_rejection_names_the_client_and_no_secret() {
+        let ((service, known), unknown) = (service().await, Key::generate().unwrap());
         let peer: SocketAddr = "10.0.0.7:4000".parse().unwrap();
-        for (key, path, refused) in [
+        for (key, path, rejected) in [
             (&unknown, "/machines", Some(("10.0.0.7", 401))),
             (&known, "/workspace", Some(("ada", 403))),
             (&known, "/machines", None),
@@ -180,12 +188,13 @@ mod tests {
             let text = logged.text();
             assert!(!text.contains(&key.to_string()) && !text.contains("hidden"), "{text}");
             let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-            let told = |line: &Value| {
+            let fields = |line: &Value| {
                 let client = line["span"]["client"].as_str().unwrap().to_owned();
                 (line["level"].to_string(), client, line["status"].as_u64().unwrap())
             };
-            let expected = refused.map(|(client, status)| ("\"INFO\"".to_owned(), client.to_owned(), status));
-            assert_eq!(lines.iter().map(told).collect::<Vec<_>>(), Vec::from_iter(expected), "{text}");
+            let expected =
+                rejected.map(|(client, status)| ("\"INFO\"".to_owned(), client.to_owned(), status));
+            assert_eq!(lines.iter().map(fields).collect::<Vec<_>>(), Vec::from_iter(expected), "{text}");
         }
     }
 }

@@ -1,4 +1,11 @@
-//! The one list of routes: the router and the OpenAPI document are both made from it.
+//! The list of routes. The router and the OpenAPI document are made from it.
+//!
+//! To add a route:
+//!
+//! 1. Write its handler with `#[utoipa::path]` in [`handlers`](crate::http::handlers).
+//! 2. Add it to [`list`] with its access.
+//! 3. Add an example to [`openapi::examples`].
+//! 4. Write the document anew: `cargo run -- openapi > openapi/openapi.json`.
 
 use axum::Router;
 use axum::routing::{any, get};
@@ -7,66 +14,66 @@ use utoipa::OpenApi;
 use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouter};
 use utoipa_axum::routes;
 
-use crate::http::gate::{Access, Access::For, Access::Open, Access::Probe, Gate};
-use crate::http::handlers::{
-    batch, contains, dexterity, jobs, kinematics, machines, service, workspace, workspace_results,
+use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
+use crate::http::handlers::{batch, dexterity, jobs, kinematics, machines, results, service, workspace};
+use crate::http::openapi::{self, Document, problem_responses, security};
+use crate::http::state::SharedState;
+use crate::http::unknown_parameters::reject_unknown;
+use crate::limits::admission::{
+    Admission, RequestClass::Fast, RequestClass::Monitoring, RequestClass::Other,
 };
-use crate::http::openapi::{self, Document, access, problems};
-use crate::http::query_parameters::only_known;
-use crate::http::state::Shared;
-use crate::limits::admission::{Admission, Load::Question, Load::Watch, Load::Work};
 use crate::wire::role::{Role::Compute, Role::Read};
 
 /// The OpenAPI document, generated from the handlers.
 pub fn document() -> Value {
-    openapi::complete(routes(&Gate::for_all(Admission::new(1, 1))).get_openapi())
+    openapi::complete(routes(&AccessControl::admitting_all(Admission::new(1, 1))).get_openapi())
 }
 
-/// Every route with who may use it, and what it is to the service.
-fn list() -> [(Access, UtoipaMethodRouter<Shared>); 22] {
+/// Each route with its access.
+fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 22] {
     [
-        (For(Read, Question), routes!(kinematics::get_fk, kinematics::post_fk)),
-        (For(Read, Question), routes!(kinematics::get_ik, kinematics::post_ik)),
-        (For(Read, Work), routes!(batch::fk_batch)),
-        (For(Read, Work), routes!(batch::ik_batch)),
-        (For(Compute, Work), routes!(workspace::get_workspace, workspace::post_workspace)),
-        (For(Read, Work), routes!(contains::post_contains)),
-        (For(Compute, Work), routes!(dexterity::post_dexterity)),
-        (For(Read, Work), routes!(workspace_results::get_summary)),
-        (For(Read, Work), routes!(workspace_results::get_mesh)),
-        (For(Read, Work), routes!(workspace_results::get_slice)),
-        (For(Read, Work), routes!(dexterity::get_cells)),
-        (For(Read, Work), routes!(jobs::get_jobs)),
-        (For(Read, Work), routes!(jobs::get_job)),
-        (For(Compute, Work), routes!(jobs::delete_job)),
-        (For(Read, Work), routes!(jobs::get_events)),
-        (For(Read, Question), routes!(machines::get_machines)),
-        (For(Read, Question), routes!(machines::get_machine_schema)),
-        (For(Read, Question), routes!(machines::get_machine)),
-        (For(Read, Watch), routes!(service::get_metrics)),
+        (Key(Read, Fast), routes!(kinematics::get_fk, kinematics::post_fk)),
+        (Key(Read, Fast), routes!(kinematics::get_ik, kinematics::post_ik)),
+        (Key(Read, Other), routes!(batch::fk_batch)),
+        (Key(Read, Other), routes!(batch::ik_batch)),
+        (Key(Compute, Other), routes!(workspace::get_workspace, workspace::post_workspace)),
+        (Key(Read, Other), routes!(batch::workspace_contains)),
+        (Key(Compute, Other), routes!(dexterity::post_dexterity)),
+        (Key(Read, Other), routes!(results::get_summary)),
+        (Key(Read, Other), routes!(results::get_mesh)),
+        (Key(Read, Other), routes!(results::get_slice)),
+        (Key(Read, Other), routes!(dexterity::get_cells)),
+        (Key(Read, Other), routes!(jobs::get_jobs)),
+        (Key(Read, Other), routes!(jobs::get_job)),
+        (Key(Compute, Other), routes!(jobs::delete_job)),
+        (Key(Read, Other), routes!(jobs::get_events)),
+        (Key(Read, Fast), routes!(machines::get_machines)),
+        (Key(Read, Fast), routes!(machines::get_machine_schema)),
+        (Key(Read, Fast), routes!(machines::get_machine)),
+        (Key(Read, Monitoring), routes!(service::get_metrics)),
         (Open, routes!(service::get_openapi)),
         (Probe, routes!(service::get_livez)),
         (Probe, routes!(service::get_readyz)),
     ]
 }
 
-/// What is answered when all connections are taken: how the service fares.
-pub(crate) fn probes(gate: &Gate) -> Router<Shared> {
+/// The routes of connections beyond the limit: probes and metrics. All other requests are rejected.
+pub(crate) fn probes(control: &AccessControl) -> Router<SharedState> {
     Router::new()
         .route("/livez", get(service::get_livez))
         .route("/readyz", get(service::get_readyz))
-        .route("/metrics", gate.before(get(service::get_metrics), For(Read, Watch)))
-        .fallback(service::no_place_here)
+        .route("/metrics", control.guard(get(service::get_metrics), Key(Read, Monitoring)))
+        .fallback(service::overloaded)
 }
 
-/// Every route behind the gate, with its documentation.
-pub(crate) fn routes(gate: &Gate) -> OpenApiRouter<Shared> {
-    let document = problems::with_codes(access::with_scheme(Document::openapi()));
-    // Unknown paths count as requests, too.
-    let nothing = gate.before(any(service::nothing_here), Open);
-    let router = OpenApiRouter::with_openapi(document).fallback(nothing);
+/// All routes with their access control and documentation.
+pub(crate) fn routes(control: &AccessControl) -> OpenApiRouter<SharedState> {
+    let document = problem_responses::with_codes(security::with_bearer_scheme(Document::openapi()));
+    // Requests to unknown paths are limited, too.
+    let fallback = control.guard(any(service::unknown_path), Open);
+    let router = OpenApiRouter::with_openapi(document).fallback(fallback);
     list().into_iter().fold(router, |router, (access, (schemas, paths, route))| {
-        let route = gate.before(only_known(route, &paths), access);
-        router.routes((schemas, access::documented(paths, access), route))
+        let route = control.guard(reject_unknown(route, &paths), access);
+        router.routes((schemas, security::with_access_problems(paths, access), route))
     })
 }

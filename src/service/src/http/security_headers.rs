@@ -1,4 +1,4 @@
-//! What browsers are told: whose pages may ask, and what our own pages may do.
+//! Headers for browsers: CORS, and the security policy of the service's own pages.
 
 use std::time::Duration;
 
@@ -14,11 +14,11 @@ use tower_http::cors::{AllowOrigin, Any, CorsLayer};
 
 use crate::http::origin::Origin;
 
-/// How long a browser may remember whose pages may ask.
-const REMEMBERED: Duration = Duration::from_hours(1);
+/// How long a browser may cache a preflight response.
+const PREFLIGHT_AGE: Duration = Duration::from_hours(1);
 
-/// What requests of other pages may carry.
-const ALLOWED: [HeaderName; 11] = [
+/// Request headers that pages of other origins may send.
+const ALLOWED_HEADERS: [HeaderName; 11] = [
     ACCEPT,
     AUTHORIZATION,
     CONTENT_ENCODING,
@@ -32,8 +32,8 @@ const ALLOWED: [HeaderName; 11] = [
     REQUEST_ID,
 ];
 
-/// What other pages may read of an answer, beside what they always may.
-const EXPOSED: [HeaderName; 9] = [
+/// Response headers that pages of other origins may read, in addition to the safelisted ones.
+const EXPOSED_HEADERS: [HeaderName; 9] = [
     CONTENT_DISPOSITION,
     CONTENT_LOCATION,
     CONTENT_RANGE,
@@ -47,41 +47,44 @@ const EXPOSED: [HeaderName; 9] = [
 
 const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
 
-/// Of what is no page: nothing is loaded, should a browser show it.
-const NOTHING: &str = "default-src 'none'; frame-ancestors 'none'";
+/// Content-Security-Policy of responses that are not pages: a browser that displays one loads nothing.
+const NO_PAGE: &str = "default-src 'none'; frame-ancestors 'none'";
 
-/// Of the viewer: its own files, and pictures that it draws.
+/// Content-Security-Policy of the viewer: its own files, and images that it draws.
 pub(crate) const VIEWER: &str = "default-src 'none'; script-src 'self'; style-src 'self'; \
      img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// Of Swagger UI, which writes styles into its page.
+/// Content-Security-Policy of Swagger UI, which writes styles into its page.
 pub(crate) const DOCS: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; \
      img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// What a page of ours never asks for.
-const DEVICES: &str = "accelerometer=(), bluetooth=(), camera=(), display-capture=(), geolocation=(), gyroscope=(), hid=(), \
-     magnetometer=(), microphone=(), midi=(), payment=(), serial=(), usb=()";
+/// Permissions-Policy of the pages: they use none of these devices.
+const PERMISSIONS: &str = "accelerometer=(), bluetooth=(), camera=(), display-capture=(), geolocation=(), \
+     gyroscope=(), hid=(), magnetometer=(), microphone=(), midi=(), payment=(), serial=(), usb=()";
 
 const RESOURCE_POLICY: HeaderName = HeaderName::from_static("cross-origin-resource-policy");
 
 const SAME_ORIGIN: &str = "same-origin";
 
-const YEAR: &str = "max-age=31536000";
+/// A year, in seconds.
+const HSTS: &str = "max-age=31536000";
 
-/// What the operator wants browsers to be told.
+/// The settings on which the headers depend.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Browsers {
+pub(crate) struct BrowserPolicy {
+    /// The origins whose pages may send requests and read responses.
     origins: Vec<Origin>,
-    secure: bool,
+    /// Whether the service has a certificate.
+    is_https: bool,
 }
 
-impl Browsers {
-    /// As the settings have it.
-    pub(crate) fn new(origins: &[Origin], secure: bool) -> Self {
-        Self { origins: origins.to_vec(), secure }
+impl BrowserPolicy {
+    /// The policy for these settings.
+    pub(crate) fn new(origins: &[Origin], is_https: bool) -> Self {
+        Self { origins: origins.to_vec(), is_https }
     }
 
-    /// Lets pages of these origins ask; nothing when there are none.
+    /// The CORS layer; `None` without origins.
     pub(crate) fn cors(&self) -> Option<CorsLayer> {
         let origins = self.origins.iter().map(|origin| origin.0.clone());
         let any = self.origins.iter().any(Origin::is_any);
@@ -89,42 +92,42 @@ impl Browsers {
         let cors = CorsLayer::new()
             .allow_origin(allowed)
             .allow_methods([Method::GET, Method::HEAD, Method::POST, Method::DELETE])
-            .allow_headers(ALLOWED)
-            .expose_headers(EXPOSED)
-            .max_age(REMEMBERED);
+            .allow_headers(ALLOWED_HEADERS)
+            .expose_headers(EXPOSED_HEADERS)
+            .max_age(PREFLIGHT_AGE);
         (!self.origins.is_empty()).then_some(cors)
     }
 
-    /// What every answer says; pages have said more already.
-    pub(crate) fn protect<B>(&self) -> impl Fn(Response<B>) -> Response<B> + Clone + use<B> {
-        let secure = self.secure;
-        // A page that isolates itself loads only what allows it. The header cannot name origins.
-        let loaded_by = if self.origins.is_empty() { SAME_ORIGIN } else { "cross-origin" };
+    /// Adds the headers of every response. Pages have set stricter ones already.
+    pub(crate) fn add_headers<B>(&self) -> impl Fn(Response<B>) -> Response<B> + Clone + use<B> {
+        let is_https = self.is_https;
+        // Pages that are isolated load only resources with this header. It cannot name origins.
+        let resource_policy = if self.origins.is_empty() { SAME_ORIGIN } else { "cross-origin" };
         move |mut response| {
             let headers = response.headers_mut();
             headers.insert(X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
-            headers.entry(RESOURCE_POLICY).or_insert(HeaderValue::from_static(loaded_by));
-            headers.entry(CONTENT_SECURITY_POLICY).or_insert(HeaderValue::from_static(NOTHING));
-            if secure {
-                headers.insert(STRICT_TRANSPORT_SECURITY, HeaderValue::from_static(YEAR));
+            headers.entry(RESOURCE_POLICY).or_insert(HeaderValue::from_static(resource_policy));
+            headers.entry(CONTENT_SECURITY_POLICY).or_insert(HeaderValue::from_static(NO_PAGE));
+            if is_https {
+                headers.insert(STRICT_TRANSPORT_SECURITY, HeaderValue::from_static(HSTS));
             }
             response
         }
     }
 }
 
-/// Routes of pages, which browsers are told how to treat.
+/// The routes of pages with their Content-Security-Policy and the other headers of pages.
 pub(crate) fn pages<S: Clone + Send + Sync + 'static>(routes: Router<S>, policy: &'static str) -> Router<S> {
-    let about = [
+    let headers = [
         (CONTENT_SECURITY_POLICY, policy),
         (REFERRER_POLICY, "no-referrer"),
-        (HeaderName::from_static("permissions-policy"), DEVICES),
+        (HeaderName::from_static("permissions-policy"), PERMISSIONS),
         (HeaderName::from_static("cross-origin-opener-policy"), SAME_ORIGIN),
         (RESOURCE_POLICY, SAME_ORIGIN),
     ];
     routes.layer(MapResponseLayer::new(move |mut response: axum::response::Response| {
-        let about = about.clone().map(|(name, value)| (name, HeaderValue::from_static(value)));
-        response.headers_mut().extend(about);
+        let headers = headers.clone().map(|(name, value)| (name, HeaderValue::from_static(value)));
+        response.headers_mut().extend(headers);
         response
     }))
 }

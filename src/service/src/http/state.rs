@@ -1,4 +1,4 @@
-//! What every handler shares.
+//! The state that all handlers share.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,57 +9,57 @@ use verne_jobs::{Backend, JobId};
 
 use crate::http::proxy::BasePath;
 use crate::http::readiness::Readiness;
-use crate::http::static_content::Fixed;
+use crate::http::static_content::StaticContent;
 use crate::limits::admission::Admission;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::results::Results;
 use crate::telemetry::metrics::Metrics;
 
-/// The largest requests that are answered, and the longest.
+/// Limits of the size and the time of requests.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RequestLimits {
-    /// Bytes in a batch's body.
+    /// Most bytes in the body of a batch.
     pub body_bytes: usize,
-    /// Rows in a batch.
+    /// Most rows in a batch.
     pub rows: usize,
-    /// Triangles of a mesh.
+    /// Most triangles of a mesh.
     pub triangles: u64,
-    /// How long an answer is waited for unless the request says so.
+    /// How long a request waits for a job by default.
     pub wait: Duration,
-    /// How long it may at most.
+    /// How long a request may wait for a job.
     pub longest_wait: Duration,
-    /// How long a job may take, queue included.
+    /// How long a job may take, including its time in the queue.
     pub job: Duration,
 }
 
-/// Most questions whose estimated work is remembered.
+/// Most questions whose estimated work is cached.
 pub(crate) const ESTIMATES: u64 = 10_000;
 
-/// Shared state.
-pub(crate) struct State {
+/// The state.
+pub(crate) struct AppState {
     /// The published machines.
     pub machines: MachineRegistry,
-    /// The largest requests that are answered.
+    /// Limits of requests.
     pub limits: RequestLimits,
-    /// How much is worked on at once.
+    /// Limits the requests, bodies and responses at once.
     pub admission: Arc<Admission>,
-    /// What has been answered.
+    /// The stored results.
     pub results: Results,
-    /// What is being computed.
+    /// The jobs.
     pub jobs: Arc<dyn Backend>,
-    /// The estimated work of the questions that were asked last, seconds of one core.
+    /// The estimated work of recent questions, seconds of one core. An estimate takes milliseconds.
     pub costs: Cache<JobId, f64>,
-    /// Whether all of it works.
+    /// Whether the service is ready.
     pub readiness: Readiness,
-    /// What is measured.
+    /// The metrics.
     pub metrics: Metrics,
     /// The path under which the service is published.
     pub base: BasePath,
     /// The OpenAPI document.
-    pub document: Fixed,
-    /// Cancelled when the service is told to stop.
+    pub document: StaticContent,
+    /// Cancelled when the service stops.
     pub stopping: CancellationToken,
 }
 
-/// A handle on the state.
-pub(crate) type Shared = Arc<State>;
+/// The state, shared.
+pub(crate) type SharedState = Arc<AppState>;

@@ -1,94 +1,102 @@
-//! Content that is the same for everybody as long as the process lives: compressed once, sent without a copy.
+//! Content that does not change while the process runs: the viewer's files and the OpenAPI document.
+//!
+//! The service compresses content when a client first accepts a coding, keeps the bytes, and sends them without a copy.
 
-use std::io::Write;
+use std::io::{self, Read};
 
 use axum::body::{Body, Bytes};
-use axum::http::header::{ACCEPT_ENCODING, CACHE_CONTROL, CONTENT_ENCODING, CONTENT_TYPE, ETAG, VARY};
+use axum::http::header::{ACCEPT_ENCODING, CACHE_CONTROL, CONTENT_ENCODING, CONTENT_TYPE, VARY};
 use axum::http::{HeaderMap, HeaderValue, StatusCode};
 use axum::response::{IntoResponse, Response};
-use brotli::enc::BrotliEncoderParams;
+use brotli::CompressorReader;
 use flate2::Compression;
-use flate2::write::GzEncoder;
-use headers::{ETag, HeaderMapExt, IfNoneMatch};
+use flate2::read::GzEncoder;
+use headers::HeaderMapExt;
 use tokio::sync::OnceCell;
 
+use crate::http::conditional_response::{Conditions, entity_tag};
+use crate::http::negotiation::weighted;
 use crate::operations::compute_pool::run_on_pool;
 use crate::wire::error::OperationError;
 
-/// How hard Brotli tries, of 11: with the document the last two steps save one byte in nine and take thirteen times as long.
-const QUALITY: i32 = 9;
+/// Quality of Brotli, of 11. Levels 10 and 11 make the OpenAPI document a ninth smaller and take thirteen times as
+/// long.
+const BROTLI_QUALITY: u32 = 9;
 
-/// Content with what is said about it.
+/// Logarithm of the bytes of Brotli's window.
+const BROTLI_WINDOW: u32 = 22;
+
+/// Bytes that Brotli reads at once.
+const BUFFER_BYTES: usize = 4096;
+
+/// Content with its media type.
 #[derive(Debug)]
-pub(crate) struct Fixed {
-    plain: Bytes,
-    media: String,
-    hash: [u8; 32],
+pub(crate) struct StaticContent {
+    identity: Bytes,
+    media: HeaderValue,
+    hash: blake3::Hash,
     brotli: OnceCell<Bytes>,
     gzip: OnceCell<Bytes>,
 }
 
-impl Fixed {
-    /// Content of a media type, whose hash names it.
-    pub(crate) fn new(plain: Bytes, media: String, hash: [u8; 32]) -> Self {
-        Self { plain, media, hash, brotli: OnceCell::new(), gzip: OnceCell::new() }
+impl StaticContent {
+    /// Content of a media type. The hash identifies the content.
+    pub(crate) fn new(identity: Bytes, media: HeaderValue, hash: impl Into<blake3::Hash>) -> Self {
+        Self { identity, media, hash: hash.into(), brotli: OnceCell::new(), gzip: OnceCell::new() }
     }
 
-    /// The answer to a request with these headers: encoded as it accepts, or 304.
-    pub(crate) async fn answer(
+    /// The response to a request with these headers: the content in the coding that it accepts, or 304.
+    pub(crate) async fn respond(
         &self,
         headers: &HeaderMap,
+        conditions: &Conditions,
         cache_control: &'static str,
     ) -> Result<Response, OperationError> {
-        let encoding = Encoding::accepted(headers);
-        let name = encoding.map(Encoding::name);
-        let tag = self.tag(name);
-        let about = [(CACHE_CONTROL, cache_control), (ETAG, &tag), (VARY, ACCEPT_ENCODING.as_str())];
-        let etag: ETag = tag.parse().map_err(|_| OperationError::Internal)?;
-        if headers.typed_get::<IfNoneMatch>().is_some_and(|condition| !condition.precondition_passes(&etag)) {
-            return Ok((StatusCode::NOT_MODIFIED, about).into_response());
-        }
-        let bytes = self.encoded(encoding).await?;
-        let mut response = (about, [(CONTENT_TYPE, self.media.as_str())], Body::from(bytes)).into_response();
-        if let Some(name) = name {
-            response.headers_mut().insert(CONTENT_ENCODING, HeaderValue::from_static(name));
+        let coding = Coding::accepted(headers);
+        // Each coding is a representation with a tag of its own.
+        let etag = entity_tag(&self.hash, coding.map(Coding::name))?;
+        let about = [(CACHE_CONTROL, cache_control), (VARY, ACCEPT_ENCODING.as_str())];
+        let (status, body) = if conditions.are_unmodified(&etag) {
+            (StatusCode::NOT_MODIFIED, Bytes::new())
+        } else {
+            (StatusCode::OK, self.coded(coding).await?)
+        };
+        let mut response = (status, about, Body::from(body)).into_response();
+        response.headers_mut().typed_insert(etag);
+        if status == StatusCode::OK {
+            response.headers_mut().insert(CONTENT_TYPE, self.media.clone());
+            let coding = coding.map(|coding| (CONTENT_ENCODING, HeaderValue::from_static(coding.name())));
+            response.headers_mut().extend(coding);
         }
         Ok(response)
     }
 
-    /// Each encoding is a representation of its own.
-    fn tag(&self, encoding: Option<&str>) -> String {
-        let hash = blake3::Hash::from_bytes(self.hash).to_hex();
-        let encoding = encoding.map(|name| format!("-{name}")).unwrap_or_default();
-        format!("\"{}{encoding}\"", hash.as_str().get(..32).unwrap_or_default())
-    }
-
-    async fn encoded(&self, encoding: Option<Encoding>) -> Result<Bytes, OperationError> {
-        let Some(encoding) = encoding else { return Ok(self.plain.clone()) };
-        let kept = match encoding {
-            Encoding::Brotli => &self.brotli,
-            Encoding::Gzip => &self.gzip,
+    async fn coded(&self, coding: Option<Coding>) -> Result<Bytes, OperationError> {
+        let Some(coding) = coding else { return Ok(self.identity.clone()) };
+        let coded = match coding {
+            Coding::Brotli => &self.brotli,
+            Coding::Gzip => &self.gzip,
         };
-        let plain = self.plain.clone();
-        kept.get_or_try_init(|| run_on_pool(move |_| encoding.encode(&plain))).await.cloned()
+        let identity = self.identity.clone();
+        let encode = || run_on_pool(move |_| coding.encode(&identity).map_err(|_| OperationError::Internal));
+        coded.get_or_try_init(encode).await.cloned()
     }
 }
 
-/// How content may be compressed.
+/// A content coding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Encoding {
+enum Coding {
     Brotli,
     Gzip,
 }
 
-impl Encoding {
-    /// The one that is accepted best, the denser of equals; without the header none.
+impl Coding {
+    /// The coding with the greatest weight in Accept-Encoding, Brotli of equals; none without the header.
     fn accepted(headers: &HeaderMap) -> Option<Self> {
-        let values = headers.get_all(ACCEPT_ENCODING).iter().filter_map(|value| value.to_str().ok());
-        let codings: Vec<_> = values.flat_map(|value| value.split(',')).map(coding).collect();
-        let weight = |encoding: Self| {
-            let of = |name: &str| codings.iter().find(|(coding, _)| coding.eq_ignore_ascii_case(name));
-            of(encoding.name()).or_else(|| of("*")).map_or(0.0, |(_, weight)| *weight)
+        let weights: Vec<_> = weighted(headers, ACCEPT_ENCODING).collect();
+        let weight = |coding: Self| {
+            let of = |name: &str| weights.iter().find(|(coding, _)| coding == name);
+            of(coding.name()).or_else(|| of("*")).map_or(0.0, |(_, weight)| *weight)
         };
         let (brotli, gzip) = (weight(Self::Brotli), weight(Self::Gzip));
         if brotli > 0.0 && brotli >= gzip {
@@ -104,75 +112,65 @@ impl Encoding {
         }
     }
 
-    fn encode(self, mut plain: &[u8]) -> Result<Bytes, OperationError> {
-        let mut encoded = Vec::new();
+    fn encode(self, identity: &[u8]) -> io::Result<Bytes> {
+        let mut coded = Vec::new();
         match self {
-            Self::Brotli => {
-                let parameters = BrotliEncoderParams { quality: QUALITY, ..BrotliEncoderParams::default() };
-                brotli::BrotliCompress(&mut plain, &mut encoded, &parameters)
-                    .map_err(|_| OperationError::Internal)?;
-            }
-            Self::Gzip => {
-                let mut encoder = GzEncoder::new(&mut encoded, Compression::best());
-                encoder
-                    .write_all(plain)
-                    .and_then(|()| encoder.finish().map(drop))
-                    .map_err(|_| OperationError::Internal)?;
-            }
-        }
-        Ok(encoded.into())
+            Self::Brotli => CompressorReader::new(identity, BUFFER_BYTES, BROTLI_QUALITY, BROTLI_WINDOW)
+                .read_to_end(&mut coded)?,
+            Self::Gzip => GzEncoder::new(identity, Compression::best()).read_to_end(&mut coded)?,
+        };
+        Ok(coded.into())
     }
-}
-
-/// A coding with its weight (RFC 9110, 12.5.3).
-fn coding(text: &str) -> (&str, f32) {
-    let (name, parameter) = text.split_once(';').unwrap_or((text, ""));
-    let weight = parameter.split_once('=').map_or(1.0, |(_, weight)| weight.trim().parse().unwrap_or(0.0));
-    (name.trim(), weight)
 }
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
     use axum::body::{Bytes, to_bytes};
-    use axum::http::HeaderMap;
     use axum::http::header::ACCEPT_ENCODING;
+    use axum::http::{HeaderMap, HeaderValue};
 
-    use super::{Encoding, Fixed};
+    use super::{Coding, StaticContent};
+    use crate::http::conditional_response::Conditions;
 
     fn accepting(accepted: &'static str) -> HeaderMap {
         HeaderMap::from_iter([(ACCEPT_ENCODING, accepted.parse().unwrap())])
     }
 
     #[tokio::test]
-    async fn no_answer_has_a_copy_of_its_own() {
-        let fixed = Fixed::new(Bytes::from_static(&[b'x'; 10_000]), "text/plain".to_owned(), [0; 32]);
+    async fn responses_share_the_bytes_of_the_content() {
+        let content = StaticContent::new(
+            Bytes::from_static(&[b'x'; 10_000]),
+            HeaderValue::from_static("text/plain"),
+            [0; 32],
+        );
         for encoding in ["identity", "gzip", "br"] {
-            let mut places = Vec::new();
+            let mut addresses = Vec::new();
             for _ in 0..2 {
-                let answer = fixed.answer(&accepting(encoding), "no-cache").await.unwrap();
-                places.push(to_bytes(answer.into_body(), usize::MAX).await.unwrap().as_ptr());
+                let answer =
+                    content.respond(&accepting(encoding), &Conditions::default(), "no-cache").await.unwrap();
+                addresses.push(to_bytes(answer.into_body(), usize::MAX).await.unwrap().as_ptr());
             }
-            assert_eq!(places[0], places[1], "{encoding}");
+            assert_eq!(addresses[0], addresses[1], "{encoding}");
         }
     }
 
     #[test]
     fn the_best_accepted_encoding_is_chosen() {
         for (accepted, wanted) in [
-            ("gzip, deflate, br, zstd", Some(Encoding::Brotli)),
-            ("gzip", Some(Encoding::Gzip)),
-            ("GZIP;q=0.5, br;q=0.4", Some(Encoding::Gzip)),
-            ("*", Some(Encoding::Brotli)),
-            ("br;q=0, *;q=0.1", Some(Encoding::Gzip)),
+            ("gzip, deflate, br, zstd", Some(Coding::Brotli)),
+            ("gzip", Some(Coding::Gzip)),
+            ("GZIP;q=0.5, br;q=0.4", Some(Coding::Gzip)),
+            ("*", Some(Coding::Brotli)),
+            ("br;q=0, *;q=0.1", Some(Coding::Gzip)),
             ("gzip;q=0", None),
             ("gzip;q=nonsense", None),
             ("identity", None),
             ("zstd", None),
             ("", None),
         ] {
-            assert_eq!(Encoding::accepted(&accepting(accepted)), wanted, "{accepted}");
+            assert_eq!(Coding::accepted(&accepting(accepted)), wanted, "{accepted}");
         }
-        assert_eq!(Encoding::accepted(&HeaderMap::new()), None);
+        assert_eq!(Coding::accepted(&HeaderMap::new()), None);
     }
 }

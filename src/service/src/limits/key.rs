@@ -1,28 +1,30 @@
+//! An API key: how it is generated, hashed, and masked in messages.
+
 use std::fmt;
 
 use blake3::Hash;
 
-/// What every key begins with, so that one that has leaked is found by a search.
+/// The prefix of every key, by which a search finds leaked keys.
 const PREFIX: &str = "verne_";
 
-/// A key: 256 random bits. Nobody guesses those, however fast a hash is computed; so a fast one is kept.
+/// A key of 256 random bits. Nobody can guess it, so a fast hash is safe.
 pub(crate) struct Key(String);
 
 impl Key {
-    /// A fresh one from the system's random numbers.
-    pub(crate) fn fresh() -> Result<Self, getrandom::Error> {
+    /// Generates a key from the system's random numbers.
+    pub(crate) fn generate() -> Result<Self, getrandom::Error> {
         let mut bits = [0; 32];
         getrandom::fill(&mut bits)?;
-        // A hash prints as the hexadecimal digits of its bytes.
+        // The hexadecimal digits of the bytes.
         Ok(Self(format!("{PREFIX}{}", Hash::from_bytes(bits).to_hex())))
     }
 
-    /// What the file of keys holds.
+    /// The hash, which the file of keys has instead of the key.
     pub(crate) fn hash(&self) -> Hash {
         Self::hash_of(&self.0)
     }
 
-    /// The text without what may be a key in it.
+    /// The text with everything masked that may be a key.
     pub(crate) fn masked(text: &str) -> String {
         let mut parts = text.split(PREFIX);
         let mut masked = parts.next().unwrap_or_default().to_owned();
@@ -34,13 +36,13 @@ impl Key {
         masked
     }
 
-    /// The hash of what a client sent as its key. Compared in constant time, as [`Hash`] does.
+    /// The hash of a key that a client sent. [`Hash`] compares in constant time.
     pub(crate) fn hash_of(sent: &str) -> Hash {
         blake3::hash(sent.as_bytes())
     }
 }
 
-/// The text that its owner sends: to be shown once, and never to be logged.
+/// The key as its owner sends it. Show it once, and never log it.
 impl fmt::Display for Key {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)

@@ -1,4 +1,4 @@
-//! The file of keys: one TOML table `[[key]]` for each.
+//! The file of API keys: a TOML table `[[key]]` for each key.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -11,52 +11,52 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
 use crate::limits::key::Key;
-use crate::limits::rate::{Bucket, Rate};
+use crate::limits::rate::{Rate, TokenBucket};
 use crate::limits::toml_error;
 use crate::wire::role::Role;
 
-/// Most characters in a name.
+/// Most characters of a name.
 const NAME_LENGTH: usize = 64;
 
-/// Whose key it is, and what it is good for.
+/// The holder of a key.
 #[derive(Debug)]
-pub(crate) struct Holder {
-    /// The client of the queue. Two keys of one name are one client: so a key is replaced without a gap.
+pub(crate) struct KeyHolder {
+    /// The name of the client. Keys with the same name are one client, so that its key can be replaced without a gap.
     pub name: String,
-    /// What it may.
+    /// The role.
     pub role: Role,
-    /// How fast it may ask. Full again when the file is read again.
-    pub bucket: Option<Bucket>,
+    /// The rate. The bucket is full again after the file was read again.
+    pub bucket: Option<TokenBucket>,
 }
 
 /// Holders by the hashes of their keys.
-pub(crate) type Table = HashMap<Hash, Arc<Holder>>;
+pub(crate) type KeyTable = HashMap<Hash, Arc<KeyHolder>>;
 
-/// Why a file of keys cannot be used. Tells no key that stands in it by mistake.
+/// Why a file of keys cannot be used. The message masks keys that the file contains by mistake.
 #[derive(Debug)]
-pub struct BadKeys {
+pub struct KeysFileError {
     path: PathBuf,
-    /// Which entry.
-    place: Option<String>,
+    /// The entry.
+    location: Option<String>,
     reason: String,
 }
 
-impl fmt::Display for BadKeys {
+impl fmt::Display for KeysFileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.path.display())?;
-        if let Some(place) = &self.place {
-            write!(f, "{}: ", Key::masked(place))?;
+        if let Some(location) = &self.location {
+            write!(f, "{}: ", Key::masked(location))?;
         }
         f.write_str(&Key::masked(&self.reason))
     }
 }
 
-impl std::error::Error for BadKeys {}
+impl std::error::Error for KeysFileError {}
 
-impl BadKeys {
-    /// The thread that read it was lost.
-    pub(crate) fn lost(path: &Path) -> Self {
-        Self { path: path.to_owned(), place: None, reason: "the read failed".to_owned() }
+impl KeysFileError {
+    /// The thread that read the file failed.
+    pub(crate) fn read_failed(path: &Path) -> Self {
+        Self { path: path.to_owned(), location: None, reason: "the read failed".to_owned() }
     }
 }
 
@@ -80,46 +80,48 @@ struct Entry {
 }
 
 impl Entry {
-    /// The key's own, or that of all.
+    /// The rate of the key, or the default.
     fn rate(&self, default: Option<Rate>) -> Option<Rate> {
         self.rate.map_or(default, |second| Rate::new(second, self.rate_burst))
     }
 }
 
-/// The keys of a file; `default` limits those that have no rate of their own.
-pub(crate) fn read(path: &Path, default: Option<Rate>) -> Result<Table, BadKeys> {
-    let bad = |place, reason| BadKeys { path: path.to_owned(), place, reason };
+/// Reads the keys of a file. `default` applies to keys without a rate of their own.
+pub(crate) fn read(path: &Path, default: Option<Rate>) -> Result<KeyTable, KeysFileError> {
+    let bad = |location, reason| KeysFileError { path: path.to_owned(), location, reason };
     let text = std::fs::read_to_string(path).map_err(|error| bad(None, error.to_string()))?;
     let Document { key } =
         toml::from_str(&text).map_err(|error| bad(None, toml_error::describe(&error, &text)))?;
-    let mut keys = Table::new();
+    let mut keys = KeyTable::new();
     for (i, entry) in key.into_iter().enumerate() {
-        let place = place(i + 1, &entry);
+        let location = location(i + 1, &entry);
         let entry: Entry = serde_path_to_error::deserialize(toml::Value::Table(entry)).map_err(|error| {
             let field = error.path().to_string();
-            let place = if field == "." { place.clone() } else { format!("{place}: {field}") };
-            bad(Some(place), error.inner().message().to_owned())
+            let location = if field == "." { location.clone() } else { format!("{location}: {field}") };
+            bad(Some(location), error.inner().message().to_owned())
         })?;
         if entry.rate.is_none() && entry.rate_burst.is_some() {
-            return Err(bad(Some(format!("{place}: rate_burst")), "needs a rate".to_owned()));
+            return Err(bad(Some(format!("{location}: rate_burst")), "needs a rate".to_owned()));
         }
-        let bucket = entry.rate(default).map(Bucket::new);
-        let holder = Arc::new(Holder { name: entry.name, role: entry.role, bucket });
+        let bucket = entry.rate(default).map(TokenBucket::new);
+        let holder = Arc::new(KeyHolder { name: entry.name, role: entry.role, bucket });
         if keys.insert(entry.hash, holder).is_some() {
-            return Err(bad(Some(place), "its hash is that of an earlier entry".to_owned()));
+            return Err(bad(Some(location), "its hash is that of an earlier entry".to_owned()));
         }
     }
     if keys.is_empty() { Err(bad(None, "has no entry [[key]]".to_owned())) } else { Ok(keys) }
 }
 
-fn place(number: usize, entry: &toml::Table) -> String {
+/// Names an entry in a message.
+fn location(number: usize, entry: &toml::Table) -> String {
     match entry.get("name").and_then(toml::Value::as_str).filter(|name| is_name(name)) {
         Some(name) => format!("key {number} ({name})"),
         None => format!("key {number}"),
     }
 }
 
-/// Begins with a letter: addresses, the clients of a service without keys, do not, or have colons.
+/// Whether it is a valid name. Names begin with a letter: so they differ from addresses, which name clients without
+/// keys.
 pub(crate) fn is_name(name: &str) -> bool {
     (1..=NAME_LENGTH).contains(&name.len())
         && name.starts_with(|first: char| first.is_ascii_alphabetic())
@@ -128,12 +130,12 @@ pub(crate) fn is_name(name: &str) -> bool {
 
 fn name<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
     let name = String::deserialize(deserializer)?;
-    let wanted = format!("must be 1 to {NAME_LENGTH} letters, digits or .-_, beginning with a letter");
-    if is_name(&name) { Ok(name) } else { Err(D::Error::custom(wanted)) }
+    let expected = format!("must be 1 to {NAME_LENGTH} letters, digits or .-_, beginning with a letter");
+    if is_name(&name) { Ok(name) } else { Err(D::Error::custom(expected)) }
 }
 
 fn hash<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Hash, D::Error> {
-    let wanted = || D::Error::custom("must be the 64 hexadecimal digits of the key's BLAKE3 hash");
+    let expected = || D::Error::custom("must be the 64 hexadecimal digits of the key's BLAKE3 hash");
     let text = String::deserialize(deserializer)?;
-    Hash::from_hex(text).map_err(|_| wanted())
+    Hash::from_hex(text).map_err(|_| expected())
 }

@@ -1,4 +1,4 @@
-//! How fast one client may ask: token buckets.
+//! Limits the request rate of each client with token buckets.
 
 use std::num::NonZeroU32;
 use std::sync::Arc;
@@ -11,34 +11,34 @@ use moka::sync::Cache;
 
 use crate::limits::error::LimitError;
 
-/// Most addresses that are remembered: the longest silent are forgotten first, and may begin anew.
+/// Most addresses with a bucket. The least recently used buckets are dropped first.
 const ADDRESSES: u64 = 100_000;
 
-/// Requests a second, and how many at once.
+/// Requests per second, and the size of a burst.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rate {
-    second: NonZeroU32,
+    per_second: NonZeroU32,
     burst: NonZeroU32,
 }
 
 impl Rate {
-    /// Nothing for no limit; without a burst it is a second's requests.
-    pub(crate) fn new(second: u32, burst: Option<NonZeroU32>) -> Option<Self> {
-        let second = NonZeroU32::new(second)?;
-        Some(Self { second, burst: burst.unwrap_or(second) })
+    /// `None` for a rate of zero, which means no limit. By default a burst has the requests of a second.
+    pub(crate) fn new(per_second: u32, burst: Option<NonZeroU32>) -> Option<Self> {
+        let per_second = NonZeroU32::new(per_second)?;
+        Some(Self { per_second, burst: burst.unwrap_or(per_second) })
     }
 }
 
-/// One client's bucket.
+/// The token bucket of one client.
 #[derive(Debug)]
-pub(crate) struct Bucket(DefaultDirectRateLimiter);
+pub(crate) struct TokenBucket(DefaultDirectRateLimiter);
 
-impl Bucket {
+impl TokenBucket {
     pub(crate) fn new(rate: Rate) -> Self {
-        Self(RateLimiter::direct(Quota::per_second(rate.second).allow_burst(rate.burst)))
+        Self(RateLimiter::direct(Quota::per_second(rate.per_second).allow_burst(rate.burst)))
     }
 
-    /// Takes a request's token.
+    /// Takes the token of a request.
     pub(crate) fn take(&self) -> Result<(), LimitError> {
         self.0.check().map_err(|not_until| {
             let wait = not_until.wait_time_from(DefaultClock::default().now());
@@ -47,27 +47,27 @@ impl Bucket {
     }
 }
 
-/// Whole seconds after which there is a token.
+/// Whole seconds until there is a token.
 fn seconds(wait: Duration) -> u64 {
     wait.as_secs() + u64::from(wait.subsec_nanos() > 0)
 }
 
-/// The buckets of all addresses.
+/// The buckets of clients without a key, by address.
 #[derive(Clone, Debug)]
-pub(crate) struct Addresses {
+pub(crate) struct AddressBuckets {
     rate: Rate,
-    buckets: Cache<String, Arc<Bucket>>,
+    buckets: Cache<String, Arc<TokenBucket>>,
 }
 
-impl Addresses {
+impl AddressBuckets {
     pub(crate) fn new(rate: Rate) -> Self {
-        // Not the default policy: that one refuses newcomers, which would have no limit then.
+        // The default policy does not admit new entries to a full cache, so new addresses would have no limit.
         let buckets = Cache::builder().max_capacity(ADDRESSES).eviction_policy(EvictionPolicy::lru());
         Self { rate, buckets: buckets.build() }
     }
 
     /// Takes a token of an address.
     pub(crate) fn take(&self, address: &str) -> Result<(), LimitError> {
-        self.buckets.get_with_by_ref(address, || Arc::new(Bucket::new(self.rate))).take()
+        self.buckets.get_with_by_ref(address, || Arc::new(TokenBucket::new(self.rate))).take()
     }
 }

@@ -10,13 +10,13 @@ use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
-use crate::http::allowed_origins::Pages;
-use crate::http::gate::Gate;
+use crate::http::access_control::AccessControl;
+use crate::http::allowed_origins::AllowedOrigins;
 use crate::http::handlers::service;
 use crate::http::readiness::Readiness;
-use crate::http::security_headers::Browsers;
-use crate::http::state::{ESTIMATES, Shared, State};
-use crate::http::{base_path, middleware, router, security_headers, viewer};
+use crate::http::security_headers::BrowserPolicy;
+use crate::http::state::{AppState, ESTIMATES, SharedState};
+use crate::http::{base_path, middleware, router, security_headers, viewer_files};
 use crate::limits::admission::Admission;
 use crate::limits::rate::Rate;
 use crate::operations::compute_pool::leave_one_core_free;
@@ -35,8 +35,8 @@ pub struct Service {
     pub router: Router,
     /// The routes that also connections beyond the limit may use.
     probes: Router,
-    pub(crate) state: Shared,
-    gate: Gate,
+    pub(crate) state: SharedState,
+    access_control: AccessControl,
 }
 
 impl Service {
@@ -47,19 +47,19 @@ impl Service {
             machines.publish_directory(directory).map_err(StartError::Machine)?;
         }
         let admission = Admission::new(config.max_requests, config.max_body_bytes);
-        let gate = open_gate(config, &admission).await?;
+        let access_control = open_access_control(config, &admission).await?;
         let storage = Storage::open(config).await.map_err(StartError::Storage)?;
         let state = Arc::new(state(config, machines, admission, storage));
-        let (routes, _) = router::routes(&gate).split_for_parts();
-        let routes = routes.with_state(Arc::clone(&state)).merge(pages(&gate, config));
-        let probes = router::probes(&gate).with_state(Arc::clone(&state));
+        let (routes, _) = router::routes(&access_control).split_for_parts();
+        let routes = routes.with_state(Arc::clone(&state)).merge(pages(&access_control, config));
+        let probes = router::probes(&access_control).with_state(Arc::clone(&state));
         let [router, probes] = [routes, probes].map(|routes| with_middleware(routes, config, &state));
-        Ok(Self { router, probes, state, gate })
+        Ok(Self { router, probes, state, access_control })
     }
 
     /// Reloads the keys, as at SIGHUP. If the file cannot be used, the previous keys stay in use.
     pub async fn reload_keys(&self) -> Result<(), StartError> {
-        self.gate.reload().await.map_err(StartError::Keys)
+        self.access_control.reload().await.map_err(StartError::Keys)
     }
 
     /// Ends the requests that wait for a job, and returns the jobs to the queue. Takes about `limit` at most.
@@ -69,11 +69,14 @@ impl Service {
     }
 }
 
-async fn open_gate(config: &ServeConfig, admission: &Arc<Admission>) -> Result<Gate, StartError> {
+async fn open_access_control(
+    config: &ServeConfig,
+    admission: &Arc<Admission>,
+) -> Result<AccessControl, StartError> {
     let rate = Rate::new(config.rate, config.rate_burst);
-    let pages = Pages::new(&config.allowed_host, &config.cors_origin, config.listen.is_loopback());
-    let gate = Gate::open(config.keys.clone(), rate, pages, Arc::clone(admission));
-    gate.await.map_err(StartError::Keys)
+    let pages = AllowedOrigins::new(&config.allowed_host, &config.cors_origin, config.listen.is_loopback());
+    let access_control = AccessControl::open(config.keys.clone(), rate, pages, Arc::clone(admission));
+    access_control.await.map_err(StartError::Keys)
 }
 
 fn state(
@@ -81,7 +84,7 @@ fn state(
     machines: MachineRegistry,
     admission: Arc<Admission>,
     storage: Storage,
-) -> State {
+) -> AppState {
     let Storage { results, jobs, embedded, computations } = storage;
     let stopping = CancellationToken::new();
     let mut metrics = Metrics::new(Arc::clone(&jobs), results.store(), &computations);
@@ -89,7 +92,7 @@ fn state(
     if let Some(embedded) = embedded {
         metrics.register_slots(move || embedded.slots());
     }
-    State {
+    AppState {
         machines,
         limits: config.limits(),
         admission,
@@ -105,18 +108,19 @@ fn state(
 }
 
 /// The pages for browsers: the API documentation and the viewer.
-fn pages(gate: &Gate, config: &ServeConfig) -> Router {
+fn pages(access_control: &AccessControl, config: &ServeConfig) -> Router {
     let document = format!("{}/openapi.json", config.base_path);
     let docs = SwaggerUi::new("/docs").config(Config::new([document]).validator_url("none"));
     let docs = security_headers::pages(docs.into(), security_headers::DOCS);
-    gate.before_pages(base_path::with_page(docs.merge(viewer::routes()), &config.base_path))
+    access_control
+        .guard_pages(base_path::with_redirect(docs.merge(viewer_files::routes()), &config.base_path))
 }
 
-fn with_middleware(routes: Router, config: &ServeConfig, state: &State) -> Router {
-    let browsers = Browsers::new(&config.cors_origin, config.tls_certificate.is_some());
+fn with_middleware(routes: Router, config: &ServeConfig, state: &AppState) -> Router {
+    let browsers = BrowserPolicy::new(&config.cors_origin, config.tls_certificate.is_some());
     let requests = Arc::clone(&state.metrics.requests);
     let (timeout, proxies) = (Duration::from_secs(config.timeout), config.trusted_proxy.clone());
-    base_path::under(middleware::wrap(routes, requests, timeout, &browsers, proxies), &config.base_path)
+    base_path::nest(middleware::wrap(routes, requests, timeout, &browsers, proxies), &config.base_path)
 }
 
 /// Serves until SIGTERM or ctrl-c.

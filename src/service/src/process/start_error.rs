@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::limits::keys_file::BadKeys;
+use crate::limits::keys_file::KeysFileError;
 use crate::operations::machine_registry::MachineFileError;
 use crate::process::config::listen::Listen;
 use crate::process::server::tls::TlsError;
@@ -16,7 +16,7 @@ pub enum StartError {
     Machine(MachineFileError),
     /// The keys file cannot be used.
     #[error("keys: {0}")]
-    Keys(BadKeys),
+    Keys(KeysFileError),
     /// The result store or the job queue cannot be opened.
     #[error("{0}")]
     Storage(StorageError),

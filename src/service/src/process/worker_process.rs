@@ -18,7 +18,7 @@ use crate::http::error::HttpError;
 use crate::http::handlers::service;
 use crate::http::middleware;
 use crate::http::readiness::Readiness;
-use crate::http::security_headers::Browsers;
+use crate::http::security_headers::BrowserPolicy;
 use crate::operations::job_executor::JobExecutor;
 use crate::process::config::listen::Listen;
 use crate::process::config::worker::WorkerConfig;
@@ -101,7 +101,7 @@ fn serve(
         .route("/livez", get(service::get_livez))
         .route(
             "/readyz",
-            get(|State(probes): State<Arc<ProbeState>>| async move { probes.readiness.told().await }),
+            get(|State(probes): State<Arc<ProbeState>>| async move { probes.readiness.check().await }),
         )
         .route(
             "/metrics",
@@ -109,9 +109,10 @@ fn serve(
                 probes.metrics.answer().map_err(HttpError::from)
             }),
         )
-        .fallback(service::nothing_here)
+        .fallback(service::unknown_path)
         .with_state(probes);
-    let router = middleware::wrap(routes, requests, config.timeouts.stall, &Browsers::default(), Vec::new());
+    let router =
+        middleware::wrap(routes, requests, config.timeouts.stall, &BrowserPolicy::default(), Vec::new());
     let server = Server::new(vec![listener], config).map_err(StartError::Tls)?;
     // All routes are probes, so connections beyond the limit may use all of them.
     Ok(tokio::spawn(async move {

@@ -1,4 +1,5 @@
-//! Why an operation has no answer. The command line, jobs and HTTP share these errors; `http::problem` assigns statuses.
+//! Why an operation has no answer. The command line, jobs and HTTP share these errors; `http::problem` assigns
+//! statuses.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -41,27 +42,17 @@ impl FieldError {
 #[derive(Clone, Debug, PartialEq, Eq, Error, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum OperationError {
-    /// The body is not JSON. The parser gives the reason.
     #[error("The body is not JSON: {0}.")]
     Syntax(String),
     /// The request is well formed, but these fields are invalid.
     #[error("{}", fields(.0))]
     Fields(Vec<FieldError>),
-    /// A batch has too many rows.
     #[error("The batch has {rows} rows; the limit is {limit}.")]
-    TooManyRows {
-        /// Rows in the request.
-        rows: usize,
-        /// Most rows that a batch may have.
-        limit: usize,
-    },
-    /// The caller cancelled the computation.
+    TooManyRows { rows: usize, limit: usize },
     #[error("The computation was cancelled.")]
     Cancelled,
-    /// Another version of the service wrote the question.
     #[error("Another version created the job. Repeat the request for a new id.")]
     OtherVersion,
-    /// The result store does not accept results.
     #[error("The service cannot store results. Its log states the reason.")]
     StoreUnavailable,
     /// A defect of the service.

@@ -5,17 +5,16 @@ use std::sync::Arc;
 use axum::extract::State;
 use axum::response::Response;
 
-use crate::http::conditional_response::{Conditions, Delivery, FOR_EVER};
+use crate::http::conditional_response::{Conditions, IMMUTABLE, Representation};
 use crate::http::error::{HttpError, LookupError};
-use crate::http::extract::Single;
-use crate::http::handlers::workspace_results::{Id, kept};
+use crate::http::extractors::{JsonBody, PathParameter};
+use crate::http::handlers::results::record;
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
-use crate::http::openapi::problems::{CellsProblems, DexterityProblems};
-use crate::http::prefer::Prefer;
-use crate::http::result_or_job::Obtained;
-use crate::http::result_response::{figures, respond};
-use crate::http::state::Shared;
+use crate::http::openapi::problem_responses::{CellsProblems, DexterityProblems};
+use crate::http::result_representation::summary_or_job;
+use crate::http::state::SharedState;
+use crate::http::wait_policy::WaitPolicy;
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::question::Question;
 use crate::operations::question_text::QuestionKind;
@@ -39,16 +38,16 @@ use crate::wire::dexterity::{DexterityBody, DexterityCells, DexteritySummary};
     )
 )]
 pub(crate) async fn post_dexterity(
-    State(state): State<Shared>,
+    State(state): State<SharedState>,
     accept: Accept,
-    prefer: Prefer,
+    wait_policy: WaitPolicy,
     conditions: Conditions,
-    Single(body): Single<DexterityBody>,
+    JsonBody(body): JsonBody<DexterityBody>,
 ) -> Result<Response, HttpError> {
-    accept.choose([("application/json", ())])?;
+    accept.require_json()?;
     let question = Arc::new(Question::Dexterity(DexterityQuestion::new(&body, &state.machines)?));
-    let obtained = figures(&state, &question, &prefer.patience).await?;
-    respond(&state, obtained, |delivery| delivery, prefer, &conditions)
+    let summary = summary_or_job(&state, &question, &wait_policy).await?;
+    summary.respond(&state, wait_policy, &conditions)
 }
 
 /// The points of a dexterity map
@@ -66,30 +65,22 @@ pub(crate) async fn post_dexterity(
     )
 )]
 pub(crate) async fn get_cells(
-    State(state): State<Shared>,
-    id: Id,
+    State(state): State<SharedState>,
+    PathParameter(id): PathParameter,
     accept: Accept,
-    prefer: Prefer,
+    wait_policy: WaitPolicy,
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
-    let record = kept(&state, id.map_err(|_| HttpError::UnknownPath)?).await?;
-    accept.choose([("application/json", ())])?;
+    let record = record(&state, id).await?;
+    accept.require_json()?;
     let id = record.id;
     if record.kind != QuestionKind::Dexterity {
         return Err(LookupError::Grid(id.to_string()).into());
     }
-    let cells = || state.results.find_blob(id, CELLS);
+    let find = || state.results.find_blob(id, CELLS);
     let question = state.results.questions.get_or_read(id, &record.question)?;
-    let obtained = match state.blob(&question, None, &prefer.patience, cells).await? {
-        Obtained::Pending(job) => Obtained::Pending(job),
-        Obtained::Ready(content) => Obtained::Ready(Delivery {
-            content,
-            own: false,
-            media: "application/json",
-            cache_control: Some(FOR_EVER),
-            location: format!("{}/cells", id.path()),
-            file_name: None,
-        }),
-    };
-    respond(&state, obtained, |delivery| delivery, prefer, &conditions)
+    let cells = state.blob_or_job(&question, &wait_policy, None, find).await?;
+    let path = format!("{}/cells", id.path());
+    let cells = cells.map(|content| Representation::json(content, path).cached(IMMUTABLE));
+    cells.respond(&state, wait_policy, &conditions)
 }

@@ -1,12 +1,11 @@
-//! `/jobs`: what is being computed.
+//! `/jobs`: list, state, events and cancellation.
 
 use std::convert::Infallible;
 use std::time::Duration;
 
 use axum::Json;
-use axum::extract::rejection::PathRejection;
-use axum::extract::{Path, State};
-use axum::http::header::{CACHE_CONTROL, LOCATION, RETRY_AFTER};
+use axum::extract::State;
+use axum::http::header::CACHE_CONTROL;
 use axum::http::{HeaderMap, HeaderName, StatusCode};
 use axum::response::sse::{Event, KeepAlive};
 use axum::response::{IntoResponse, Response, Sse};
@@ -14,28 +13,26 @@ use futures_util::StreamExt;
 use humantime::format_rfc3339_millis;
 use verne_jobs::{Filter, Job, JobId};
 
-use crate::http::caller::Caller;
+use crate::http::client::Client;
 use crate::http::error::{HttpError, LookupError};
-use crate::http::extract::Params;
+use crate::http::extractors::{PathParameter, QueryString};
 use crate::http::job_document::{JobList, JobObject, JobsQuery};
-use crate::http::openapi::binary::JobEvent;
-use crate::http::openapi::problems::{JobProblems, JobsProblems};
+use crate::http::openapi::body_schemas::JobEvent;
+use crate::http::openapi::problem_responses::{JobProblems, JobsProblems};
 use crate::http::proxy::BasePath;
-use crate::http::state::Shared;
+use crate::http::state::{AppState, SharedState};
 
-type Id = Result<Path<String>, PathRejection>;
+/// A job changes, so no cache may store it.
+const NO_STORE: (HeaderName, &str) = (CACHE_CONTROL, "no-store");
 
-/// A job changes: no cache may answer for it.
-const LIVE: (HeaderName, &str) = (CACHE_CONTROL, "no-store");
-
-/// A proxy, such as nginx, passes each event on at once.
+/// Makes a proxy such as nginx pass each event on immediately.
 const UNBUFFERED: (HeaderName, &str) = (HeaderName::from_static("x-accel-buffering"), "no");
 
-/// The header with the id of the last event that a client has.
+/// The id of the last event that the client received.
 const LAST_EVENT: HeaderName = HeaderName::from_static("last-event-id");
 
-/// How long an idle stream of events is silent at most.
-const SILENCE: Duration = Duration::from_secs(15);
+/// The interval of comments that keep an idle stream of events open.
+const KEEP_ALIVE: Duration = Duration::from_secs(15);
 
 /// Jobs
 ///
@@ -47,21 +44,21 @@ const SILENCE: Duration = Duration::from_secs(15);
     responses((status = 200, description = "A page of jobs.", body = JobList), JobsProblems)
 )]
 pub(crate) async fn get_jobs(
-    State(state): State<Shared>,
-    caller: Caller,
-    Params(query): Params<JobsQuery>,
+    State(state): State<SharedState>,
+    client: Client,
+    QueryString(query): QueryString<JobsQuery>,
 ) -> Result<impl IntoResponse, HttpError> {
-    let fault = |name, detail| HttpError::field(format!("/query/{name}"), detail);
     let JobsQuery { state: wanted, limit, after } = query;
     if !(1..=Filter::MAX_LIMIT).contains(&limit) {
-        return Err(fault("limit", "must be a number from 1 to 100"));
+        return Err(HttpError::field("/query/limit", "must be a number from 1 to 100"));
     }
-    let after = after.map(|text| text.parse().map_err(|_| fault("after", "must be the `next` of a page")));
-    let client = caller.sees_only().map(str::to_owned);
-    let filter = Filter { state: wanted.map(Into::into), client, after: after.transpose()?, limit };
+    let after = after.map(|text| text.parse()).transpose();
+    let after = after.map_err(|_| HttpError::field("/query/after", "must be the `next` of a page"))?;
+    let client = client.sees_only().map(str::to_owned);
+    let filter = Filter { state: wanted.map(Into::into), client, after, limit };
     let page = state.jobs.list(filter).await?;
     let jobs = page.jobs.iter().map(|job| JobObject::new(job, &state.base)).collect::<Result<_, _>>()?;
-    Ok(([LIVE], Json(JobList { jobs, next: page.next.map(|next| next.to_string()) })))
+    Ok(([NO_STORE], Json(JobList { jobs, next: page.next.map(|next| next.to_string()) })))
 }
 
 /// A job
@@ -73,12 +70,12 @@ pub(crate) async fn get_jobs(
     responses((status = 200, description = "The job.", body = JobObject), JobProblems)
 )]
 pub(crate) async fn get_job(
-    State(state): State<Shared>,
-    caller: Caller,
-    id: Id,
+    State(state): State<SharedState>,
+    client: Client,
+    PathParameter(id): PathParameter,
 ) -> Result<impl IntoResponse, HttpError> {
-    let job = visible(&state, &caller, id).await?;
-    Ok(([LIVE], Json(JobObject::new(&job, &state.base)?)))
+    let job = visible(&state, &client, &id).await?;
+    Ok(([NO_STORE], Json(JobObject::new(&job, &state.base)?)))
 }
 
 /// Events of a job
@@ -91,7 +88,8 @@ pub(crate) async fn get_job(
     get, path = "/jobs/{id}/events", operation_id = "job_events", tag = "jobs",
     params(
         ("id" = String, Path, description = "The id from an answer of /workspace."),
-        ("Last-Event-ID" = Option<String>, Header, nullable = false, description = "The `id` of the last received event.")
+        ("Last-Event-ID" = Option<String>, Header, nullable = false, description =
+            "The `id` of the last received event.")
     ),
     responses(
         (status = 200, description = "Events with the job as data.", content((JobEvent = "text/event-stream"))),
@@ -100,36 +98,37 @@ pub(crate) async fn get_job(
     )
 )]
 pub(crate) async fn get_events(
-    State(state): State<Shared>,
-    caller: Caller,
-    id: Id,
+    State(state): State<SharedState>,
+    client: Client,
+    PathParameter(id): PathParameter,
     headers: HeaderMap,
 ) -> Result<Response, HttpError> {
-    let job = visible(&state, &caller, id).await?;
+    let job = visible(&state, &client, &id).await?;
     if job.state.is_final() && headers.get(LAST_EVENT).is_some_and(|last| *last == *event_id(&job)) {
-        return Ok(([LIVE], StatusCode::NO_CONTENT).into_response());
+        return Ok(([NO_STORE], StatusCode::NO_CONTENT).into_response());
     }
     let watcher = state.jobs.watch(job.id).await?.ok_or_else(|| LookupError::Job(job.id.to_string()))?;
     let stopping = state.stopping.clone().cancelled_owned();
-    let stream = state.admission.stream(caller.sharer())?;
-    let revoked = Box::pin(caller.revoked());
+    let permit = state.admission.streams.take(client.quota())?;
+    let revoked = Box::pin(client.revoked());
     let base = state.base.clone();
     let events = watcher.take_until(stopping).take_until(revoked).flat_map(move |job| {
-        // Counted until it is dropped.
-        let _stream = &stream;
+        // The stream has the permit until it ends.
+        let _permit = &permit;
         futures_util::stream::iter(events(&job, &base).into_iter().flatten().map(Ok::<_, Infallible>))
     });
-    Ok(([LIVE, UNBUFFERED], Sse::new(events).keep_alive(KeepAlive::new().interval(SILENCE))).into_response())
+    Ok(([NO_STORE, UNBUFFERED], Sse::new(events).keep_alive(KeepAlive::new().interval(KEEP_ALIVE)))
+        .into_response())
 }
 
-/// The events that tell of a job: it, and where nothing follows, the end.
+/// The events for a state of a job: the job and, if the state is final, the end.
 fn events(job: &Job, base: &BasePath) -> Option<impl Iterator<Item = Event> + use<>> {
     let event = || Event::default().id(event_id(job)).json_data(JobObject::new(job, base).ok()?).ok();
     let end = if job.state.is_final() { Some(event()?.event("end")) } else { None };
     Some(std::iter::once(event()?).chain(end))
 }
 
-/// Tells apart how a job stood. A job that is asked for again after its end ends at another time.
+/// Identifies a state of a job. If a client requests the job again after its end, it ends at another time.
 fn event_id(job: &Job) -> String {
     match job.finished {
         Some(finished) => format!("{}-{}", job.state.name(), format_rfc3339_millis(finished)),
@@ -148,31 +147,23 @@ fn event_id(job: &Job) -> String {
     responses((status = 200, description = "The job.", body = JobObject), JobProblems)
 )]
 pub(crate) async fn delete_job(
-    State(state): State<Shared>,
-    caller: Caller,
-    id: Id,
+    State(state): State<SharedState>,
+    client: Client,
+    PathParameter(id): PathParameter,
 ) -> Result<impl IntoResponse, HttpError> {
-    let Job { id, .. } = visible(&state, &caller, id).await?;
-    let ended = match caller.sees_only() {
+    let Job { id, .. } = visible(&state, &client, &id).await?;
+    let cancelled = match client.sees_only() {
         Some(client) => state.jobs.leave(id, client).await?,
         None => state.jobs.cancel(id).await?,
     };
-    let job = ended.ok_or_else(|| LookupError::Job(id.to_string()))?;
-    Ok(([LIVE], Json(JobObject::new(&job, &state.base)?)))
+    let job = cancelled.ok_or_else(|| LookupError::Job(id.to_string()))?;
+    Ok(([NO_STORE], Json(JobObject::new(&job, &state.base)?)))
 }
 
-/// The job, if it is there for this caller: another's is as one that is not.
-async fn visible(state: &crate::http::state::State, caller: &Caller, id: Id) -> Result<Job, HttpError> {
-    let Path(text) = id.map_err(|_| HttpError::UnknownPath)?;
-    let Ok(id) = text.parse::<JobId>() else { return Err(LookupError::Job(text).into()) };
-    let job = state.jobs.get(id).await?.filter(|job| caller.sees(job));
-    Ok(job.ok_or(LookupError::Job(text))?)
-}
-
-/// 202: a job will have the answer.
-pub(crate) fn accepted(job: &Job, base: &BasePath) -> Result<Response, HttpError> {
-    let object = JobObject::new(job, base)?;
-    let headers =
-        [(LOCATION, JobObject::path(job.id)), (RETRY_AFTER, "1".to_owned()), (LIVE.0, LIVE.1.to_owned())];
-    Ok((StatusCode::ACCEPTED, headers, Json(object)).into_response())
+/// The job, if the client sees it. The job of another client is treated like an unknown one.
+async fn visible(state: &AppState, client: &Client, id: &str) -> Result<Job, HttpError> {
+    let unknown = || LookupError::Job(id.to_owned());
+    let id = id.parse::<JobId>().map_err(|_| unknown())?;
+    let job = state.jobs.get(id).await?.filter(|job| client.sees(job));
+    Ok(job.ok_or_else(unknown)?)
 }

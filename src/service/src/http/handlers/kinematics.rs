@@ -4,9 +4,9 @@ use axum::extract::State;
 use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, HeaderName};
 
 use crate::http::error::HttpError;
-use crate::http::extract::{Params, Single};
-use crate::http::openapi::problems::{BodyProblems, QueryProblems};
-use crate::http::state::Shared;
+use crate::http::extractors::{JsonBody, QueryString};
+use crate::http::openapi::problem_responses::{BodyProblems, CommonProblems};
+use crate::http::state::SharedState;
 use crate::operations::forward::answer_fk;
 use crate::operations::inverse::answer_ik;
 use crate::wire::answer::Answer;
@@ -23,7 +23,7 @@ const JSON: (HeaderName, &str) = (CONTENT_TYPE, "application/json");
 /// About the bytes of a solution.
 const SOLUTION_BYTES: usize = 2048;
 
-type Written<const HEADERS: usize> = ([(HeaderName, &'static str); HEADERS], Vec<u8>);
+type JsonBytes<const HEADERS: usize> = ([(HeaderName, &'static str); HEADERS], Vec<u8>);
 
 fn write(answer: &Answer) -> Result<Vec<u8>, OperationError> {
     write_json(answer, SOLUTION_BYTES * answer.solutions.len().max(1))
@@ -36,12 +36,12 @@ fn write(answer: &Answer) -> Result<Vec<u8>, OperationError> {
 #[utoipa::path(
     get, path = "/fk", operation_id = "fk", tag = "kinematics", params(FkQuery),
     responses((status = 200, description = "The solutions, or the reason why there is none.", body = Answer),
-        QueryProblems)
+        CommonProblems)
 )]
 pub(crate) async fn get_fk(
-    State(state): State<Shared>,
-    Params(query): Params<FkQuery>,
-) -> Result<Written<2>, HttpError> {
+    State(state): State<SharedState>,
+    QueryString(query): QueryString<FkQuery>,
+) -> Result<JsonBytes<2>, HttpError> {
     let answer = query.into_request().and_then(|request| answer_fk(&request, &state.machines));
     let text = answer.and_then(|answer| write(&answer)).map_err(point_into_query)?;
     Ok(([JSON, CACHEABLE], text))
@@ -57,9 +57,9 @@ pub(crate) async fn get_fk(
         BodyProblems)
 )]
 pub(crate) async fn post_fk(
-    State(state): State<Shared>,
-    Single(request): Single<FkRequest>,
-) -> Result<Written<1>, HttpError> {
+    State(state): State<SharedState>,
+    JsonBody(request): JsonBody<FkRequest>,
+) -> Result<JsonBytes<1>, HttpError> {
     let answer = answer_fk(&request, &state.machines)?;
     Ok(([JSON], write(&answer)?))
 }
@@ -71,12 +71,12 @@ pub(crate) async fn post_fk(
 #[utoipa::path(
     get, path = "/ik", operation_id = "ik", tag = "kinematics", params(IkQuery),
     responses((status = 200, description = "The solutions, or the reason why there is none.", body = Answer),
-        QueryProblems)
+        CommonProblems)
 )]
 pub(crate) async fn get_ik(
-    State(state): State<Shared>,
-    Params(query): Params<IkQuery>,
-) -> Result<Written<2>, HttpError> {
+    State(state): State<SharedState>,
+    QueryString(query): QueryString<IkQuery>,
+) -> Result<JsonBytes<2>, HttpError> {
     let answer = query.into_request().and_then(|request| answer_ik(&request, &state.machines));
     let text = answer.and_then(|answer| write(&answer)).map_err(point_into_query)?;
     Ok(([JSON, CACHEABLE], text))
@@ -92,9 +92,9 @@ pub(crate) async fn get_ik(
         BodyProblems)
 )]
 pub(crate) async fn post_ik(
-    State(state): State<Shared>,
-    Single(request): Single<IkRequest>,
-) -> Result<Written<1>, HttpError> {
+    State(state): State<SharedState>,
+    JsonBody(request): JsonBody<IkRequest>,
+) -> Result<JsonBytes<1>, HttpError> {
     let answer = answer_ik(&request, &state.machines)?;
     Ok(([JSON], write(&answer)?))
 }

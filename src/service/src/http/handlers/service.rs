@@ -1,37 +1,38 @@
-//! The OpenAPI document and the probes.
+//! The service itself: OpenAPI document, probes, metrics, and the fallbacks for unknown paths and connections.
 
 use std::borrow::Cow;
 
 use axum::extract::State;
-use axum::http::HeaderMap;
+use axum::http::{HeaderMap, HeaderValue};
 use axum::response::{IntoResponse, Response};
 use axum::{Extension, Json};
 
+use crate::http::conditional_response::Conditions;
 use crate::http::error::HttpError;
-use crate::http::openapi::binary::Text;
-use crate::http::openapi::problems::{ReadyProblems, ServiceProblems};
+use crate::http::openapi::body_schemas::Text;
+use crate::http::openapi::problem_responses::{CommonProblems, ReadyProblems};
 use crate::http::proxy::BasePath;
-use crate::http::request_head::Unreadable;
-use crate::http::state::Shared;
-use crate::http::static_content::Fixed;
+use crate::http::request_head::InvalidHead;
+use crate::http::state::SharedState;
+use crate::http::static_content::StaticContent;
 use crate::limits::error::LimitError;
 use crate::wire::health::{Health, HealthStatus};
 
-/// The OpenAPI document as it is sent: the committed copy. The tests hold it equal to the generated one; its examples
-/// are the solver's answers, which take too long to compute at every start.
+/// The OpenAPI document that the service sends: the committed file. A test compares it with the generated document,
+/// whose examples take too long to compute at every start.
 const DOCUMENT: &str = include_str!("../../../../../openapi/openapi.json");
 
-/// The document of a service that is published under a path.
-pub(crate) fn document(base: &BasePath) -> Fixed {
+/// The document of a service below a base path.
+pub(crate) fn document(base: &BasePath) -> StaticContent {
     let text = match base.as_str() {
         "" => Cow::Borrowed(DOCUMENT),
         base => Cow::Owned(DOCUMENT.replacen(SERVER, &SERVER.replace('/', base), 1)),
     };
-    let hash = blake3::hash(text.as_bytes()).into();
-    Fixed::new(text.into_owned().into(), "application/json".to_owned(), hash)
+    let hash = blake3::hash(text.as_bytes());
+    StaticContent::new(text.into_owned().into(), HeaderValue::from_static("application/json"), hash)
 }
 
-/// Where the document names the service's address.
+/// The URL of the service in the document.
 const SERVER: &str = "\"url\": \"/\"";
 
 /// This document
@@ -39,13 +40,14 @@ const SERVER: &str = "\"url\": \"/\"";
 /// OpenAPI 3.1, generated from the handlers. `/docs` displays it in a browser.
 #[utoipa::path(
     get, path = "/openapi.json", operation_id = "openapi", tag = "service",
-    responses((status = 200, description = "The document.", body = Object), ServiceProblems)
+    responses((status = 200, description = "The document.", body = Object), CommonProblems)
 )]
 pub(crate) async fn get_openapi(
-    State(state): State<Shared>,
+    State(state): State<SharedState>,
+    conditions: Conditions,
     headers: HeaderMap,
 ) -> Result<Response, HttpError> {
-    Ok(state.document.answer(&headers, "no-cache").await?)
+    Ok(state.document.respond(&headers, &conditions, "no-cache").await?)
 }
 
 /// Liveness
@@ -53,7 +55,7 @@ pub(crate) async fn get_openapi(
 /// The process is running.
 #[utoipa::path(
     get, path = "/livez", operation_id = "livez", tag = "service",
-    responses((status = 200, description = "The process is running.", body = Health), ServiceProblems)
+    responses((status = 200, description = "The process is running.", body = Health), CommonProblems)
 )]
 pub(crate) async fn get_livez() -> Json<Health> {
     Json(Health { status: HealthStatus::Ok, failing: Vec::new() })
@@ -68,8 +70,8 @@ pub(crate) async fn get_livez() -> Json<Health> {
     get, path = "/readyz", operation_id = "readyz", tag = "service",
     responses((status = 200, description = "The service is ready.", body = Health), ReadyProblems)
 )]
-pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Health>, HttpError> {
-    state.readiness.told().await
+pub(crate) async fn get_readyz(State(state): State<SharedState>) -> Result<Json<Health>, HttpError> {
+    state.readiness.check().await
 }
 
 /// Metrics
@@ -78,18 +80,18 @@ pub(crate) async fn get_readyz(State(state): State<Shared>) -> Result<Json<Healt
 #[utoipa::path(
     get, path = "/metrics", operation_id = "metrics", tag = "service",
     responses((status = 200, description = "The metrics.", content((Text = "application/openmetrics-text"))),
-        ServiceProblems)
+        CommonProblems)
 )]
-pub(crate) async fn get_metrics(State(state): State<Shared>) -> Result<impl IntoResponse, HttpError> {
+pub(crate) async fn get_metrics(State(state): State<SharedState>) -> Result<impl IntoResponse, HttpError> {
     Ok(state.metrics.answer()?)
 }
 
-/// What is asked for when all connections are taken.
-pub(crate) async fn no_place_here() -> HttpError {
+/// Fallback of connections beyond the limit.
+pub(crate) async fn overloaded() -> HttpError {
     LimitError::Overloaded.into()
 }
 
-/// What is asked for where nothing lives, or in a way that cannot be read.
-pub(crate) async fn nothing_here(unreadable: Option<Extension<Unreadable>>) -> HttpError {
-    unreadable.map_or(HttpError::UnknownPath, |Extension(Unreadable(error))| error.into())
+/// Fallback for unknown paths and for requests with an invalid head.
+pub(crate) async fn unknown_path(invalid: Option<Extension<InvalidHead>>) -> HttpError {
+    invalid.map_or(HttpError::UnknownPath, |Extension(InvalidHead(error))| error.into())
 }

@@ -1,21 +1,21 @@
-//! `/workspace`.
+//! `/workspace`: summaries and meshes of workspaces and families.
 
 use std::sync::Arc;
 
-use axum::extract::State as Extracted;
+use axum::extract::State;
 use axum::response::Response;
 
-use crate::http::conditional_response::{Conditions, Delivery};
+use crate::http::conditional_response::{Conditions, Representation};
 use crate::http::error::{HttpError, LookupError};
-use crate::http::extract::{Params, Single};
+use crate::http::extractors::{JsonBody, QueryString};
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
-use crate::http::openapi::binary::{Binary, SummaryOrMesh};
-use crate::http::openapi::problems::{WorkspaceBodyProblems, WorkspaceQueryProblems};
-use crate::http::prefer::Prefer;
-use crate::http::result_or_job::{Obtained, Patience};
-use crate::http::result_response::{Surface, figures, mesh, respond};
-use crate::http::state::{Shared, State};
+use crate::http::openapi::body_schemas::{Binary, SummaryOrMesh};
+use crate::http::openapi::problem_responses::{WorkspaceBodyProblems, WorkspaceQueryProblems};
+use crate::http::result_or_job::ResultOrJob;
+use crate::http::result_representation::{Surface, mesh_or_job, summary_or_job};
+use crate::http::state::{AppState, SharedState};
+use crate::http::wait_policy::WaitPolicy;
 use crate::operations::family_question::FamilyQuestion;
 use crate::operations::question::Question;
 use crate::operations::workspace_question::WorkspaceQuestion;
@@ -25,7 +25,7 @@ use crate::wire::workspace::WorkspaceRequest;
 use crate::wire::workspace_query::{MeshQuery, WorkspaceQuery};
 
 /// The answer depends on the published machines, which change only with a restart.
-const FOR_A_WHILE: &str = "public, max-age=300";
+const CACHEABLE: &str = "public, max-age=300";
 
 /// A workspace
 ///
@@ -47,18 +47,18 @@ const FOR_A_WHILE: &str = "public, max-age=300";
     )
 )]
 pub(crate) async fn get_workspace(
-    Extracted(state): Extracted<Shared>,
-    Params(query): Params<WorkspaceQuery>,
+    State(state): State<SharedState>,
+    QueryString(query): QueryString<WorkspaceQuery>,
     accept: Accept,
-    prefer: Prefer,
+    wait_policy: WaitPolicy,
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
-    let wanted = wanted(query.format, &accept)?;
+    let format = chosen_format(query.format, &accept)?;
     let question =
         WorkspaceQuestion::new(&query.into_request(), &state.machines).map_err(point_into_query)?;
-    let obtained = answer(&state, question, wanted, &prefer.patience).await.map_err(HttpError::in_query)?;
-    let fresh = |delivery| Delivery { cache_control: Some(FOR_A_WHILE), ..delivery };
-    respond(&state, obtained, fresh, prefer, &conditions)
+    let result = representation_or_job(&state, question, format, &wait_policy).await;
+    let result = result.map_err(HttpError::in_query)?.map(|representation| representation.cached(CACHEABLE));
+    result.respond(&state, wait_policy, &conditions)
 }
 
 /// A workspace or a family of workspaces, with a custom machine
@@ -80,30 +80,30 @@ pub(crate) async fn get_workspace(
     )
 )]
 pub(crate) async fn post_workspace(
-    Extracted(state): Extracted<Shared>,
-    Params(query): Params<MeshQuery>,
+    State(state): State<SharedState>,
+    QueryString(query): QueryString<MeshQuery>,
     accept: Accept,
-    prefer: Prefer,
+    wait_policy: WaitPolicy,
     conditions: Conditions,
-    Single(body): Single<WorkspaceRequest>,
+    JsonBody(body): JsonBody<WorkspaceRequest>,
 ) -> Result<Response, HttpError> {
-    let obtained = if body.is_family() {
+    let result = if body.is_family() {
         let question = FamilyQuestion::new(&body, &state.machines)?;
-        match query.format {
-            Some(_) => return Err(LookupError::Mesh(question.id.to_string()).into()),
-            None => accept.choose([("application/json", ())])?,
+        if query.format.is_some() {
+            return Err(LookupError::Mesh(question.id.to_string()).into());
         }
-        figures(&state, &Arc::new(Question::Family(question)), &prefer.patience).await?
+        accept.require_json()?;
+        summary_or_job(&state, &Arc::new(Question::Family(question)), &wait_policy).await?
     } else {
-        let wanted = wanted(query.format, &accept)?;
+        let format = chosen_format(query.format, &accept)?;
         let question = WorkspaceQuestion::new(&body, &state.machines)?;
-        answer(&state, question, wanted, &prefer.patience).await?
+        representation_or_job(&state, question, format, &wait_policy).await?
     };
-    respond(&state, obtained, |delivery| delivery, prefer, &conditions)
+    result.respond(&state, wait_policy, &conditions)
 }
 
-/// The mesh's format, or nothing for the summary.
-fn wanted(format: Option<MeshFormat>, accept: &Accept) -> Result<Option<MeshFormat>, HttpError> {
+/// The format of the mesh; `None` for the summary.
+fn chosen_format(format: Option<MeshFormat>, accept: &Accept) -> Result<Option<MeshFormat>, HttpError> {
     if format.is_some() {
         return Ok(format);
     }
@@ -112,18 +112,18 @@ fn wanted(format: Option<MeshFormat>, accept: &Accept) -> Result<Option<MeshForm
     accept.choose([("application/json", None)].into_iter().chain(meshes))
 }
 
-async fn answer(
-    state: &State,
+async fn representation_or_job(
+    state: &AppState,
     question: WorkspaceQuestion,
-    wanted: Option<MeshFormat>,
-    patience: &Patience,
-) -> Result<Obtained<Delivery>, HttpError> {
+    format: Option<MeshFormat>,
+    wait_policy: &WaitPolicy,
+) -> Result<ResultOrJob<Representation>, HttpError> {
     let question = Arc::new(Question::Workspace(question));
-    match wanted {
-        None => figures(state, &question, patience).await,
+    match format {
+        None => summary_or_job(state, &question, wait_policy).await,
         Some(format) => {
             let surface = Surface::of(question.id(), question.kind(), None)?;
-            mesh(state, &surface, format, patience, || Ok(question)).await
+            mesh_or_job(state, &surface, format, wait_policy, || Ok(question)).await
         }
     }
 }

@@ -1,12 +1,12 @@
-//! An example of each operation: the request here, the answer from the solver.
+//! An example of each operation: a request, and the answer that the solver computes.
 
 use std::fmt::Display;
 
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use verne_solver::workspace::Unobserved;
 
-use crate::http::handlers::machines;
+use crate::http::machine_documents::{machine_answer, machine_list};
 use crate::http::openapi::machine_schema::machine_schema;
 use crate::operations::contains::answer_contains;
 use crate::operations::forward::answer_fk;
@@ -25,38 +25,30 @@ use crate::wire::parse::parse_body;
 use crate::wire::query::{FkQuery, IkQuery};
 use crate::wire::query_string::parse_query;
 
-/// Rows that an example may have.
+/// Most rows of an example.
 const ROWS: usize = 100;
 
-/// How an example asks.
-enum Asked {
-    /// Values of path and query parameters.
-    Parameters(Value),
-    /// A body.
-    Body(Value),
-}
-
-/// A question that the tests send, and the answer it gets.
+/// A request that the tests send, and its answer.
 pub(crate) struct Example {
     method: &'static str,
     path: &'static str,
-    asked: Asked,
-    /// Nothing where it is no JSON, or long.
+    /// The body of POST, or the values of path and query parameters.
+    request: Value,
+    /// `None` for answers that are long or not JSON.
     answer: Option<Value>,
 }
 
 impl Example {
-    /// Writes question and answer into their operation.
+    /// Writes request and answer into the operation.
     pub(crate) fn write_into(self, document: &mut Value) {
         let Some(operation) = document["paths"][self.path].get_mut(self.method) else { return };
-        match self.asked {
-            Asked::Body(body) => operation["requestBody"]["content"]["application/json"]["example"] = body,
-            Asked::Parameters(values) => {
-                let parameters = operation.get_mut("parameters").and_then(Value::as_array_mut);
-                for parameter in parameters.into_iter().flatten() {
-                    if let Some(value) = parameter["name"].as_str().and_then(|name| values.get(name)) {
-                        parameter["example"] = value.clone();
-                    }
+        if self.method == "post" {
+            operation["requestBody"]["content"]["application/json"]["example"] = self.request;
+        } else {
+            let parameters = operation.get_mut("parameters").and_then(Value::as_array_mut);
+            for parameter in parameters.into_iter().flatten() {
+                if let Some(value) = parameter["name"].as_str().and_then(|name| self.request.get(name)) {
+                    parameter["example"] = value.clone();
                 }
             }
         }
@@ -66,142 +58,126 @@ impl Example {
     }
 }
 
-/// An example of each operation but the document's own.
+fn get(path: &'static str, request: Value, answer: Option<Value>) -> Example {
+    Example { method: "get", path, request, answer }
+}
+
+fn post<T: Serialize>(
+    path: &'static str,
+    request: Value,
+    answer: impl Fn(&[u8]) -> Result<T, OperationError>,
+) -> Example {
+    let answer = Some(json_of(answer(request.to_string().as_bytes())));
+    Example { method: "post", path, request, answer }
+}
+
+/// The answer as JSON, or the error, which the tests report as an outdated example.
+fn json_of(answer: Result<impl Serialize, impl Display>) -> Value {
+    answer.map_or_else(|error| json!({"error": error.to_string()}), |answer| json!(answer))
+}
+
+/// The examples of all operations, except the one that returns this document.
 pub(crate) fn examples() -> Vec<Example> {
     let machines = MachineRegistry::default();
-    let mut examples = of_the_service(&machines);
-    examples.extend(of_queries(&machines));
-    examples.extend(of_bodies(&machines));
+    let mut examples = of_service(&machines);
+    examples.extend(of_kinematics(&machines));
     examples.extend(of_workspaces(&machines));
     examples
 }
 
-fn of_the_service(registry: &MachineRegistry) -> Vec<Example> {
-    let get = |path, asked, answer| Example {
-        method: "get",
-        path,
-        asked: Asked::Parameters(asked),
-        answer: Some(answer),
-    };
+fn of_service(machines: &MachineRegistry) -> Vec<Example> {
     let health = json!(Health { status: HealthStatus::Ok, failing: Vec::new() });
     vec![
-        Example { method: "get", path: "/metrics", asked: Asked::Parameters(json!({})), answer: None },
-        get("/livez", json!({}), health.clone()),
-        get("/readyz", json!({}), health),
-        get("/machines", json!({}), json!(machines::list(registry))),
-        get("/machines/schema", json!({}), machine_schema()),
-        get("/machines/{name}", json!({"name": "verne"}), answered(machines::show(registry, "verne"))),
+        get("/metrics", json!({}), None),
+        get("/livez", json!({}), Some(health.clone())),
+        get("/readyz", json!({}), Some(health)),
+        get("/machines", json!({}), Some(json!(machine_list(machines)))),
+        get("/machines/schema", json!({}), Some(machine_schema())),
+        get("/machines/{name}", json!({"name": "verne"}), Some(json_of(machine_answer(machines, "verne")))),
     ]
 }
 
-fn of_queries(registry: &MachineRegistry) -> Vec<Example> {
-    let get = |path, asked, answer| Example {
-        method: "get",
-        path,
-        asked: Asked::Parameters(asked),
-        answer: Some(answer),
-    };
+fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
     let fk = parse_query::<FkQuery>("rho=674,685,250").and_then(FkQuery::into_request);
     let ik = parse_query::<IkQuery>("frame=platform&x=-240&y=-86&z=1000").and_then(IkQuery::into_request);
     vec![
         get(
             "/fk",
             json!({"rho": [674, 685, 250]}),
-            answered(fk.and_then(|request| answer_fk(&request, registry))),
+            Some(json_of(fk.and_then(|request| answer_fk(&request, machines)))),
         ),
         get(
             "/ik",
             json!({"frame": "platform", "x": -240, "y": -86, "z": 1000}),
-            answered(ik.and_then(|request| answer_ik(&request, registry))),
+            Some(json_of(ik.and_then(|request| answer_ik(&request, machines)))),
         ),
-    ]
-}
-
-fn of_bodies(registry: &MachineRegistry) -> Vec<Example> {
-    vec![
         post(
             "/fk",
             json!({"machine": "verne", "joints": {"rho": [674, 685, 250], "theta1": 0, "theta2": 0},
                    "tool_length": 50, "table_clearance": 0, "solutions": "working"}),
-            |body| {
-                parse_body(body).and_then(|request| answer_fk(&request, registry)).map(|answer| json!(answer))
-            },
+            |body| parse_body(body).and_then(|request| answer_fk(&request, machines)),
         ),
         post(
             "/ik",
             json!({"machine": "verne", "frame": "part",
                    "pose": {"x": 100, "y": 50, "z": 150, "axis": [0.0, -0.5, 0.866_025_403_784_438_6]},
                    "tool_length": 50, "table_clearance": 0, "solutions": "feasible"}),
-            |body| {
-                parse_body(body).and_then(|request| answer_ik(&request, registry)).map(|answer| json!(answer))
-            },
+            |body| parse_body(body).and_then(|request| answer_ik(&request, machines)),
         ),
         post(
             "/fk/batch",
             json!({"joints": [[674, 685, 250], [400, 400, 400, 10, 90], null, [0, 0, 5000]], "tool_length": 50}),
-            |body| answer_fk_batch(body, registry, ROWS).and_then(|answer| parse_body(&answer)),
+            |body| value_of(answer_fk_batch(body, machines, ROWS)),
         ),
         post(
             "/ik/batch",
             json!({"frame": "part", "tool_length": 50,
-                   "poses": [[100, 50, 150, 0, 0], [100, 50, 150, 30, 90], [0, 0, 900, 0, 0], [1, 2], [5000, 0, 0, 0, 0]]}),
-            |body| answer_ik_batch(body, registry, ROWS).and_then(|answer| parse_body(&answer)),
+                   "poses": [[100, 50, 150, 0, 0], [100, 50, 150, 30, 90], [0, 0, 900, 0, 0], [1, 2],
+                             [5000, 0, 0, 0, 0]]}),
+            |body| value_of(answer_ik_batch(body, machines, ROWS)),
         ),
     ]
 }
 
 fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {
-    let asked = json!({"machine": "verne", "kind": "part", "tool_length": 50, "table_clearance": 0, "phi1": 30, "tolerance": 10});
-    let question = parse_body(asked.to_string().as_bytes())
-        .and_then(|request| WorkspaceQuestion::new(&request, machines));
-    let computed = question.clone().and_then(|question| {
-        compute_workspace(&question, usize::MAX, &Unobserved).map(|computed| (question, computed))
-    });
-    let summary = computed.as_ref().map_err(Clone::clone).and_then(|(_, found)| parse_body(&found.summary));
-    let slice = computed.as_ref().map_err(Clone::clone).and_then(|(question, found)| {
-        let alphas = Alphas::List(vec![0.0]);
-        answer_slice(question, found.inclination, 300.0, &alphas, SliceFormat::Json, &Unobserved)
-            .and_then(|text| parse_body(&text))
-    });
-    let id = question.map(|question| question.id.to_string()).unwrap_or_default();
+    let request = json!({"machine": "verne", "kind": "part", "tool_length": 50, "table_clearance": 0, "phi1": 30,
+                         "tolerance": 10});
+    let (id, summary, slice) = match workspace(&request, machines) {
+        Ok(workspace) => workspace,
+        Err(error) => (String::new(), json!({"error": error.to_string()}), Value::Null),
+    };
+    let of_job = || json!({"id": id});
     let dexterity = json!({"tool_length": 50, "phi1": {"from": -20, "to": 20}, "cell": 200});
-    let get = |path, asked, answer| Example { method: "get", path, asked: Asked::Parameters(asked), answer };
-    let summary: Value = answered(summary as Result<Value, OperationError>);
-    let slice: Value = answered(slice as Result<Value, OperationError>);
     vec![
-        get("/workspace", asked.clone(), Some(summary.clone())),
-        post("/workspace", asked, |_| Ok(summary.clone())),
-        // Its answer takes seconds.
-        Example { method: "post", path: "/workspace/dexterity", asked: Asked::Body(dexterity), answer: None },
+        get("/workspace", request.clone(), Some(summary.clone())),
+        post("/workspace", request, |_| Ok(&summary)),
+        // The answer takes seconds.
+        Example { method: "post", path: "/workspace/dexterity", request: dexterity, answer: None },
         get("/jobs", json!({"state": "failed", "limit": 10}), Some(json!({"jobs": [], "next": null}))),
-        get("/jobs/{id}", json!({"id": id}), None),
-        get("/jobs/{id}/events", json!({"id": id}), None),
-        Example {
-            method: "delete",
-            path: "/jobs/{id}",
-            asked: Asked::Parameters(json!({"id": id})),
-            answer: None,
-        },
-        get("/workspace/{id}", json!({"id": id}), Some(summary.clone())),
+        get("/jobs/{id}", of_job(), None),
+        get("/jobs/{id}/events", of_job(), None),
+        Example { method: "delete", path: "/jobs/{id}", request: of_job(), answer: None },
+        get("/workspace/{id}", of_job(), Some(summary.clone())),
         get("/workspace/{id}/mesh", json!({"id": id, "format": "glb"}), None),
         get("/workspace/{id}/slice", json!({"id": id, "z": 300, "alpha": "0"}), Some(slice)),
         post(
             "/workspace/contains",
-            json!({"kind": "part", "tool_length": 50, "points": [[100, 50, 150], [0, 0, 900], null, [5000, 0, 0]]}),
-            |body| answer_contains(body, machines, ROWS, &Unobserved).and_then(|answer| parse_body(&answer)),
+            json!({"kind": "part", "tool_length": 50,
+                   "points": [[100, 50, 150], [0, 0, 900], null, [5000, 0, 0]]}),
+            |body| value_of(answer_contains(body, machines, ROWS, &Unobserved)),
         ),
     ]
 }
 
-fn post(path: &'static str, body: Value, answer: impl Fn(&[u8]) -> Result<Value, OperationError>) -> Example {
-    let answer = answered(answer(body.to_string().as_bytes()));
-    Example { method: "post", path, asked: Asked::Body(body), answer: Some(answer) }
+/// The id, the summary and a slice of the workspace for a request.
+fn workspace(request: &Value, machines: &MachineRegistry) -> Result<(String, Value, Value), OperationError> {
+    let question = WorkspaceQuestion::new(&parse_body(request.to_string().as_bytes())?, machines)?;
+    let workspace = compute_workspace(&question, usize::MAX, &Unobserved)?;
+    let (inclination, alphas) = (workspace.inclination, Alphas::List(vec![0.0]));
+    let slice = answer_slice(&question, inclination, 300.0, &alphas, SliceFormat::Json, &Unobserved);
+    Ok((question.id.to_string(), value_of(Ok(workspace.summary))?, value_of(slice)?))
 }
 
-/// The answer as JSON; a question that fails shows its failure, which the tests take for stale.
-fn answered(answer: Result<impl Serialize, impl Display>) -> Value {
-    match answer {
-        Ok(answer) => json!(answer),
-        Err(error) => Value::Object(Map::from_iter([("error".to_owned(), error.to_string().into())])),
-    }
+fn value_of(json: Result<Vec<u8>, OperationError>) -> Result<Value, OperationError> {
+    parse_body(&json?)
 }

@@ -1,5 +1,5 @@
-//! The table of problems: for each error its stable code, status and meaning. Problem documents, the OpenAPI document and
-//! its list of codes are made from this table. A new error needs a row here.
+//! The table of problems: for each error its stable code, status and meaning. Problem documents, the OpenAPI document
+//! and its list of codes are made from this table. A new error needs a row here.
 
 use axum::http::StatusCode;
 use verne_jobs::UnavailableError;
@@ -55,7 +55,8 @@ macro_rules! problems {
 problems! {
     BadJson, "bad_json", BAD_REQUEST, "The body is not JSON.";
         Operation(OperationError::Syntax(_))
-            => OperationError::Syntax("expected value at line 1 column 1; it begins with \"rho=674,685,250\"".to_owned());
+            => OperationError::Syntax(
+                "expected value at line 1 column 1; it begins with \"rho=674,685,250\"".to_owned());
     BadRequest, "bad_request", BAD_REQUEST, "The body is incomplete, or the service cannot decode it.";
         Request(RequestError::UnreadableBody(_) | RequestError::MalformedHead(_))
             => RequestError::UnreadableBody("it cannot be decoded from gzip: invalid gzip header".to_owned());

@@ -34,7 +34,7 @@ impl KeyCommand {
     /// Writes the entry to `out`, which may be the --keys file itself, and the key to `err`.
     pub(crate) fn run(self, out: &mut impl Write, err: &mut impl Write) -> Result<(), String> {
         let Command::New { name, role } = self.command;
-        let key = Key::fresh().map_err(|error| format!("the system has no random numbers: {error}"))?;
+        let key = Key::generate().map_err(|error| format!("the system has no random numbers: {error}"))?;
         let hash = key.hash().to_hex();
         // The key first: without it the entry is useless.
         writeln!(err, "{key}")

@@ -25,7 +25,7 @@ use tokio_util::sync::CancellationToken;
 use tower::ServiceExt;
 
 use crate::http::request_head;
-use crate::http::request_head::READ_BYTES;
+use crate::http::request_head::HYPER_HEAD_BYTES;
 use crate::process::server::exchange::Exchange;
 use crate::process::server::http1_stream::Http1Stream;
 use crate::process::server::http2_activity::Http2Activity;
@@ -63,11 +63,14 @@ impl ConnectionHandler {
         stopping: CancellationToken,
     ) -> Self {
         let mut http1 = http1::Builder::new();
-        http1.timer(TokioTimer::new()).header_read_timeout(timeouts.header).max_buf_size(READ_BYTES.into());
+        http1
+            .timer(TokioTimer::new())
+            .header_read_timeout(timeouts.header)
+            .max_buf_size(HYPER_HEAD_BYTES.into());
         let mut http2 = http2::Builder::new(TokioExecutor::new());
         http2
             .timer(TokioTimer::new())
-            .max_header_list_size(READ_BYTES.into())
+            .max_header_list_size(HYPER_HEAD_BYTES.into())
             .max_concurrent_streams(MAX_STREAMS)
             .max_pending_accept_reset_streams(MAX_RESETS)
             .max_local_error_reset_streams(MAX_RESETS)

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::http::proxy::ProxyNetwork;
 use crate::limits::client_address::client_name;
-use crate::limits::client_quota::{Share, Shares};
+use crate::limits::client_quota::{Quota, QuotaPermit};
 
 /// Connections beyond the limit. The service answers only probes and metrics on them, so that a full service does not
 /// look like a dead one.
@@ -27,14 +27,14 @@ pub(crate) enum ConnectionLimitError {
 /// The limit.
 #[derive(Debug)]
 pub(crate) struct ConnectionLimit {
-    quota: Arc<Shares>,
+    quota: Arc<Quota>,
     proxies: Vec<ProxyNetwork>,
 }
 
 impl ConnectionLimit {
     /// `total` connections. `proxies` have no limit of their own.
     pub(crate) fn new(total: usize, proxies: Vec<ProxyNetwork>) -> Self {
-        Self { quota: Shares::new(total), proxies }
+        Self { quota: Quota::new(total), proxies }
     }
 
     /// The number of connections.
@@ -42,9 +42,9 @@ impl ConnectionLimit {
         self.quota.count()
     }
 
-    /// Counts a connection from `address` until the share is dropped. A proxy and this machine may have all
+    /// Counts a connection from `address` until the permit is dropped. A proxy and this machine may have all
     /// connections: they pass on the requests of many clients.
-    pub(crate) fn take(&self, address: IpAddr) -> Result<Share, ConnectionLimitError> {
+    pub(crate) fn take(&self, address: IpAddr) -> Result<QuotaPermit, ConnectionLimitError> {
         let canonical = address.to_canonical();
         let is_limited =
             !canonical.is_loopback() && !self.proxies.iter().any(|proxies| proxies.contains(canonical));

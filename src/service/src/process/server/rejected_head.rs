@@ -75,7 +75,7 @@ impl RejectedHead {
 
     /// The head and the body of the router's response to this request.
     fn response(&self, router: Router, peer: SocketAddr) -> impl Future<Output = Vec<u8>> + use<> {
-        let mut request: Request<Body> = request_head::refused(self.reason());
+        let mut request: Request<Body> = request_head::replacement(self.reason());
         request.headers_mut().extend(self.origin().map(|origin| (ORIGIN, origin)));
         request.extensions_mut().insert(ConnectInfo(peer));
         async move {

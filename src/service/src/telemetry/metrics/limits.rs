@@ -7,12 +7,12 @@ use prometheus_client::metrics::TypedMetric;
 use prometheus_client::metrics::gauge::ConstGauge;
 
 use crate::limits::admission::Admission;
-use crate::limits::admission::usage::Usage;
+use crate::limits::usage::Usage;
 use crate::telemetry::metrics::encoding::number;
 
 /// The concurrency slots and the memory of requests.
 pub(crate) fn encode_limits(encoder: &mut DescriptorEncoder<'_>, admission: &Admission) -> fmt::Result {
-    let places = admission.places();
+    let places = admission.permits();
     gauges(encoder, "places_taken", "Concurrency slots in use", &places, |usage| usage.taken)?;
     gauges(encoder, "places_limit", "Concurrency slots in total", &places, |usage| usage.limit)?;
     let memory = admission.memory();

@@ -1,4 +1,4 @@
-//! How long a client is willing to wait: the header Prefer (RFC 7240).
+//! How long a request waits for the result of its job, by the header Prefer (RFC 7240).
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -7,52 +7,55 @@ use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Response};
 
-use crate::http::caller::Caller;
+use crate::http::client::Client;
 use crate::http::error::HttpError;
-use crate::http::result_or_job::Patience;
-use crate::http::state::Shared;
-use crate::limits::admission::Place;
+use crate::http::state::SharedState;
+use crate::limits::admission::RequestPermit;
 use crate::wire::error::OperationError;
 
 const PREFER: HeaderName = HeaderName::from_static("prefer");
 const PREFERENCE_APPLIED: HeaderName = HeaderName::from_static("preference-applied");
 
-/// What a request says about waiting.
+/// How long a request waits for the result of its job.
 #[derive(Debug)]
-pub(crate) struct Prefer {
-    /// Who waits, and how long.
-    pub patience: Patience,
+pub(crate) struct WaitPolicy {
+    /// The client that waits.
+    pub client: Client,
+    /// The permit that the request returns while it waits.
+    pub permit: Arc<RequestPermit>,
+    /// The wait after which the response is 202. Zero: the request does not wait.
+    pub wait: Duration,
+    /// The preference of the request that applies.
     applied: Option<String>,
 }
 
-impl FromRequestParts<Shared> for Prefer {
+impl FromRequestParts<SharedState> for WaitPolicy {
     type Rejection = HttpError;
 
-    async fn from_request_parts(parts: &mut Parts, state: &Shared) -> Result<Self, HttpError> {
-        let caller = Caller::from_request_parts(parts, state).await?;
-        // The gate has put it there.
-        let place = parts.extensions.get::<Arc<Place>>().cloned().ok_or(OperationError::Internal)?;
-        let preferred = preferred(&parts.headers);
+    async fn from_request_parts(parts: &mut Parts, state: &SharedState) -> Result<Self, HttpError> {
+        let client = Client::from_request_parts(parts, state).await?;
+        let permit = parts.extensions.get().cloned().ok_or(OperationError::Internal)?;
+        let preferred = preferred_wait(&parts.headers);
         let wait = preferred.unwrap_or(state.limits.wait).min(state.limits.longest_wait);
         let applied = preferred.map(|_| match wait.as_secs() {
             0 => "respond-async".to_owned(),
             seconds => format!("wait={seconds}"),
         });
-        Ok(Self { patience: Patience { caller, place, wait }, applied })
+        Ok(Self { client, permit, wait, applied })
     }
 }
 
-impl Prefer {
-    /// Says which preference was followed.
-    pub(crate) fn tell<B>(self, response: &mut Response<B>) {
+impl WaitPolicy {
+    /// States in the response which preference applied.
+    pub(crate) fn state_preference<B>(self, response: &mut Response<B>) {
         if let Some(value) = self.applied.and_then(|applied| HeaderValue::from_str(&applied).ok()) {
             response.headers_mut().insert(PREFERENCE_APPLIED, value);
         }
     }
 }
 
-/// The wait that is asked for. Both preferences together: `respond-async` once `wait` has passed.
-fn preferred(headers: &HeaderMap) -> Option<Duration> {
+/// The wait that the request prefers. With both preferences, the response is asynchronous after `wait`.
+fn preferred_wait(headers: &HeaderMap) -> Option<Duration> {
     let values = headers.get_all(PREFER).iter().filter_map(|value| value.to_str().ok());
     let mut preferred = None;
     for preference in values.flat_map(|value| value.split(',')) {
@@ -78,10 +81,10 @@ mod tests {
 
     use axum::http::{HeaderMap, HeaderValue};
 
-    use super::{PREFER, preferred};
+    use super::{PREFER, preferred_wait};
 
     #[test]
-    fn preferences_as_rfc_7240_has_them() {
+    fn preferences_follow_rfc_7240() {
         for (header, seconds) in [
             ("respond-async", Some(0)),
             ("Respond-Async", Some(0)),
@@ -95,7 +98,7 @@ mod tests {
             ("", None),
         ] {
             let headers = HeaderMap::from_iter([(PREFER, HeaderValue::from_static(header))]);
-            assert_eq!(preferred(&headers), seconds.map(Duration::from_secs), "{header}");
+            assert_eq!(preferred_wait(&headers), seconds.map(Duration::from_secs), "{header}");
         }
     }
 }

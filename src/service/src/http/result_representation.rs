@@ -1,17 +1,15 @@
-//! Sends results: figures and meshes, or the address of the job that will have them.
+//! The representations of a result: its summary as JSON, and its meshes as files.
 
 use std::sync::Arc;
 
-use axum::response::Response;
 use verne_store::ContentReader;
 
-use crate::http::base_path::linked;
-use crate::http::conditional_response::{Conditions, Delivery};
+use crate::http::base_path::summary_below;
+use crate::http::conditional_response::Representation;
 use crate::http::error::{HttpError, LookupError};
-use crate::http::handlers::jobs::accepted;
-use crate::http::prefer::Prefer;
-use crate::http::result_or_job::{Obtained, Patience};
-use crate::http::state::State;
+use crate::http::result_or_job::ResultOrJob;
+use crate::http::state::AppState;
+use crate::http::wait_policy::WaitPolicy;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::mesh_files::{MeshDescription, mesh_file_name, write_mesh};
 use crate::operations::question::Question;
@@ -22,16 +20,19 @@ use crate::wire::error::OperationError;
 use crate::wire::format::MeshFormat;
 use crate::wire::result_id::ResultId;
 
-/// The figures that answer a question.
-pub(crate) async fn figures(
-    state: &State,
+/// The summary of a record.
+pub(crate) fn summary(state: &AppState, record: Record) -> Representation {
+    let below = summary_below(&state.base, &record.summary.bytes, record.id);
+    Representation::json(below.map_or(record.summary, hashed), record.id.path())
+}
+
+/// The summary that answers a question, or the job that computes it.
+pub(crate) async fn summary_or_job(
+    state: &AppState,
     question: &Arc<Question>,
-    patience: &Patience,
-) -> Result<Obtained<Delivery>, HttpError> {
-    Ok(match state.obtain(question, patience).await? {
-        Obtained::Ready(record) => Obtained::Ready(summary(state, record)),
-        Obtained::Pending(job) => Obtained::Pending(job),
-    })
+    wait_policy: &WaitPolicy,
+) -> Result<ResultOrJob<Representation>, HttpError> {
+    Ok(state.record_or_job(question, wait_policy).await?.map(|record| summary(state, record)))
 }
 
 /// A surface of a result.
@@ -60,12 +61,17 @@ impl Surface {
         Ok(Self { id, set, blob })
     }
 
-    fn delivery(&self, format: MeshFormat, content: ContentReader, own: bool) -> Delivery {
+    fn representation(
+        &self,
+        format: MeshFormat,
+        content: ContentReader,
+        is_unshared: bool,
+    ) -> Representation {
         let (id, name) = (self.id, format.name());
         let set = self.set.map(|set| format!("&set={}", set.name())).unwrap_or_default();
-        Delivery {
+        Representation {
             content,
-            own,
+            is_unshared,
             media: format.media(),
             cache_control: None,
             location: format!("{}/mesh?format={name}{set}", id.path()),
@@ -74,56 +80,51 @@ impl Surface {
     }
 }
 
-/// The mesh of a surface in a format. `question` is the question of the result; it is needed if the file is not stored.
-pub(crate) async fn mesh(
-    state: &State,
+/// The mesh of a surface as a file, or the job that computes the mesh. `question` is the question of the result; it is
+/// needed if the file is not stored.
+pub(crate) async fn mesh_or_job(
+    state: &AppState,
     surface: &Surface,
     format: MeshFormat,
-    patience: &Patience,
+    wait_policy: &WaitPolicy,
     question: impl FnOnce() -> Result<Arc<Question>, OperationError>,
-) -> Result<Obtained<Delivery>, HttpError> {
+) -> Result<ResultOrJob<Representation>, HttpError> {
     let file = mesh_file_name(surface.blob, format);
     if let Some(content) = state.results.find_blob(surface.id, &file).await {
-        return Ok(Obtained::Ready(surface.delivery(format, content, false)));
+        return Ok(ResultOrJob::Result(surface.representation(format, content, false)));
     }
     let question = question()?;
-    let make = || async {
-        // Without the mesh a job is to compute it again.
-        made(state, &question, surface, format, &file, patience.caller.sharer()).await.transpose()
-    };
-    Ok(match state.blob(&question, Some(format), patience, make).await? {
-        Obtained::Ready(made) => {
-            let Made { content, own } = made?;
-            Obtained::Ready(surface.delivery(format, content, own))
+    let client = wait_policy.client.quota();
+    let find =
+        || async { found_or_encoded(state, &question, surface, format, &file, client).await.transpose() };
+    Ok(match state.blob_or_job(&question, wait_policy, Some(format), find).await? {
+        ResultOrJob::Result(found) => {
+            let (content, is_unshared) = found?;
+            ResultOrJob::Result(surface.representation(format, content, is_unshared))
         }
-        Obtained::Pending(job) => Obtained::Pending(job),
+        ResultOrJob::Job(job) => ResultOrJob::Job(job),
     })
 }
 
-/// The file of a mesh.
-struct Made {
-    content: ContentReader,
-    /// Whether this request made it, and not another one or the job.
-    own: bool,
-}
-
-/// Makes the file of a mesh from the stored mesh, once for all requests of this moment; `None` if the mesh is not stored.
-/// It counts among the files that are made at once until it is made, even if the client no longer waits.
-async fn made(
-    state: &State,
+/// The file of a mesh, and whether this call encoded it; `None` if the store has neither the file nor the mesh.
+///
+/// Concurrent calls for the same file share one encoding. The encoding has a permit until the file is stored; if all
+/// callers leave, until the file is encoded.
+async fn found_or_encoded(
+    state: &AppState,
     question: &Arc<Question>,
     surface: &Surface,
     format: MeshFormat,
     file: &str,
     client: Option<&str>,
-) -> Result<Option<Made>, HttpError> {
+) -> Result<Option<(ContentReader, bool)>, HttpError> {
     if let Some(content) = state.results.find_blob(surface.id, file).await {
-        return Ok(Some(Made { content, own: false }));
+        return Ok(Some((content, false)));
     }
     let (id, blob, set) = (surface.id, surface.blob, surface.set);
-    let mut turn = None;
-    let make = Box::pin(async {
-        let taken = Arc::clone(turn.insert(Arc::new(state.admission.mesh(client).await?)));
+    let mut permit = None;
+    let encode = Box::pin(async {
+        let taken = Arc::clone(permit.insert(Arc::new(state.admission.mesh(client).await?)));
         let Some(packed) = state.results.blob(id, blob).await else { return Ok::<_, HttpError>(None) };
         let question = Arc::clone(question);
         run_on_pool(move |_| {
@@ -134,8 +135,8 @@ async fn made(
         })
         .await
     });
-    let content = state.results.blob_or_make(id, file, make).await?;
-    Ok(content.map(|content| Made { content: content.into(), own: turn.is_some() }))
+    let content = state.results.blob_or_make(id, file, encode).await?;
+    Ok(content.map(|content| (content.into(), permit.is_some())))
 }
 
 fn description(question: &Question, set: Option<SetName>) -> Result<MeshDescription<'_>, OperationError> {
@@ -143,36 +144,6 @@ fn description(question: &Question, set: Option<SetName>) -> Result<MeshDescript
         Question::Workspace(workspace) => Ok(MeshDescription::of_workspace(workspace)),
         Question::Dexterity(map) => Ok(MeshDescription::of_set(map, set.unwrap_or(SetName::Reachable))),
         Question::Family(_) | Question::Subtask(_) => Err(OperationError::Internal),
-    }
-}
-
-/// The answer, or the address of the job that will have it.
-pub(crate) fn respond(
-    state: &State,
-    obtained: Obtained<Delivery>,
-    describe: impl FnOnce(Delivery) -> Delivery,
-    prefer: Prefer,
-    conditions: &Conditions,
-) -> Result<Response, HttpError> {
-    let mut response = match obtained {
-        Obtained::Ready(delivery) => describe(delivery).answer(conditions)?,
-        Obtained::Pending(job) => accepted(&job, &state.base)?,
-    };
-    prefer.tell(&mut response);
-    Ok(response)
-}
-
-/// A record's figures.
-pub(crate) fn summary(state: &State, record: Record) -> Delivery {
-    let id = record.id;
-    let linked = linked(&record.summary.bytes, id, &state.base);
-    Delivery {
-        location: id.path(),
-        content: linked.map_or(record.summary, hashed).into(),
-        own: false,
-        media: "application/json",
-        cache_control: None,
-        file_name: None,
     }
 }
 
@@ -199,7 +170,7 @@ mod tests {
         send(service, Request::get(path).body(Body::empty()).unwrap()).await
     }
 
-    /// A service that works on at most so many requests, and the path of a mesh.
+    /// A service with a limit of concurrent requests, and the path of a mesh.
     async fn with_mesh(requests: usize) -> (Service, String) {
         let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
         let flags = ["--memory-only".to_owned(), format!("--max-requests={requests}")];
@@ -215,7 +186,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn files_of_meshes_are_made_within_a_bound() {
+    async fn the_number_of_encodings_at_once_is_limited() {
         let (service, mesh) = with_mesh(2).await;
         let [kept, stl] = ["glb", "stl"].map(|format| format!("{mesh}?format={format}"));
         assert_eq!(get(&service, &kept).await.status(), StatusCode::OK);
@@ -223,13 +194,13 @@ mod tests {
         let refused = get(&service, &stl).await;
         assert_eq!(refused.status(), StatusCode::SERVICE_UNAVAILABLE);
         assert_eq!(refused.headers()[RETRY_AFTER], "1");
-        assert_eq!(get(&service, &kept).await.status(), StatusCode::OK, "nothing is to be made");
+        assert_eq!(get(&service, &kept).await.status(), StatusCode::OK, "the file is stored");
         drop(taken);
         assert_eq!(get(&service, &stl).await.status(), StatusCode::OK);
     }
 
     #[tokio::test]
-    async fn equal_files_are_made_once_and_in_one_turn() {
+    async fn concurrent_requests_for_a_file_share_one_encoding() {
         let (service, mesh) = with_mesh(8).await;
         let _taken = service.state.admission.mesh(None).await.unwrap();
         let path = format!("{mesh}?format=ply");

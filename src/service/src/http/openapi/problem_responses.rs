@@ -1,4 +1,4 @@
-//! The failures that operations document.
+//! The problems that operations document: each type stands for a set of codes.
 
 use std::collections::BTreeMap;
 
@@ -10,9 +10,10 @@ use utoipa::openapi::{Content, OpenApi, Ref, RefOr, Response};
 use crate::http::problem::code::Code;
 use crate::http::problem::{PROBLEM_JSON, Problem};
 
-/// Failures of every operation.
-const ALWAYS: &[Code] = &[Code::InvalidRequest, Code::NotAcceptable, Code::Internal, Code::TimedOut];
+/// Codes of every operation.
+const COMMON: &[Code] = &[Code::InvalidRequest, Code::NotAcceptable, Code::Internal, Code::TimedOut];
 
+/// Codes of requests with a body.
 const BODY: &[Code] = &[
     Code::BadJson,
     Code::BadRequest,
@@ -21,8 +22,8 @@ const BODY: &[Code] = &[
     Code::BodyTooLarge,
 ];
 
-/// Failures of waiting for a job.
-const WAITING: &[Code] = &[
+/// Codes of requests that wait for a job.
+const JOB: &[Code] = &[
     Code::QueueFull,
     Code::Stopping,
     Code::JobsUnavailable,
@@ -33,8 +34,8 @@ const WAITING: &[Code] = &[
     Code::NoRoom,
 ];
 
-/// Failures of asking for a result by its id.
-const KEPT: &[Code] = &[Code::NotFound, Code::WorkspaceNotFound, Code::RangeNotSatisfiable];
+/// Codes of requests for a stored result.
+const RESULT: &[Code] = &[Code::NotFound, Code::WorkspaceNotFound, Code::RangeNotSatisfiable];
 
 type Responses = BTreeMap<String, RefOr<Response>>;
 
@@ -46,8 +47,8 @@ macro_rules! problems {
         impl IntoResponses for $name {
             fn responses() -> Responses {
                 let mut responses = Responses::new();
-                for codes in [ALWAYS, $($codes),*] {
-                    document(&mut responses, codes);
+                for codes in [COMMON, $($codes),*] {
+                    add_codes(&mut responses, codes);
                 }
                 responses
             }
@@ -56,40 +57,39 @@ macro_rules! problems {
 }
 
 problems! {
-    /// Failures of every operation.
-    ServiceProblems: ;
-    /// Failures of a question in the query string.
-    QueryProblems: ;
-    /// Failures of a question in the body.
+    /// Problems of every operation.
+    CommonProblems: ;
+    /// Problems of a request with a body.
     BodyProblems: BODY;
-    /// Failures of a batch.
+    /// Problems of a batch.
     BatchProblems: BODY, &[Code::TooManyRows];
-    /// Failures of a workspace in the query string.
-    WorkspaceQueryProblems: WAITING, &[Code::RangeNotSatisfiable];
-    /// Failures of a workspace, or a family of them, in the body.
-    WorkspaceBodyProblems: BODY, WAITING, &[Code::NoMesh];
-    /// Failures of a dexterity map.
-    DexterityProblems: BODY, WAITING;
-    /// Failures of asking for a result's figures by its id.
-    KeptProblems: KEPT;
-    /// Failures of asking for a slice.
-    SliceProblems: KEPT, &[Code::NoSlice];
-    /// Failures of asking for a mesh by its id. A mesh that is no longer kept is computed again, which takes a role.
-    MeshProblems: KEPT, WAITING, &[Code::NoMesh, Code::Forbidden];
-    /// Failures of asking for the points of a dexterity map.
-    CellsProblems: KEPT, WAITING, &[Code::NoCells, Code::Forbidden];
-    /// Failures of asking for a machine by name.
+    /// Problems of a workspace in the query string.
+    WorkspaceQueryProblems: JOB, &[Code::RangeNotSatisfiable];
+    /// Problems of a workspace, or a family of workspaces, in the body.
+    WorkspaceBodyProblems: BODY, JOB, &[Code::NoMesh];
+    /// Problems of a dexterity map.
+    DexterityProblems: BODY, JOB;
+    /// Problems of the summary of a stored result.
+    SummaryProblems: RESULT;
+    /// Problems of a slice of a stored result.
+    SliceProblems: RESULT, &[Code::NoSlice];
+    /// Problems of a mesh of a stored result. If the store evicted the mesh, a job computes it again, which needs a
+    /// role.
+    MeshProblems: RESULT, JOB, &[Code::NoMesh, Code::Forbidden];
+    /// Problems of the points of a dexterity map.
+    CellsProblems: RESULT, JOB, &[Code::NoCells, Code::Forbidden];
+    /// Problems of a machine.
     MachineProblems: &[Code::NotFound, Code::MachineNotFound];
-    /// Failures of listing jobs.
+    /// Problems of the list of jobs.
     JobsProblems: &[Code::JobsUnavailable];
-    /// Failures of asking for a job by its id.
+    /// Problems of a job.
     JobProblems: &[Code::NotFound, Code::JobNotFound, Code::JobsUnavailable];
-    /// Failures of asking whether the service is ready.
+    /// Problems of the readiness probe.
     ReadyProblems: &[Code::Stopping, Code::DiskFailing, Code::JobsUnavailable];
 }
 
-/// Adds failures to what an operation documents. Each is an example of its status, under the name of its code.
-pub(crate) fn document(responses: &mut Responses, codes: &[Code]) {
+/// Adds codes to the responses of an operation. Each code is an example of its status.
+pub(crate) fn add_codes(responses: &mut Responses, codes: &[Code]) {
     for &code in codes {
         let status = code.status().as_str().to_owned();
         let response = responses.entry(status).or_insert_with(|| Response::default().into());
@@ -106,7 +106,7 @@ pub(crate) fn document(responses: &mut Responses, codes: &[Code]) {
     }
 }
 
-/// The document with an example of every code, and their list.
+/// The document with an example of every code, and with the table of codes.
 pub(crate) fn with_codes(mut document: OpenApi) -> OpenApi {
     let mut rows = String::new();
     for &code in Code::ALL {

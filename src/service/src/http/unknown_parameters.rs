@@ -1,4 +1,4 @@
-//! Refuses query parameters that no operation documents.
+//! Rejects query parameters that an operation does not document.
 
 use std::sync::Arc;
 
@@ -11,17 +11,17 @@ use utoipa::openapi::path::{Operation, ParameterIn};
 use utoipa::openapi::{Paths, RefOr};
 
 use crate::http::error::HttpError;
-use crate::http::state::Shared;
+use crate::http::state::SharedState;
 use crate::wire::error::{FieldError, OperationError};
 
-/// Most unknown parameters that one answer lists.
-const LISTED: usize = 10;
+/// Most unknown parameters that one response lists.
+const MOST_LISTED: usize = 10;
 
 /// The query parameters of each method of a path.
 type Known = Vec<(Method, Vec<String>)>;
 
-/// The route, which refuses parameters that the operations of its path do not have.
-pub(crate) fn only_known(route: MethodRouter<Shared>, paths: &Paths) -> MethodRouter<Shared> {
+/// The route, which rejects parameters that the operations of its path do not have.
+pub(crate) fn reject_unknown(route: MethodRouter<SharedState>, paths: &Paths) -> MethodRouter<SharedState> {
     let methods = paths.paths.values().flat_map(|item| {
         [
             (Method::GET, &item.get),
@@ -58,7 +58,10 @@ async fn check(State(known): State<Arc<Known>>, request: Request, next: Next) ->
 fn check_query(query: &str, known: &[String], method: &Method) -> Result<(), OperationError> {
     let mut unknown = Vec::new();
     for (name, _) in form_urlencoded::parse(query.as_bytes()) {
-        if unknown.len() < LISTED && !known.iter().any(|known| *known == name) && !unknown.contains(&name) {
+        if unknown.len() < MOST_LISTED
+            && !known.iter().any(|known| *known == name)
+            && !unknown.contains(&name)
+        {
             unknown.push(name);
         }
     }
@@ -70,6 +73,6 @@ fn check_query(query: &str, known: &[String], method: &Method) -> Result<(), Ope
         [] => "this operation has no query parameters".to_owned(),
         known => format!("the parameters of this operation are {}", known.join(", ")),
     };
-    let fault = |name| FieldError::new(format!("/query/{name}"), format!("`{name}` is unknown: {expected}"));
-    Err(OperationError::Fields(unknown.into_iter().map(fault).collect()))
+    let error = |name| FieldError::new(format!("/query/{name}"), format!("`{name}` is unknown: {expected}"));
+    Err(OperationError::Fields(unknown.into_iter().map(error).collect()))
 }

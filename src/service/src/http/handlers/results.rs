@@ -1,19 +1,18 @@
-//! `/workspace/{id}`: what has been computed, for ever the same bytes.
+//! `/workspace/{id}`: stored results. The bytes of a result never change.
 
-use axum::extract::rejection::PathRejection;
-use axum::extract::{Path, State};
+use axum::extract::State;
 use axum::response::Response;
 
-use crate::http::conditional_response::{Conditions, Delivery, FOR_EVER};
+use crate::http::conditional_response::{Conditions, IMMUTABLE, Representation};
 use crate::http::error::{HttpError, LookupError};
-use crate::http::extract::Params;
+use crate::http::extractors::{PathParameter, QueryString};
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
-use crate::http::openapi::binary::{Binary, Summary, Text};
-use crate::http::openapi::problems::{KeptProblems, MeshProblems, SliceProblems};
-use crate::http::prefer::Prefer;
-use crate::http::result_response::{Surface, mesh, respond, summary};
-use crate::http::state::Shared;
+use crate::http::openapi::body_schemas::{Binary, Summary, Text};
+use crate::http::openapi::problem_responses::{MeshProblems, SliceProblems, SummaryProblems};
+use crate::http::result_representation::{Surface, mesh_or_job, summary};
+use crate::http::state::{AppState, SharedState};
+use crate::http::wait_policy::WaitPolicy;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::question::Question;
 use crate::operations::question_text::QuestionKind;
@@ -26,9 +25,6 @@ use crate::wire::query::point_into_query;
 use crate::wire::slice::SliceObject;
 use crate::wire::workspace_query::SliceQuery;
 
-/// The id in a path.
-pub(crate) type Id = Result<Path<String>, PathRejection>;
-
 /// Summary of a computed workspace
 ///
 /// Returns the answer that /workspace gave with this id. The service evicts results when it needs space; if you repeat
@@ -38,20 +34,19 @@ pub(crate) type Id = Result<Path<String>, PathRejection>;
     get, path = "/workspace/{id}", operation_id = "workspace_summary", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace.")),
     responses(
-        (status = 200, description = "The summary of a workspace or a dexterity map, or the table of a family.", body = Summary),
-        KeptProblems
+        (status = 200, description = "The summary of a workspace or a dexterity map, or the table of a family.", body =
+            Summary),
+        SummaryProblems
     )
 )]
 pub(crate) async fn get_summary(
-    State(state): State<Shared>,
-    id: Id,
+    State(state): State<SharedState>,
+    PathParameter(id): PathParameter,
     accept: Accept,
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
-    let id = id.map_err(|_| HttpError::UnknownPath)?;
-    accept.choose([("application/json", ())])?;
-    let delivery = summary(&state, kept(&state, id).await?);
-    Delivery { cache_control: Some(FOR_EVER), ..delivery }.answer(&conditions)
+    accept.require_json()?;
+    summary(&state, record(&state, id).await?).cached(IMMUTABLE).respond(&conditions)
 }
 
 /// The mesh of a computed workspace
@@ -73,24 +68,22 @@ pub(crate) async fn get_summary(
     )
 )]
 pub(crate) async fn get_mesh(
-    State(state): State<Shared>,
-    id: Id,
-    Params(query): Params<StoredMeshQuery>,
+    State(state): State<SharedState>,
+    PathParameter(id): PathParameter,
+    QueryString(query): QueryString<StoredMeshQuery>,
     accept: Accept,
-    prefer: Prefer,
+    wait_policy: WaitPolicy,
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
-    let id = id.map_err(|_| HttpError::UnknownPath)?;
     let format = match query.format {
         Some(format) => format,
         None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format)))?,
     };
-    let record = kept(&state, id).await?;
+    let record = record(&state, id).await?;
     let surface = Surface::of(record.id, record.kind, query.set)?;
     let question = || state.results.questions.get_or_read(record.id, &record.question);
-    let obtained = mesh(&state, &surface, format, &prefer.patience, question).await?;
-    let kept = |delivery| Delivery { cache_control: Some(FOR_EVER), ..delivery };
-    respond(&state, obtained, kept, prefer, &conditions)
+    let mesh = mesh_or_job(&state, &surface, format, &wait_policy, question).await?;
+    mesh.map(|mesh| mesh.cached(IMMUTABLE)).respond(&state, wait_policy, &conditions)
 }
 
 /// Slice of a computed workspace
@@ -110,13 +103,12 @@ pub(crate) async fn get_mesh(
     )
 )]
 pub(crate) async fn get_slice(
-    State(state): State<Shared>,
-    id: Id,
-    Params(query): Params<SliceQuery>,
+    State(state): State<SharedState>,
+    PathParameter(id): PathParameter,
+    QueryString(query): QueryString<SliceQuery>,
     accept: Accept,
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
-    let id = id.map_err(|_| HttpError::UnknownPath)?;
     let SliceQuery { z, alpha, format } = query;
     let (format, media) = match format {
         Some(format) => (format, format.media()[0]),
@@ -126,33 +118,30 @@ pub(crate) async fn get_slice(
                 .flat_map(|format| format.media().iter().map(move |&media| (media, (format, media)))),
         )?,
     };
-    let Record { id, kind, question, inclination, .. } = kept(&state, id).await?;
+    let Record { id, kind, question, inclination, .. } = record(&state, id).await?;
     if kind != QuestionKind::Workspace {
         return Err(LookupError::Slice(id.to_string()).into());
     }
     let question = state.results.questions.get_or_read(id, &question)?;
-    let cut = run_on_pool(move |observer| match &*question {
+    let slice = run_on_pool(move |observer| match &*question {
         Question::Workspace(question) => {
             answer_slice(question, inclination, z, &alpha, format, observer).map(hashed)
         }
         _ => Err(OperationError::Internal),
     });
-    let delivery = Delivery {
-        content: cut.await.map_err(point_into_query)?.into(),
-        own: true,
+    let representation = Representation {
+        content: slice.await.map_err(point_into_query)?.into(),
+        is_unshared: true,
         media,
-        cache_control: Some(FOR_EVER),
+        cache_control: Some(IMMUTABLE),
         location: format!("{}/slice?z={z}&format={}", id.path(), format.name()),
         file_name: Some(format!("slice-{id:.8}.{}", format.name())),
     };
-    delivery.answer(&conditions)
+    representation.respond(&conditions)
 }
 
-/// The record under an id.
-pub(crate) async fn kept(
-    state: &crate::http::state::State,
-    Path(id): Path<String>,
-) -> Result<Record, LookupError> {
+/// The record of a stored result.
+pub(crate) async fn record(state: &AppState, id: String) -> Result<Record, LookupError> {
     match id.parse() {
         Ok(known) => state.results.record(known).await.ok_or(LookupError::Result(id)),
         Err(_) => Err(LookupError::Result(id)),
