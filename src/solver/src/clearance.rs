@@ -32,8 +32,8 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// Takes the least height `requested` by the caller, or else the machine's. The answer is `None` if neither is given:
-    /// the table is then no limit.
+    /// Takes the least height `requested` by the caller, or else the machine's. The answer is `None` if neither is
+    /// given: the table is then no limit.
     ///
     /// # Units
     ///

@@ -37,7 +37,8 @@ pub(super) const CREATE_PROBE: &str =
 pub(super) const PROBE: &str = "INSERT OR REPLACE INTO probe VALUES (1, zeroblob(?1))";
 
 pub(super) const SUBMIT: &str = "
-INSERT OR REPLACE INTO jobs (life, id, client, clients, cost, payload, deadline, state, progress, created, attempts, hidden)
+INSERT OR REPLACE INTO jobs
+    (life, id, client, clients, cost, payload, deadline, state, progress, created, attempts, hidden)
 VALUES (:life, :id, :client, :clients, :cost, :payload, :deadline, 'queued', 0.0, :created, 0,
     :hidden AND coalesce((SELECT hidden FROM jobs WHERE id = :id), 1))";
 
