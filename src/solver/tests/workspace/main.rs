@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 #![allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "counts are small")]
 
-// What the tests share.
+// Shared code.
 /// Columns on a lattice, computed by the inverse solution and the margins alone.
 mod column_lattice;
 /// Machines, requests and pseudo-random numbers. The tests inside the crate use them too.
@@ -11,7 +11,7 @@ mod machines;
 /// Components, genus and faults of a surface.
 mod topology;
 
-// Each module tests one function, or one property of several.
+// Tests. Each module tests one function, or one property of several.
 /// Surfaces of workspaces that consist of several components, have holes, or touch themselves.
 mod components;
 /// Grids, regions and volumes of dexterity maps.

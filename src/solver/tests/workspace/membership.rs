@@ -25,7 +25,7 @@ fn a_point_is_a_member_if_its_solution_keeps_all_margins() {
         assert_eq!(inside, answer.inside, "{point:?}");
         assert_eq!(inside, answer.margin.unwrap().value >= 0.0, "{point:?}");
     }
-    // The share of the box that is inside tells the volume.
+    // The fraction of the box that is inside gives the volume.
     let inside = answers.iter().filter(|answer| answer.inside).count() as f64 / 1e5;
     assert!((inside * 900.0 * 1_200.0 * 900.0 - 2.337e8).abs() < 3e6);
 }

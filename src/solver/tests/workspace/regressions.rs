@@ -1,4 +1,4 @@
-//! Workspaces of which earlier versions lost a large portion, or found one where there is none.
+//! Workspaces that earlier versions computed as much too small, or as not empty although they are.
 
 use verne_solver::Machine;
 use verne_solver::workspace::{Kind, Request, Unobserved, Volume, agree, contains, measure, surface};

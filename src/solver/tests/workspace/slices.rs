@@ -44,8 +44,8 @@ fn points_of_a_slice_are_members_of_the_workspace() {
             .filter(|(point, member)| inside(&cut, [point[0], point[1]]) != member.inside)
             .count();
         assert!(differing <= 6, "{request:?} {height}: {differing}");
-        let share = members.iter().filter(|member| member.inside).count() as f64 / 20_000.0;
-        assert!((share * 1.6e6 - cut.area()).abs() < 0.03 * 1.6e6 * share.max(0.05), "{height}");
+        let fraction = members.iter().filter(|member| member.inside).count() as f64 / 20_000.0;
+        assert!((fraction * 1.6e6 - cut.area()).abs() < 0.03 * 1.6e6 * fraction.max(0.05), "{height}");
         assert!(cut.polygons.iter().all(|polygon| polygon.outer.len() >= 3));
     }
 }
