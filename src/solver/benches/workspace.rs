@@ -18,15 +18,7 @@ const LOW: [f64; 3] = [-420.0, -560.0, 850.0];
 const HIGH: [f64; 3] = [410.0, 560.0, 1_650.0];
 
 fn request(tolerance: f64) -> Request {
-    Request {
-        kind: Kind::Platform,
-        tool_length: 0.0,
-        phi1: 0.0,
-        phi2: 0.0,
-        table_clearance: None,
-        tool_radius: 0.0,
-        tolerance,
-    }
+    Request::new(Kind::Platform, tolerance)
 }
 
 fn member(machine: &Machine, point: [f64; 3]) -> bool {
@@ -79,55 +71,60 @@ fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().unwrap()
 }
 
-fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let full = arguments.iter().any(|argument| argument == "--bench");
-    let wanted = arguments.iter().find_map(|argument| argument.strip_prefix("rounds=")?.parse().ok());
-    let (rounds, n) = (wanted.unwrap_or(if full { 5 } else { 1 }), if full { 256 } else { 32 });
-    let machine = black_box(Machine::verne());
-    let (one, two) = (pool(1), pool(2));
-    let fine = if full { 0.01 } else { 1.0 };
-    let points: Vec<[f64; 3]> = (0_u32..)
+/// Points of the workspace, spread evenly.
+fn members(machine: &Machine) -> Vec<[f64; 3]> {
+    (0_u32..)
         .map(|i| {
-            let part = |ratio: f64| (f64::from(i) * ratio).fract();
-            let parts = [part(0.819_172_5), part(0.671_043_6), part(0.549_700_5)];
-            [0, 1, 2].map(|axis| LOW[axis] + parts[axis] * (HIGH[axis] - LOW[axis]))
+            let fraction = |ratio: f64| (f64::from(i) * ratio).fract();
+            let fractions = [fraction(0.819_172_5), fraction(0.671_043_6), fraction(0.549_700_5)];
+            [0, 1, 2].map(|axis| LOW[axis] + fractions[axis] * (HIGH[axis] - LOW[axis]))
         })
-        .filter(|point| member(&machine, *point))
+        .filter(|point| member(machine, *point))
         .take(100_000)
-        .collect();
-    let names = [
-        "sweep",
-        "surface nets",
-        "mesh, 1 mm",
-        "volume",
-        "mesh, fine, 1 thread",
-        "mesh, fine, 2 threads",
-        "1e5 IK solves",
-        "1e5 members",
-    ];
-    let mut times = vec![Vec::new(); names.len()];
-    let mut notes = Vec::new();
-    for _ in 0..rounds {
-        let ((signs, swept), time) = timed(|| sweep(&machine, n));
-        times[0].push(time);
-        let (triangles, time) = timed(|| nets(&signs, n));
-        times[1].push(time);
-        let (mesh, time) = timed(|| one.install(|| surface(&machine, &request(1.0), &Unobserved).unwrap()));
-        times[2].push(time);
-        let (answer, time) = timed(|| one.install(|| measure(&machine, &request(1.0), &Unobserved).unwrap()));
-        times[3].push(time);
-        let (fine_mesh, time) =
-            timed(|| one.install(|| surface(&machine, &request(fine), &Unobserved).unwrap()));
-        times[4].push(time);
-        times[5].push(timed(|| two.install(|| surface(&machine, &request(fine), &Unobserved).unwrap())).1);
-        let solve = |point: &[f64; 3]| platform_working(&machine, *point).is_ok();
-        times[6].push(timed(|| points.iter().filter(|point| black_box(solve(point))).count()).1);
-        times[7].push(
-            timed(|| one.install(|| contains(&machine, &request(1.0), &points, &Unobserved).unwrap())).1,
-        );
+        .collect()
+}
+
+const NAMES: [&str; 8] = [
+    "sweep",
+    "surface nets",
+    "mesh, 1 mm",
+    "volume",
+    "mesh, fine, 1 thread",
+    "mesh, fine, 2 threads",
+    "1e5 IK solves",
+    "1e5 members",
+];
+
+struct Bench {
+    machine: Machine,
+    /// Points of the sweep along each axis, and the tolerance of the fine mesh.
+    n: u32,
+    fine: f64,
+    points: Vec<[f64; 3]>,
+    one: ThreadPool,
+    two: ThreadPool,
+}
+
+impl Bench {
+    /// The times of one round, in the order of [`NAMES`], and notes on the results.
+    fn round(&self) -> (Vec<f64>, Vec<String>) {
+        let Self { machine, n, fine, points, one, two } = self;
+        let mesh_within = |pool: &ThreadPool, tolerance: f64| {
+            timed(|| pool.install(|| surface(machine, &request(tolerance), &Unobserved).unwrap()))
+        };
+        let ((signs, swept), sweep_time) = timed(|| sweep(machine, *n));
+        let (triangles, nets_time) = timed(|| nets(&signs, *n));
+        let (mesh, mesh_time) = mesh_within(one, 1.0);
+        let (answer, volume_time) =
+            timed(|| one.install(|| measure(machine, &request(1.0), &Unobserved).unwrap()));
+        let (fine_mesh, fine_time) = mesh_within(one, *fine);
+        let (_, fine_time_of_two) = mesh_within(two, *fine);
+        let solve = |point: &[f64; 3]| platform_working(machine, *point).is_ok();
+        let (_, solve_time) = timed(|| points.iter().filter(|point| black_box(solve(point))).count());
+        let (_, member_time) =
+            timed(|| one.install(|| contains(machine, &request(1.0), points, &Unobserved).unwrap()));
         let Volume::Value { value, error } = answer.volume else { panic!("folded") };
-        notes = vec![
+        let notes = vec![
             format!("sweep: volume off by {:.1e}, {} bytes of signs", swept / value - 1.0, signs.len() * 4),
             format!("surface nets: {triangles} triangles"),
             format!(
@@ -143,12 +140,39 @@ fn main() {
                 fine_mesh.volume() / value - 1.0
             ),
         ];
+        let sweeps = [sweep_time, nets_time];
+        let meshes = [mesh_time, volume_time, fine_time, fine_time_of_two];
+        let times = [&sweeps[..], &meshes, &[solve_time, member_time]].concat();
+        (times, notes)
+    }
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let full = arguments.iter().any(|argument| argument == "--bench");
+    let wanted = arguments.iter().find_map(|argument| argument.strip_prefix("rounds=")?.parse().ok());
+    let (rounds, n, fine) =
+        if full { (wanted.unwrap_or(5), 256, 0.01) } else { (wanted.unwrap_or(1), 32, 1.0) };
+    let machine = black_box(Machine::verne());
+    let points = members(&machine);
+    let bench = Bench { machine, n, fine, points, one: pool(1), two: pool(2) };
+    let (mut times, mut notes) = (vec![Vec::new(); NAMES.len()], Vec::new());
+    for _ in 0..rounds {
+        let (round, found) = bench.round();
+        for (all, time) in times.iter_mut().zip(round) {
+            all.push(time);
+        }
+        notes = found;
     }
     let medians: Vec<f64> = times.iter_mut().map(|times| median(times)).collect();
+    print(rounds, n, &medians, &notes);
+}
+
+fn print(rounds: usize, n: u32, medians: &[f64], notes: &[String]) {
     println!(
         "Medians of {rounds} interleaved rounds, {n}³ points.\n\n| | ms | sweep's time over it |\n|---|---:|---:|"
     );
-    for (name, time) in names.iter().zip(&medians) {
+    for (name, time) in NAMES.iter().zip(medians) {
         println!("| {name} | {time:.2} | {:.1} |", medians[0] / time);
     }
     // The cheapest predicate there can be: one solution a point, no margins, nothing refused.

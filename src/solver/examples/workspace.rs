@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p verne-solver --example workspace [TOLERANCE]`
 //!
-//! TOLERANCE in mm is the greatest distance between the surface and the true boundary; 5 mm without an argument. The tool is
-//! 150 mm long and perpendicular to the table (phi1 = phi2 = 0: the paper's Fig. 8). It prints:
+//! TOLERANCE in mm is the greatest distance between the surface and the true boundary; 5 mm without an argument. The
+//! tool is 150 mm long and perpendicular to the table (phi1 = phi2 = 0: the paper's Fig. 8). It prints:
 //!
 //! - `volume`: by integration, with its error; `jacobian` is the range of the map's determinant (both signs: folded).
 //! - `surface`: triangles, the volume they enclose, and which constraints bound the workspace (number of triangles).
@@ -21,15 +21,7 @@ use verne_solver::workspace::{Kind, Request, Unobserved, agree, contains, measur
 fn main() -> Result<(), Box<dyn Error>> {
     let machine = Machine::verne();
     let tolerance = std::env::args().nth(1).map_or(Ok(5.0), |number| number.parse())?;
-    let request = Request {
-        kind: Kind::Part,
-        tool_length: 150.0,
-        phi1: 0.0,
-        phi2: 0.0,
-        table_clearance: None,
-        tool_radius: 0.0,
-        tolerance,
-    };
+    let request = Request { tool_length: 150.0, ..Request::new(Kind::Part, tolerance) };
 
     let measured = measure(&machine, &request, &Unobserved)?;
     println!("volume {:?} mm³, area {:.0} mm²", measured.volume, measured.area);
@@ -51,14 +43,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("member {point:?} {} {:?}", member.inside, member.margin);
     }
 
-    let question = DexterityRequest {
-        tool_length: 150.0,
-        table_clearance: None,
-        tool_radius: 0.0,
-        phi2: 0.0,
-        phi1: [-180_f64, 180.0].map(f64::to_radians),
-        cell: 50.0,
-    };
+    let phi1 = [-180_f64, 180.0].map(f64::to_radians);
+    let question = DexterityRequest { tool_length: 150.0, ..DexterityRequest::new(phi1, 50.0) };
     for interval in orientations(&machine, point, &question)? {
         let ends = interval.bindings.map(|binding| binding.map(|binding| binding.constraint));
         println!("phi1 {:.4?}° ended by {ends:?}", interval.ends.map(f64::to_degrees));

@@ -114,6 +114,10 @@
 //! Each module's functions have examples. Three programs show more: `cargo run -p verne-solver --example forward`,
 //! `inverse` and `workspace`.
 
+// The tests inside the crate share code with those outside.
+#[cfg(test)]
+extern crate self as verne_solver;
+
 pub mod axis;
 mod clearance;
 mod error;

@@ -5,14 +5,14 @@
 //! constraints gives the domain's boundary. The third dimension is not sampled.
 //!
 //! - [`measure()`]: volume and area with errors, by integration.
-//! - [`surface()`], [`surface_within`]: the closed boundary surface within a tolerance; [`expected_triangles`] estimates
-//!   its size, and [`agree`] compares it with the volume.
+//! - [`surface()`], [`surface_within`]: the closed boundary surface within a tolerance; [`expected_triangles`]
+//!   estimates its size, and [`agree`] compares it with the volume.
 //! - [`slice()`]: the cut at a height, as polygons.
 //! - [`contains()`]: whether points belong to the workspace, without a mesh.
 //! - [`dexterity`]: the tool's inclinations that reach a part point.
 //!
-//! Every function takes a [`Request`] or a [`dexterity::DexterityRequest`]. Long computations report to an [`Observer`]
-//! and stop when it asks.
+//! Every function takes a [`Request`] or a [`dexterity::DexterityRequest`]. Long computations report to an
+//! [`Observer`] and stop when it asks.
 //!
 #![doc = include_str!("workspace/derivation.md")]
 
@@ -22,25 +22,26 @@ mod contains;
 mod cover;
 pub mod dexterity;
 mod domain;
-mod estimate;
+mod feasible_intervals;
 mod fold;
 mod image;
 mod measure;
 mod observer;
-mod path;
 mod plane;
 mod quadrature;
 mod request;
 mod root;
 mod slice;
 mod surface;
+mod triangle_estimate;
+mod vector;
 
 pub use agreement::agree;
 pub use contains::{Membership, contains};
 pub use domain::Binding;
-pub use estimate::expected_triangles;
 pub use measure::{Measure, Volume, measure};
-pub use observer::{Observer, Unobserved};
+pub use observer::{Observer, Subprogress, Unobserved};
 pub use request::{Kind, Request, WorkspaceError};
 pub use slice::{Contour, Polygon, Slice, slice};
 pub use surface::{Surface, surface, surface_within};
+pub use triangle_estimate::expected_triangles;

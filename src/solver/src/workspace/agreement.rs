@@ -1,7 +1,7 @@
 //! Comparison of the integrated volume with the volume that the surface encloses.
 
 use super::measure::{Measure, Volume};
-use super::observer::{Observer, Pace};
+use super::observer::{Observer, StepCounter};
 use super::request::WorkspaceError;
 use super::surface::Surface;
 
@@ -34,15 +34,7 @@ const ALLOWED: f64 = 2.0;
 /// use verne_solver::Machine;
 /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, agree, measure, surface};
 ///
-/// let request = Request {
-///     kind: Kind::Platform,
-///     tool_length: 0.0,
-///     phi1: 0.0,
-///     phi2: 0.0,
-///     table_clearance: None,
-///     tool_radius: 0.0,
-///     tolerance: 20.0,
-/// };
+/// let request = Request::new(Kind::Platform, 20.0);
 /// let machine = Machine::verne();
 /// let measured = measure(&machine, &request, &Unobserved)?;
 /// let boundary = surface(&machine, &request, &Unobserved)?;
@@ -59,10 +51,10 @@ pub fn agree(
     if surface.triangles.is_empty() {
         return Ok(());
     }
-    let mut pace = Pace::new(observer);
+    let mut steps = StepCounter::new(observer);
     let (mut area, mut enclosed) = (0.0, 0.0);
     for triangle in &surface.triangles {
-        pace.step()?;
+        steps.step()?;
         area += surface.area_of(triangle);
         enclosed += surface.six_volumes(triangle) / 6.0;
     }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::observer::{Observer, Pace, go_on};
+use super::observer::{Observer, StepCounter, check_cancelled};
 use super::request::{Kind, Request, WorkspaceError};
 use crate::clearance::Clearance;
 use crate::error::KinematicsError;
@@ -40,8 +40,8 @@ pub struct Membership {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`MAX_INPUT`](crate::MAX_INPUT) or,
-///   for the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`MAX_INPUT`](crate::MAX_INPUT)
+///   or, for the tolerance, below 0.001 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 ///
 /// # References
@@ -55,18 +55,10 @@ pub struct Membership {
 /// use verne_solver::Machine;
 /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, contains};
 ///
-/// let request = Request {
-///     kind: Kind::Platform,
-///     tool_length: 0.0,
-///     phi1: 0.0,
-///     phi2: 0.0,
-///     table_clearance: None,
-///     tool_radius: 0.0,
-///     tolerance: 20.0,
-/// };
+/// let request = Request::new(Kind::Platform, 20.0);
 /// let points = [[0.0, 0.0, 1200.0], [0.0, 0.0, 600.0]];
-/// let members = contains(&Machine::verne(), &request, &points, &Unobserved)?;
-/// assert!(members[0].inside && !members[1].inside);
+/// let memberships = contains(&Machine::verne(), &request, &points, &Unobserved)?;
+/// assert!(memberships[0].inside && !memberships[1].inside);
 /// # Ok::<(), WorkspaceError>(())
 /// ```
 pub fn contains(
@@ -79,35 +71,39 @@ pub fn contains(
     let part = request.kind == Kind::Part;
     let clearance = request.clearance(machine);
     let nothing = Membership { inside: false, margin: None };
-    let mut members = Pace::new(observer).filled(&nothing, points.len())?;
-    points.par_chunks(BATCH).zip(members.par_chunks_mut(BATCH)).try_for_each(|(points, members)| {
-        go_on(observer)?;
-        // All solutions first, then all margins: the processor overlaps similar short computations.
-        let mut solved = MarginBatch::new();
-        for (points, places) in points.chunks(BATCH_SIZE).zip(members.chunks_mut(BATCH_SIZE)) {
-            solved.clear();
-            for (i, (&point, place)) in points.iter().zip(&mut *places).enumerate() {
-                match solution(machine, request, point) {
-                    Ok(posture) => solved.push(i, &posture),
-                    Err(refusal) => *place = refused(&refusal),
+    let mut memberships = StepCounter::new(observer).filled(&nothing, points.len())?;
+    points.par_chunks(BATCH).zip(memberships.par_chunks_mut(BATCH)).try_for_each(
+        |(points, memberships)| {
+            check_cancelled(observer)?;
+            // All solutions first, then all margins: the processor overlaps similar short computations.
+            let mut solved = MarginBatch::new();
+            for (points, memberships) in points.chunks(BATCH_SIZE).zip(memberships.chunks_mut(BATCH_SIZE)) {
+                solved.clear();
+                for (i, (&point, member)) in points.iter().zip(&mut *memberships).enumerate() {
+                    match solution(machine, request, point) {
+                        Ok(posture) => solved.push(i, &posture),
+                        Err(refusal) => *member = refused(&refusal),
+                    }
+                }
+                solved.worst(
+                    machine,
+                    |alpha| part.then(|| table_angles(machine, alpha, request.phi1, request.phi2)),
+                    clearance.as_ref(),
+                    |i, margin| {
+                        memberships[i] = Membership { inside: margin.value >= 0.0, margin: Some(margin) }
+                    },
+                );
+                for (&point, member) in points.iter().zip(memberships) {
+                    if !member.inside && request.kind != Kind::Platform {
+                        consider_other_solutions(machine, request, clearance.as_ref(), point, member);
+                    }
                 }
             }
-            solved.worst(
-                machine,
-                |alpha| part.then(|| table_angles(machine, alpha, request.phi1, request.phi2)),
-                clearance.as_ref(),
-                |i, margin| places[i] = Membership { inside: margin.value >= 0.0, margin: Some(margin) },
-            );
-            for (&point, place) in points.iter().zip(places) {
-                if !place.inside && request.kind != Kind::Platform {
-                    others(machine, request, clearance.as_ref(), point, place);
-                }
-            }
-        }
-        Ok(())
-    })?;
+            Ok(())
+        },
+    )?;
     observer.progress(1.0);
-    Ok(members)
+    Ok(memberships)
 }
 
 /// The posture in the working mode at a point in the frame of the request's kind.
@@ -126,12 +122,12 @@ fn solution(machine: &Machine, request: &Request, point: Point) -> Result<Postur
 
 /// Decides a point for which the working mode has several solutions. The point is inside if one of them keeps every
 /// limit. The reported margin is that of the solution with the best worst margin.
-fn others(
+fn consider_other_solutions(
     machine: &Machine,
     request: &Request,
     clearance: Option<&Clearance>,
     point: Point,
-    place: &mut Membership,
+    member: &mut Membership,
 ) {
     let found = every_working(machine, request, point);
     if found.len() < 2 {
@@ -141,7 +137,7 @@ fn others(
         .iter()
         .map(|posture| margins(machine, request, clearance, posture).worst_with_fraction(machine));
     if let Some((margin, _)) = weighed.max_by(|(_, a), (_, b)| a.total_cmp(b)) {
-        *place = Membership { inside: margin.value >= 0.0, margin: Some(margin) };
+        *member = Membership { inside: margin.value >= 0.0, margin: Some(margin) };
     }
 }
 

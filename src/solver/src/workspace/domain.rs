@@ -1,8 +1,14 @@
 //! The plane domain: every limit as a function of (x, y), zero on the limit and positive inside.
 
-mod floor;
+mod column_end;
+mod limit;
+mod table;
 
-use std::f64::consts::{PI, TAU};
+pub(super) use column_end::ColumnEnd;
+pub use limit::Binding;
+pub(super) use limit::{LIMITS, Limit, LimitSet, RodPairs, SLIDER_PAIRS, stroke_binding};
+
+use std::f64::consts::PI;
 
 use super::column::Column;
 use super::image::Image;
@@ -15,31 +21,24 @@ use crate::margins::interference;
 use crate::parallel_matrix::{determinant, matrix};
 use crate::rods::Rods;
 use crate::table::table_angles;
-use floor::Floor;
 
-/// Number of limits.
-pub(super) const LIMITS: usize = 27;
-/// First of the limits for rod distances: of leg I's rods, of a parallelogram's rods, between legs.
-pub(super) const INTERFERENCE: usize = 15;
-/// First of the limits for the strokes.
-pub(super) const STROKES: usize = 18;
-/// First of the two limits for the table's tilt.
-pub(super) const TILT: usize = 24;
-/// The limit for the table's plane.
-pub(super) const TABLE: usize = 26;
-/// The table's number among the bounds of a sheet, after the three sliders.
-pub(super) const BY_TABLE: u8 = 3;
-/// Pairs of sliders (i, j): `z_hi` of slider i over `z_lo` of slider j.
-pub(super) const PAIRS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
-const RODS: [u8; 4] = [11, 12, 21, 31];
+/// The function of a limit that does not apply: a positive constant.
+const SATISFIED: f64 = 1.0;
 
-/// The constraint that bounds a piece of the workspace, and the part of the machine that it belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Binding {
-    /// The constraint.
-    pub constraint: Constraint,
-    /// The part of the machine.
-    pub element: Element,
+/// Least Z of the tool centre point, and which of tool and joints is lowest.
+#[derive(Clone, Copy, Debug)]
+struct Floor {
+    least: f64,
+    element: Element,
+}
+
+impl Floor {
+    /// The floor of a request, if the table is a limit.
+    fn new(machine: &Machine, request: &Request) -> Option<Self> {
+        let clearance = request.clearance(machine)?;
+        let (depth, element) = clearance.depth(machine, request.phi1);
+        Some(Self { least: clearance.least + depth, element })
+    }
 }
 
 /// All limits' values at a point.
@@ -54,8 +53,8 @@ pub(super) struct Domain<'a> {
     pub(super) height: Option<f64>,
     /// Squared chords of the cones' half-angles at the sliders and at the platform.
     pub(super) chords: [f64; 2],
-    /// Middle and half of the tilting range, shifted by phi1 so that it applies to alpha.
-    tilt: Option<[f64; 2]>,
+    /// Middle and half of the tilting range, shifted by phi1 so that it applies to alpha; `None` for a whole turn.
+    pub(super) alpha_range: Option<[f64; 2]>,
     /// The table's plane, if it is a limit.
     floor: Option<Floor>,
     /// Whether the domain is empty because the constant rotary angle is out of its range, or because a slice lies
@@ -78,7 +77,7 @@ impl<'a> Domain<'a> {
             image: Image::new(machine, request),
             height,
             chords: [chord(limits.slider_cone), chord(limits.platform_cone)],
-            tilt: (part && half < PI).then_some([low + half + request.phi1, half]),
+            alpha_range: (part && half < PI).then_some([low + half + request.phi1, half]),
             floor,
             empty: below || part && !(limits.rotary[0]..=limits.rotary[1]).contains(&theta2),
         }
@@ -92,18 +91,17 @@ impl<'a> Domain<'a> {
     /// All limits at a column.
     pub(super) fn values(&self, column: &Column) -> Values {
         let rods = self.rods(column);
-        let mut values = std::array::from_fn(|limit| {
-            if (INTERFERENCE..STROKES).contains(&limit) { 0.0 } else { self.with_rods(limit, column, &rods) }
-        });
         let g = self.machine.geometry();
         let distances = interference::least_distances_by_legs(g, &rods);
-        values[INTERFERENCE..STROKES].copy_from_slice(&distances.map(|d| d - 2.0 * g.rod_radius));
-        values
+        Limit::ALL.map(|limit| match limit {
+            Limit::RodDistance(pairs) => distances[pairs as usize] - 2.0 * g.rod_radius,
+            _ => self.with_rods(limit, column, &rods),
+        })
     }
 
-    /// One limit at a column.
+    /// One limit at a column, by its number.
     pub(super) fn value(&self, limit: usize, column: &Column) -> f64 {
-        self.with_rods(limit, column, &self.rods(column))
+        self.with_rods(Limit::ALL[limit], column, &self.rods(column))
     }
 
     #[inline]
@@ -113,29 +111,40 @@ impl<'a> Domain<'a> {
         Rods::new(self.machine.geometry(), &d.inverse_lengths, x, column.y, column.f, [column.c, column.s])
     }
 
+    /// One limit at a column, given its rods.
     #[inline]
-    pub(super) fn with_rods(&self, limit: usize, column: &Column, rods: &Rods) -> f64 {
+    pub(super) fn with_rods(&self, limit: Limit, column: &Column, rods: &Rods) -> f64 {
         let (g, home, limits) = (self.machine.geometry(), &self.machine.home, self.machine.limits());
         match limit {
-            0 => LegOneCubic::new(&self.machine.mechanism, column.x, column.y).closing_margin(),
-            1 => g.R1 * column.c - g.r1,
-            2 | 3 => rods.vectors[limit - 2][2] - limits.serial_margin * g.L1,
-            4 => column.square[1] - (limits.serial_margin * g.L2).powi(2),
-            5 => column.square[2] - (limits.serial_margin * g.L3).powi(2),
-            6 => determinant(&matrix(g, rods)) * home.det.signum() - limits.parallel_margin,
-            7..=10 => self.chords[0] - chord(axis(&home.slider_axes, limit - 7), rods.directions[limit - 7]),
-            11..=14 => {
-                let [x, y, z] = rods.directions[limit - 11];
+            Limit::LegOneReach => {
+                LegOneCubic::new(&self.machine.mechanism, column.x, column.y).closing_margin()
+            }
+            Limit::LegOneCrossing => g.R1 * column.c - g.r1,
+            Limit::LegOneSerial(rod) => rods.vectors[usize::from(rod)][2] - limits.serial_margin * g.L1,
+            Limit::LegSerial(leg) => {
+                let (length, square) =
+                    if leg == 2 { (g.L2, column.square[1]) } else { (g.L3, column.square[2]) };
+                square - (limits.serial_margin * length).powi(2)
+            }
+            Limit::ParallelSingularity => {
+                determinant(&matrix(g, rods)) * home.det.signum() - limits.parallel_margin
+            }
+            Limit::SliderCone(rod) => {
+                let rod = usize::from(rod);
+                self.chords[0] - chord(axis(&home.slider_axes, rod), rods.directions[rod])
+            }
+            Limit::PlatformCone(rod) => {
+                let rod = usize::from(rod);
+                let [x, y, z] = rods.directions[rod];
                 let (c, s) = (rods.c, rods.s);
-                self.chords[1]
-                    - chord(axis(&home.platform_axes, limit - 11), [x, c * y + s * z, c * z - s * y])
+                self.chords[1] - chord(axis(&home.platform_axes, rod), [x, c * y + s * z, c * z - s * y])
             }
-            INTERFERENCE..STROKES => {
-                interference::least_distances_by_legs(g, rods)[limit - INTERFERENCE] - 2.0 * g.rod_radius
+            Limit::RodDistance(pairs) => {
+                interference::least_distances_by_legs(g, rods)[pairs as usize] - 2.0 * g.rod_radius
             }
-            STROKES..TILT => self.stroke(limit - STROKES, column),
-            TILT..TABLE => self.tilt(limit - TILT, column),
-            _ => self.above_table(column),
+            Limit::Stroke(number) => self.stroke(usize::from(number), column),
+            Limit::Tilt { high } => self.tilt(high, column),
+            Limit::TablePlane => self.height_over_table(column),
         }
     }
 
@@ -146,7 +155,7 @@ impl<'a> Domain<'a> {
         let stroke = &self.machine.limits().stroke;
         match self.height {
             None => {
-                let (i, j) = PAIRS[number];
+                let (i, j) = SLIDER_PAIRS[number];
                 (stroke[i][1] + column.f[i]) - (stroke[j][0] + column.f[j])
             }
             Some(height) => {
@@ -158,93 +167,17 @@ impl<'a> Domain<'a> {
         }
     }
 
-    /// Middle and half of the range of alpha that the tilting range allows; `None` for a whole turn.
-    pub(super) fn tilted(&self) -> Option<[f64; 2]> {
-        self.tilt
-    }
-
-    /// The distance of theta1 from its least value, or from its greatest.
-    fn tilt(&self, end: usize, column: &Column) -> f64 {
-        let alpha = column.alpha();
-        let [a, b] = self.tilt_pieces(end).map(|[sign, offset]| sign * alpha + offset);
-        a.max(b)
-    }
-
-    /// A tilt limit as the greater of two linear functions of alpha, each a slope and an offset.
-    ///
-    /// In the working mode |alpha| is below a right angle. So at most two of the range's copies, a turn apart,
-    /// matter: the copy whose middle is nearest to 0 and, for a range of more than half a turn, the copy on the other
-    /// side of 0. The second copy joins the limit whose end is next to it, so that no limit jumps.
-    pub(super) fn tilt_pieces(&self, end: usize) -> [[f64; 2]; 2] {
-        let Some([middle, half]) = self.tilt else { return [[0.0, half_turn()]; 2] };
-        let middle = middle - TAU * (middle / TAU).round();
-        let copy = (middle.abs() + half > 1.5 * PI).then_some(middle - TAU.copysign(middle));
-        let (low, high) = ([1.0, half - middle], [-1.0, half + middle]);
-        match (end, copy) {
-            (0, Some(copy)) if middle > 0.0 => [low, [-1.0, half + copy]],
-            (1, Some(copy)) if middle <= 0.0 => [high, [1.0, half - copy]],
-            (0, _) => [low; 2],
-            _ => [high; 2],
-        }
-    }
-
-    /// The lowest z of each slider's stroke at this column; their maximum is `z_lo`.
-    #[inline]
-    pub(super) fn lows(&self, column: &Column) -> [f64; 3] {
-        let stroke = &self.machine.limits().stroke;
-        std::array::from_fn(|i| stroke[i][0] + column.f[i])
-    }
-
-    /// The highest z of each slider's stroke at this column; their minimum is `z_hi`.
-    #[inline]
-    pub(super) fn highs(&self, column: &Column) -> [f64; 3] {
-        let stroke = &self.machine.limits().stroke;
-        std::array::from_fn(|i| stroke[i][1] + column.f[i])
-    }
-
     /// The binding constraint of a limit at a point on it, with the two rods that are nearest there.
-    pub(super) fn binding_at(&self, limit: u8, at: [f64; 2]) -> Binding {
-        if usize::from(limit) == TABLE {
-            return self.floor_binding();
+    pub(super) fn binding_at(&self, limit: Limit, at: [f64; 2]) -> Binding {
+        match limit {
+            Limit::TablePlane => self.table_binding(),
+            Limit::RodDistance(_) => {
+                let rods = self.rods(&self.column(at));
+                let (_, [a, b]) = interference::least_distance(self.machine.geometry(), &rods);
+                Binding { constraint: Constraint::RodInterference, element: Element::Rods(a, b) }
+            }
+            _ => limit.binding(),
         }
-        let found = binding(limit);
-        if found.constraint != Constraint::RodInterference {
-            return found;
-        }
-        let (_, [a, b]) = interference::least_distance(self.machine.geometry(), &self.rods(&self.column(at)));
-        Binding { element: Element::Rods(a, b), ..found }
-    }
-
-    /// One sheet's height by each slider's end of stroke, and by the table.
-    #[inline]
-    pub(super) fn sheet(&self, column: &Column, upper: bool) -> [f64; 4] {
-        let [a, b, c] = if upper { self.highs(column) } else { self.lows(column) };
-        [a, b, c, self.table_bound(column, upper)]
-    }
-
-    /// The slider, or the table, that binds the sheet; the first of equal ones.
-    #[inline]
-    pub(super) fn binding_slider([a, b, c, table]: [f64; 4], upper: bool) -> usize {
-        let before = |a: f64, b: f64| if upper { a < b } else { a > b };
-        let (first, height) = if before(b, a) { (1, b) } else { (0, a) };
-        let (first, height) = if before(c, height) { (2, c) } else { (first, height) };
-        if before(table, height) { usize::from(BY_TABLE) } else { first }
-    }
-
-    /// `z_lo` and `z_hi`, or twice the height at which a slice meets the column.
-    #[inline]
-    pub(super) fn ends(&self, column: &Column) -> [f64; 2] {
-        if let Some(height) = self.height {
-            return [self.image.z_at(column, height); 2];
-        }
-        self.above_floor(column, self.stroke_ends(column))
-    }
-
-    /// The ends that the strokes leave of a column.
-    #[inline]
-    fn stroke_ends(&self, column: &Column) -> [f64; 2] {
-        let ([a, b, c], [d, e, f]) = (self.lows(column), self.highs(column));
-        [a.max(b).max(c), d.min(e).min(f)]
     }
 
     /// Whether columns are cut by one plane and have no extent.
@@ -265,11 +198,6 @@ impl<'a> Domain<'a> {
     }
 }
 
-/// The value of a limit that is never violated.
-const fn half_turn() -> f64 {
-    PI
-}
-
 /// One axis of four that are stored by coordinate.
 #[inline]
 fn axis([x, y, z]: &Columns, i: usize) -> [f64; 3] {
@@ -279,29 +207,4 @@ fn axis([x, y, z]: &Columns, i: usize) -> [f64; 3] {
 #[inline]
 fn chord(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum()
-}
-
-/// The binding constraint of a limit, with strokes as in a slice. The nearest rods need a column: see
-/// [`Domain::binding_at`].
-pub(super) fn binding(limit: u8) -> Binding {
-    let limit = usize::from(limit);
-    let number = limit.saturating_sub(STROKES);
-    let slider = u8::try_from(number / 2 + 1).unwrap_or(1);
-    let (constraint, element) = match limit {
-        0 => (Constraint::LegLength, Element::Leg(1)),
-        1 => (Constraint::RodCrossing, Element::Leg(1)),
-        2..=5 => (Constraint::SerialSingularity, Element::Rod(RODS[limit - 2])),
-        6 => (Constraint::ParallelSingularity, Element::Platform),
-        7..=10 => (Constraint::SliderJoint, Element::Rod(RODS[limit - 7])),
-        11..=14 => (Constraint::PlatformJoint, Element::Rod(RODS[limit - 11])),
-        INTERFERENCE..STROKES => (Constraint::RodInterference, Element::Platform),
-        STROKES..TILT => (Constraint::Stroke, Element::Stroke { slider, high: number % 2 == 1 }),
-        _ => (Constraint::Tilt, Element::Range { high: limit > TILT }),
-    };
-    Binding { constraint, element }
-}
-
-/// A sheet's binding constraint: the end of a slider's stroke, sliders counted from 0.
-pub(super) fn stroke_binding(slider: u8, high: bool) -> Binding {
-    Binding { constraint: Constraint::Stroke, element: Element::Stroke { slider: slider + 1, high } }
 }

@@ -5,10 +5,8 @@ use super::request::{Kind, Request};
 use crate::machine::{Machine, Table};
 use crate::pose::Point;
 
-/// Least |cos theta1| at which a plane Z = const of the part frame cuts a column at one point.
-const UPRIGHT: f64 = 1e-12;
-/// The z, mm, that stands for a plane that does not meet a column: beyond every stroke.
-pub(super) const NOWHERE: f64 = 1e15;
+/// Least |cos theta1| of a column. A plane Z = const of the part frame meets a steeper one far beyond every stroke.
+const LEAST_COSINE: f64 = 1e-12;
 
 /// The map of each kind. It is linear in z along a column, and so is its Jacobian determinant.
 #[derive(Clone, Copy, Debug)]
@@ -37,8 +35,8 @@ impl Image {
         }
     }
 
-    /// Whether the images of parallel columns are not parallel.
-    pub(super) fn turns(&self) -> bool {
+    /// Whether the map turns columns, so that their images are not parallel.
+    pub(super) fn turns_columns(&self) -> bool {
         matches!(self, Self::Part { .. })
     }
 
@@ -68,7 +66,7 @@ impl Image {
             Self::Part { length, table, phi1, .. } => {
                 let [c1, s1] = tilt(column, *phi1);
                 let over = table.dt - height - length * phi1[0] + column.y * s1;
-                if c1.abs() > UPRIGHT { table.da + over / c1 } else { NOWHERE.copysign(over * c1) }
+                table.da + over / c1.abs().max(LEAST_COSINE).copysign(c1)
             }
         }
     }
@@ -92,9 +90,9 @@ impl Image {
         }
     }
 
-    /// d(point) for a displacement (dx, dy, dz) with the rotation da of the platform.
+    /// The differential of the map: d(point) for a displacement (dx, dy, dz) with the rotation da of the platform.
     #[inline]
-    pub(super) fn push(&self, column: &Column, z: f64, [dx, dy, dz]: Point, da: f64) -> Point {
+    pub(super) fn differential(&self, column: &Column, z: f64, [dx, dy, dz]: Point, da: f64) -> Point {
         match self {
             Self::Platform => [dx, dy, dz],
             Self::Tool { length } => [dx, dy - length * column.c * da, dz - length * column.s * da],

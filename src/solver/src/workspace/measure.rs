@@ -2,17 +2,17 @@
 //!
 //! V = ∬ (`z_hi` - `z_lo`)(j0 + j1 (`z_hi` + `z_lo`)/2), where j0 + j1 z is the Jacobian determinant of the kind's
 //! map. The inner integral runs over the intervals of a line x = const. They follow from the domain's cover and are
-//! cut where another slider begins to bind. The outer integral runs over panels between the x at which the structure
-//! of the line changes; the cover proves where it may change. The inner integral goes like a square root there. The
-//! substitution x = x0 + (x1 - x0)(3 t² - 2 t³) makes it smooth.
+//! cut where another slider, or the table, begins to bind. The outer integral runs over panels between the x at which
+//! the structure of the line changes; the cover proves where it may change. The inner integral goes like a square root
+//! there. The substitution x = x0 + (x1 - x0)(3 t² - 2 t³) makes it smooth.
 
-mod crossing;
 mod line;
-mod panels;
+mod line_intervals;
+mod outer_integral;
 
 use super::domain::Domain;
 use super::fold::{self, Covering};
-use super::observer::{Observer, go_on};
+use super::observer::{Observer, check_cancelled};
 use super::quadrature::Integral;
 use super::request::{Request, WorkspaceError};
 use crate::machine::Machine;
@@ -31,7 +31,7 @@ pub enum Volume {
     /// Two platform positions reach the same position somewhere, so the integral is not the volume of the set.
     /// [`measure`] detects it in two ways: the Jacobian determinant has both signs on the columns that the
     /// integration visits, or one of 2,000 points, spread evenly over the columns, has two feasible inverse
-    /// solutions. It thus finds two parts of the domain with the same image if that image is more than about 0.15 %
+    /// solutions. It thus finds two regions of the domain with the same image if that image is more than about 0.15 %
     /// of the workspace, and may miss a smaller one. If one of the points has a second working solution that is not
     /// feasible, it examines 20,000 points, and the error of [`Volume::Value`] includes the part that it may have
     /// missed.
@@ -57,8 +57,8 @@ pub struct Measure {
 /// Computes the volume and the area of a workspace, with errors: as a rule 1e-6 of the value or better.
 ///
 /// The error consists of the area, and a bound of the volume, of the boxes that the cover leaves undecided, of the
-/// places of structural changes, and of four times the quadrature's estimate. The last is an estimate, not a bound; the
-/// [module's documentation](super) lists what is proved. The request's tolerance has no effect.
+/// places of structural changes, and of four times the quadrature's estimate. The last is an estimate, not a bound;
+/// the [module's documentation](super) lists what is proved. The request's tolerance has no effect.
 ///
 /// # Units
 ///
@@ -66,8 +66,8 @@ pub struct Measure {
 ///
 /// # Errors
 ///
-/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`MAX_INPUT`](crate::MAX_INPUT) or,
-///   for the tolerance, below 0.001 mm.
+/// - [`WorkspaceError::OutOfDomain`]: a number of the request is not finite, beyond [`MAX_INPUT`](crate::MAX_INPUT)
+///   or, for the tolerance, below 0.001 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 ///
 /// # References
@@ -81,15 +81,7 @@ pub struct Measure {
 /// use verne_solver::Machine;
 /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, Volume, measure};
 ///
-/// let request = Request {
-///     kind: Kind::Platform,
-///     tool_length: 0.0,
-///     phi1: 0.0,
-///     phi2: 0.0,
-///     table_clearance: None,
-///     tool_radius: 0.0,
-///     tolerance: 20.0,
-/// };
+/// let request = Request::new(Kind::Platform, 20.0);
 /// let measured = measure(&Machine::verne(), &request, &Unobserved)?;
 /// let Volume::Value { value, error } = measured.volume else { panic!("the platform's map does not fold") };
 /// assert!((value - 2.336_92e8).abs() < 1e3 && error < 1e-6 * value);
@@ -101,12 +93,12 @@ pub fn measure(
     observer: &dyn Observer,
 ) -> Result<Measure, WorkspaceError> {
     request.check()?;
-    go_on(observer)?;
+    check_cancelled(observer)?;
     let domain = Domain::new(machine, request, None);
     if domain.empty {
         return Ok(Measure::of(&Integral::ZERO, &line::Extremes::default()));
     }
-    let (integral, extremes) = panels::integrate(&domain, observer)?;
+    let (integral, extremes) = outer_integral::integrate(&domain, observer)?;
     let covering = fold::covering(machine, request, &domain, observer)?;
     observer.progress(1.0);
     Ok(Measure::of(&integral, &extremes).covered(covering))
@@ -121,15 +113,7 @@ impl Measure {
     /// use verne_solver::Machine;
     /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, measure};
     ///
-    /// let request = Request {
-    ///     kind: Kind::Platform,
-    ///     tool_length: 0.0,
-    ///     phi1: 0.0,
-    ///     phi2: 0.0,
-    ///     table_clearance: None,
-    ///     tool_radius: 0.0,
-    ///     tolerance: 20.0,
-    /// };
+    /// let request = Request::new(Kind::Platform, 20.0);
     /// assert!(!measure(&Machine::verne(), &request, &Unobserved)?.folded());
     /// # Ok::<(), WorkspaceError>(())
     /// ```

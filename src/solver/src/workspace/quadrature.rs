@@ -42,10 +42,33 @@ impl<const N: usize> Integral<N> {
         }
     }
 
+    pub(super) fn times(&self, factor: f64) -> Self {
+        Self { value: self.value.map(|v| v * factor), error: self.error.map(|e| e * factor) }
+    }
+
     /// Whether every error is within its allowance.
     pub(super) fn within(&self, allowed: &[f64; N]) -> bool {
         self.error.iter().zip(allowed).all(|(error, allowed)| error <= allowed)
     }
+}
+
+/// Integrates over a range: applies the rule, and halves the range up to `depth` times until the errors are within
+/// their allowances. A half has half the allowance. `f` receives the parameter, the length of the range that contains
+/// it, and that range's allowance.
+pub(super) fn adaptive<const N: usize, E>(
+    [a, b]: [f64; 2],
+    allowed: &[f64; N],
+    depth: u32,
+    f: &mut impl FnMut(f64, f64, &[f64; N]) -> Result<Integral<N>, E>,
+) -> Result<Integral<N>, E> {
+    let whole = rule([a, b], |t| f(t, b - a, allowed))?;
+    if depth == 0 || whole.within(allowed) {
+        return Ok(whole);
+    }
+    let (middle, allowed) = (0.5 * (a + b), allowed.map(|allowed| 0.5 * allowed));
+    let mut total = adaptive([a, middle], &allowed, depth - 1, f)?;
+    total.add(&adaptive([middle, b], &allowed, depth - 1, f)?);
+    Ok(total)
 }
 
 /// Applies the rule once to `[a, b]`. It adds the function's own error, if it has one.
@@ -59,13 +82,13 @@ pub(super) fn rule<const N: usize, E>(
     for (i, (node, weight)) in NODES.into_iter().zip(KRONROD).enumerate() {
         let signs: &[f64] = if node == 0.0 { &[0.0] } else { &[-1.0, 1.0] };
         for sign in signs {
-            let part = f(middle + sign * node * half)?;
+            let sample = f(middle + sign * node * half)?;
             for n in 0..N {
-                kronrod[n] += weight * part.value[n];
-                magnitude[n] += weight * part.value[n].abs();
-                error[n] += weight * part.error[n];
+                kronrod[n] += weight * sample.value[n];
+                magnitude[n] += weight * sample.value[n].abs();
+                error[n] += weight * sample.error[n];
                 if i % 2 == 1 {
-                    gauss[n] += GAUSS[i / 2] * part.value[n];
+                    gauss[n] += GAUSS[i / 2] * sample.value[n];
                 }
             }
         }

@@ -87,6 +87,25 @@ impl fmt::Display for WorkspaceError {
 impl std::error::Error for WorkspaceError {}
 
 impl Request {
+    /// A request without a tool: its length, its radius and the angles phi1 and phi2 are zero.
+    ///
+    /// # Units
+    ///
+    /// The tolerance is in mm.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::workspace::{Kind, Request};
+    ///
+    /// let request = Request { tool_length: 150.0, ..Request::new(Kind::Tool, 0.5) };
+    /// assert_eq!((request.phi1, request.table_clearance), (0.0, None));
+    /// ```
+    pub const fn new(kind: Kind, tolerance: f64) -> Self {
+        let (tool_length, phi1, phi2, tool_radius) = (0.0, 0.0, 0.0, 0.0);
+        Self { kind, tool_length, phi1, phi2, table_clearance: None, tool_radius, tolerance }
+    }
+
     /// The least height over the table's plane, if it is a limit of this request.
     pub(super) fn clearance(&self, machine: &Machine) -> Option<Clearance> {
         let part = self.kind == Kind::Part;

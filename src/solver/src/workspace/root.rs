@@ -56,7 +56,7 @@ mod tests {
     use super::zero;
 
     #[test]
-    fn what_is_not_finite_has_some_zero_between_the_ends() {
+    fn values_that_are_not_finite_give_a_zero_between_the_ends() {
         for [start, end] in [[f64::NAN, 1.0], [1.0, f64::NAN], [f64::INFINITY, f64::NEG_INFINITY]] {
             for middle in [f64::NAN, f64::INFINITY, -1.0] {
                 let found = zero(start, end, 1e-9, |_| middle);

@@ -1,31 +1,25 @@
 //! The cut of a workspace at a height of its own frame.
 
 mod contour;
-mod loops;
+mod polygon;
 
 use super::cover::{Cover, Purpose};
 use super::domain::Domain;
-use super::observer::{Observer, go_on};
-use super::plane::{ATTEMPTS, Plane};
+use super::observer::{Observer, check_cancelled};
+use super::plane::{LATTICES, PlaneMesh};
 use super::request::{Request, WorkspaceError};
 use crate::machine::Machine;
 use crate::request_range::MAX_INPUT;
+use contour::contours_at;
+use polygon::{polygons, ring_area};
 
 pub use contour::Contour;
-
-/// A closed polygon with holes. The last corner of a ring joins the first.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Polygon {
-    /// Counter-clockwise.
-    pub outer: Vec<[f64; 2]>,
-    /// Clockwise.
-    pub holes: Vec<Vec<[f64; 2]>>,
-}
+pub use polygon::Polygon;
 
 /// The cut of a workspace at one height: (x, y) in the frame of the request's kind, mm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slice {
-    /// Parts of the cut. Empty if the plane misses the workspace.
+    /// The components of the cut. Empty if the plane misses the workspace.
     pub polygons: Vec<Polygon>,
     /// Lines of constant alpha within the cut.
     pub contours: Vec<Contour>,
@@ -60,15 +54,7 @@ pub struct Slice {
 /// use verne_solver::Machine;
 /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, slice};
 ///
-/// let request = Request {
-///     kind: Kind::Platform,
-///     tool_length: 0.0,
-///     phi1: 0.0,
-///     phi2: 0.0,
-///     table_clearance: None,
-///     tool_radius: 0.0,
-///     tolerance: 20.0,
-/// };
+/// let request = Request::new(Kind::Platform, 20.0);
 /// let cut = slice(&Machine::verne(), &request, 1200.0, &[0.1], &Unobserved)?;
 /// assert_eq!(cut.polygons.len(), 1);
 /// assert!(!cut.contours.is_empty());
@@ -85,14 +71,14 @@ pub fn slice(
     if height.is_nan() || height.abs() > MAX_INPUT {
         return Err(WorkspaceError::OutOfDomain { field: "height" });
     }
-    go_on(observer)?;
+    check_cancelled(observer)?;
     let domain = Domain::new(machine, request, Some(height));
-    let polygons = loops::polygons(&closed(&domain, request.tolerance, observer)?);
+    let polygons = polygons(&closed(&domain, request.tolerance, observer)?);
     let mut contours = Vec::new();
     if !polygons.is_empty() {
         for &alpha in alphas {
-            go_on(observer)?;
-            contours.extend(contour::at(&domain, alpha, request.tolerance));
+            check_cancelled(observer)?;
+            contours.extend(contours_at(&domain, alpha, request.tolerance));
         }
     }
     observer.progress(1.0);
@@ -100,10 +86,10 @@ pub fn slice(
 }
 
 /// The domain on the first lattice on which its sides close.
-fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<Plane, WorkspaceError> {
-    let cover = Cover::of(domain, Purpose::Pieces(tolerance), observer)?;
-    for squares in ATTEMPTS {
-        let plane = Plane::trace(domain, &cover, squares, tolerance, usize::MAX, observer)?;
+fn closed(domain: &Domain<'_>, tolerance: f64, observer: &dyn Observer) -> Result<PlaneMesh, WorkspaceError> {
+    let cover = Cover::of(domain, Purpose::Meshing(tolerance), observer)?;
+    for squares in LATTICES {
+        let plane = PlaneMesh::trace(domain, &cover, squares, tolerance, usize::MAX, observer)?;
         if plane.closes() {
             return Ok(plane);
         }
@@ -124,21 +110,13 @@ impl Slice {
     /// use verne_solver::Machine;
     /// use verne_solver::workspace::{Kind, Request, Unobserved, WorkspaceError, slice};
     ///
-    /// let request = Request {
-    ///     kind: Kind::Platform,
-    ///     tool_length: 0.0,
-    ///     phi1: 0.0,
-    ///     phi2: 0.0,
-    ///     table_clearance: None,
-    ///     tool_radius: 0.0,
-    ///     tolerance: 20.0,
-    /// };
+    /// let request = Request::new(Kind::Platform, 20.0);
     /// let cut = slice(&Machine::verne(), &request, 1200.0, &[], &Unobserved)?;
     /// assert!(cut.area() > 1e5 && cut.area() < 657_682.0, "the domain's area bounds it");
     /// # Ok::<(), WorkspaceError>(())
     /// ```
     pub fn area(&self) -> f64 {
         let rings = self.polygons.iter().flat_map(|polygon| polygon.holes.iter().chain([&polygon.outer]));
-        rings.map(|ring| loops::area(ring)).sum()
+        rings.map(|ring| ring_area(ring)).sum()
     }
 }

@@ -9,18 +9,11 @@ use verne_solver::workspace::{
 };
 
 use crate::machines::{changed, others};
+use crate::observer::CallLimit;
 use crate::topology::Topology;
-use crate::watched::Looks;
 
 fn asked(from: f64, to: f64, cell: f64) -> DexterityRequest {
-    DexterityRequest {
-        tool_length: 80.0,
-        table_clearance: None,
-        tool_radius: 0.0,
-        phi2: 0.3,
-        phi1: [from, to],
-        cell,
-    }
+    DexterityRequest { tool_length: 80.0, phi2: 0.3, ..DexterityRequest::new([from, to], cell) }
 }
 
 fn computed(machine: &Machine, request: &DexterityRequest) -> Dexterity {
@@ -47,7 +40,7 @@ fn surface(region: &Region) -> Surface {
 
 /// With a range of one inclination, both regions are the part's workspace for it.
 #[test]
-fn of_one_inclination_is_the_workspace() {
+fn regions_for_one_inclination_are_the_part_workspace() {
     let mut machines = vec![changed(|data| data.limits.tilt = [-0.2, 0.6])];
     machines.extend(others().into_iter().map(|(_, machine)| machine).skip(3));
     let machines = machines.into_iter().flat_map(|machine| [(machine.clone(), None), (machine, Some(120.0))]);
@@ -87,7 +80,7 @@ fn nodes(grid: &Grid) -> Vec<[f64; 3]> {
 }
 
 #[test]
-fn nodes_have_their_own_orientations() {
+fn intervals_of_a_node_are_its_orientations() {
     let machine = Machine::verne();
     let request =
         DexterityRequest { table_clearance: Some(10.0), tool_radius: 30.0, ..asked(-1.2, 1.0, 70.0) };
@@ -108,7 +101,7 @@ fn nodes_have_their_own_orientations() {
 /// A wider range makes the reachable region larger and the dexterous region smaller. The dexterous region lies in the
 /// reachable one.
 #[test]
-fn regions_nest() {
+fn a_wider_range_enlarges_the_reachable_and_shrinks_the_dexterous_region() {
     let machine = Machine::verne();
     let ranges = [[-0.1, 0.1], [-0.3, 0.3], [-0.6, 0.6]];
     let found = ranges.map(|[from, to]| volumes(&machine, &asked(from, to, 50.0), &Unobserved).unwrap());
@@ -118,7 +111,7 @@ fn regions_nest() {
 }
 
 #[test]
-fn surfaces_are_closed_and_of_the_right_volume() {
+fn surfaces_of_regions_are_closed_and_enclose_the_volume() {
     let short = changed(|data| data.limits.stroke = [[100.0, 400.0]; 3]);
     let above = |from, to, least, tool_length| DexterityRequest {
         table_clearance: Some(least),
@@ -145,7 +138,7 @@ fn surfaces_are_closed_and_of_the_right_volume() {
 }
 
 #[test]
-fn slabs_and_threads_do_not_matter() {
+fn a_map_does_not_depend_on_slabs_or_threads() {
     let machine = Machine::verne();
     let request = asked(-0.3, 0.4, 120.0);
     let whole = computed(&machine, &request);
@@ -165,7 +158,7 @@ fn slabs_and_threads_do_not_matter() {
 }
 
 #[test]
-fn nothing_is_an_answer() {
+fn an_empty_map_has_no_nodes() {
     let machine = changed(|data| data.limits.rotary = [-0.1, 0.1]);
     let found = computed(&machine, &asked(-0.2, 0.2, 50.0));
     assert_eq!(found.grid.nodes(), 0);
@@ -175,7 +168,7 @@ fn nothing_is_an_answer() {
 }
 
 #[test]
-fn too_much_is_refused() {
+fn a_grid_of_too_many_nodes_is_refused() {
     let machine = Machine::verne();
     let answer = Grid::new(&machine, &asked(-0.2, 0.2, 1.0), &Unobserved);
     assert!(matches!(answer, Err(WorkspaceError::TooManyNodes { nodes }) if nodes > 2e8), "{answer:?}");
@@ -192,7 +185,7 @@ fn too_much_is_refused() {
 
 /// The eleventh quarter of a turn divided by a quarter is less than eleven, in double precision.
 #[test]
-fn inclinations_some_turns_away_are_the_same() {
+fn ranges_that_differ_by_whole_turns_have_the_same_grid() {
     let machine = changed(|data| data.limits.rotary = [-7.0, 7.0]);
     let [near, far] = [0.0, 3.0 * std::f64::consts::TAU].map(|turns| {
         let request = asked(turns - 1.9, turns - 1.2, 150.0);
@@ -202,10 +195,10 @@ fn inclinations_some_turns_away_are_the_same() {
 }
 
 #[test]
-fn every_node_is_a_look() {
+fn a_map_calls_the_observer_at_every_node() {
     let machine = Machine::verne();
     let request = asked(-0.1, 0.1, 90.0);
-    let looks = Looks::until(usize::MAX);
-    let found = dexterity(&machine, &request, &looks).unwrap();
-    assert!(looks.count() > found.grid.nodes());
+    let calls = CallLimit::new(usize::MAX);
+    let found = dexterity(&machine, &request, &calls).unwrap();
+    assert!(calls.count() > found.grid.nodes());
 }

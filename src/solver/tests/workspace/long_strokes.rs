@@ -1,13 +1,12 @@
 //! Strokes many times as long as the legs: walls turn along their curves and have very many narrow triangles.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use verne_solver::Machine;
 use verne_solver::workspace::{
-    Kind, Observer, Request, Unobserved, WorkspaceError, expected_triangles, surface, surface_within,
+    Kind, Request, Unobserved, WorkspaceError, expected_triangles, surface, surface_within,
 };
 
 use crate::machines::{Random, changed, random, request};
+use crate::observer::CallLimit;
 use crate::surface::open_edges;
 
 fn with_strokes(length: f64) -> Machine {
@@ -48,7 +47,7 @@ fn any(numbers: &mut Random) -> Option<(Machine, Request)> {
 }
 
 #[test]
-fn the_expected_number_is_within_a_factor_of_the_made_one() {
+fn the_estimate_is_close_to_the_number_of_triangles() {
     let mut numbers = Random(0x1357_9bdf);
     let mut checked = 0;
     while checked < 80 {
@@ -63,33 +62,26 @@ fn the_expected_number_is_within_a_factor_of_the_made_one() {
 
 /// The estimate takes the time of a few thousand triangles, whatever its result.
 #[test]
-fn an_estimate_is_cheap() {
-    struct Looks(AtomicUsize);
-    impl Observer for Looks {
-        fn progress(&self, _part: f64) {}
-
-        fn cancelled(&self) -> bool {
-            self.0.fetch_add(1, Ordering::Relaxed);
-            false
-        }
-    }
+fn the_estimate_calls_the_observer_a_bounded_number_of_times() {
     for stroke in [750.0, 4_000.0, 90_000.0] {
-        let looks = Looks(AtomicUsize::new(0));
+        let calls = CallLimit::new(usize::MAX);
         let question = request(Kind::Part, 50.0, 0.0, 0.01);
-        let expected = expected_triangles(&with_strokes(stroke), &question, &looks).unwrap();
-        // Each cut triangle and each chord is a look.
-        let looks = looks.0.into_inner();
-        assert!(expected > 300_000.0 && looks < 20_000, "{stroke} mm: {expected}, {looks} looks");
+        let expected = expected_triangles(&with_strokes(stroke), &question, &calls).unwrap();
+        // Each cut triangle and each chord is a call.
+        assert!(
+            expected > 300_000.0 && calls.count() < 20_000,
+            "{stroke} mm: {expected}, {} calls",
+            calls.count()
+        );
     }
     // An empty workspace, whose limits jump.
-    let looks = Looks(AtomicUsize::new(0));
-    expected_triangles(&Machine::verne(), &request(Kind::Part, 50.0, 170.0, 20.0), &looks).unwrap();
-    let looks = looks.0.into_inner();
-    assert!(looks < 120_000, "{looks} looks");
+    let calls = CallLimit::new(usize::MAX);
+    expected_triangles(&Machine::verne(), &request(Kind::Part, 50.0, 170.0, 20.0), &calls).unwrap();
+    assert!(calls.count() < 120_000, "{} calls", calls.count());
 }
 
 #[test]
-fn a_surface_of_too_many_triangles_is_given_up() {
+fn a_surface_of_too_many_triangles_is_refused() {
     let (machine, question) = (Machine::verne(), request(Kind::Part, 50.0, 0.0, 1.0));
     let made = surface(&machine, &question, &Unobserved).unwrap().triangles.len();
     assert_eq!(

@@ -4,8 +4,7 @@ use verne_solver::workspace::{Kind, Request};
 use verne_solver::{Machine, MachineData};
 
 pub(crate) fn request(kind: Kind, tool_length: f64, phi1: f64, tolerance: f64) -> Request {
-    let phi1 = phi1.to_radians();
-    Request { kind, tool_length, phi1, phi2: 0.0, table_clearance: None, tool_radius: 0.0, tolerance }
+    Request { tool_length, phi1: phi1.to_radians(), ..Request::new(kind, tolerance) }
 }
 
 /// The same request with the table as a limit.

@@ -3,7 +3,7 @@
 use verne_solver::Machine;
 use verne_solver::workspace::{Kind, Measure, Request, Unobserved, Volume, measure};
 
-use crate::brute;
+use crate::column_lattice;
 use crate::machines::{changed, others, request};
 
 fn measured(machine: &Machine, request: &Request) -> Measure {
@@ -19,7 +19,7 @@ fn volume(measure: &Measure) -> (f64, f64) {
 
 /// Figures of a lattice of 2400² columns, to the digits that it resolves.
 #[test]
-fn reference_figures() {
+fn volumes_of_the_reference_machine_are_those_of_a_fine_lattice() {
     let machine = Machine::verne();
     let cases = [
         (Kind::Platform, 0.0, 0.0, 2.336_92e8),
@@ -44,7 +44,7 @@ fn reference_figures() {
 }
 
 #[test]
-fn brute_force_agrees() {
+fn volumes_of_other_machines_are_those_of_a_lattice() {
     for (name, machine) in others() {
         let answer = measured(&machine, &request(Kind::Platform, 0.0, 0.0, 1.0));
         let (value, _) = volume(&answer);
@@ -53,7 +53,7 @@ fn brute_force_agrees() {
                 .unwrap();
         let [low, high] = surface.bounds().unwrap();
         let rectangle = [[low[0] - 3.0, low[1] - 3.0], [high[0] + 3.0, high[1] + 3.0]];
-        let [area, brute] = brute::area_and_volume(&machine, rectangle, 700);
+        let [area, brute] = column_lattice::area_and_volume(&machine, rectangle, 700);
         // Such a lattice is off by about its cells' area times the root of the cells cut.
         assert!((answer.area - area).abs() < 2e-4 * area, "{name}: {} against {area}", answer.area);
         assert!((value - brute).abs() < 2e-4 * brute, "{name}: {value} against {brute}");
@@ -62,7 +62,7 @@ fn brute_force_agrees() {
 
 /// If the Jacobian determinant changes its sign, there is no volume.
 #[test]
-fn folds_are_told() {
+fn a_determinant_of_both_signs_is_reported_as_folded() {
     let answer = measured(&Machine::verne(), &request(Kind::Tool, -650.0, 0.0, 1.0));
     assert!(answer.folded(), "{answer:?}");
     let [least, greatest] = answer.jacobian.unwrap();
@@ -71,7 +71,7 @@ fn folds_are_told() {
 
 /// Two separate parts of the platform's domain have the same image, and the determinant has one sign on both.
 #[test]
-fn sets_covered_twice_are_told() {
+fn a_workspace_that_is_covered_twice_is_reported_as_folded() {
     let covered = |size: f64, cone: f64| {
         changed(|data| {
             let g = &mut data.geometry;
@@ -101,7 +101,7 @@ fn sets_covered_twice_are_told() {
 }
 
 #[test]
-fn nothing_is_an_answer() {
+fn an_empty_workspace_has_no_volume() {
     let closed = changed(|data| data.limits.slider_cone = 1e-6);
     let narrow = changed(|data| data.limits.rotary = [-0.1, 0.1]);
     let turned = Request { phi2: 1.0, ..request(Kind::Part, 50.0, 0.0, 1.0) };

@@ -9,7 +9,7 @@ use verne_solver::{
 use crate::machines::{Random, above, changed, others, random, request};
 
 #[test]
-fn is_solution_and_margins() {
+fn a_point_is_a_member_if_its_solution_keeps_all_margins() {
     let machine = Machine::verne();
     let mut random = Random(0x9e37_79b9);
     let points: Vec<[f64; 3]> = (0..100_000)
@@ -25,13 +25,13 @@ fn is_solution_and_margins() {
         assert_eq!(inside, answer.inside, "{point:?}");
         assert_eq!(inside, answer.margin.unwrap().value >= 0.0, "{point:?}");
     }
-    // The share of the box that is inside tells the volume.
+    // The fraction of the box that is inside gives the volume.
     let inside = answers.iter().filter(|answer| answer.inside).count() as f64 / 1e5;
     assert!((inside * 900.0 * 1_200.0 * 900.0 - 2.337e8).abs() < 3e6);
 }
 
 #[test]
-fn of_parts_uses_the_table() {
+fn membership_of_a_part_workspace_depends_on_the_table() {
     let machine = Machine::verne();
     let question = request(Kind::Part, 50.0, 60.0, 1.0);
     let mut random = Random(0x1234_5678);
@@ -72,7 +72,7 @@ fn worst_of_all(machine: &Machine, request: &Request, [x, y, z]: [f64; 3]) -> Ve
 /// A member's margin is computed without most constraints. It is the worst margin of one working solution, to the
 /// last bit, whichever constraint that is. Of several solutions it is that of a feasible one.
 #[test]
-fn names_the_worst_of_all_margins() {
+fn the_reported_margin_is_the_worst_of_one_solution() {
     let mut numbers = Random(0x5851_f42d);
     let mut machines: Vec<Machine> = others().into_iter().map(|(_, machine)| machine).collect();
     machines.push(Machine::verne());

@@ -1,7 +1,7 @@
 //! Inclinations of a point compared with solution and margins.
 
 use verne_solver::workspace::Binding;
-use verne_solver::workspace::dexterity::{DexterityRequest, Interval, orientations};
+use verne_solver::workspace::dexterity::{DexterityRequest, InclinationInterval, orientations};
 use verne_solver::{Clearance, Constraint, Machine, Margins, PartPose, part_working, table_angles};
 
 use crate::machines::{Random, changed, others, random};
@@ -20,7 +20,7 @@ fn reached(machine: &Machine, point: [f64; 3], phi1: f64, asked: &DexterityReque
     margins(machine, point, phi1, asked).is_some_and(|margins| margins.feasible())
 }
 
-fn within(intervals: &[Interval], phi1: f64) -> bool {
+fn within(intervals: &[InclinationInterval], phi1: f64) -> bool {
     intervals.iter().any(|interval| (interval.ends[0]..=interval.ends[1]).contains(&phi1))
 }
 
@@ -38,7 +38,7 @@ fn machines() -> Vec<Machine> {
 const SHARP: f64 = 2e-9;
 
 /// An end is where a margin is zero, and names that margin's constraint.
-fn ends_hold(machine: &Machine, point: [f64; 3], asked: &DexterityRequest, interval: &Interval) {
+fn ends_hold(machine: &Machine, point: [f64; 3], asked: &DexterityRequest, interval: &InclinationInterval) {
     let [from, to] = interval.ends;
     for (end, sign, binding) in [(from, -1.0, interval.bindings[0]), (to, 1.0, interval.bindings[1])] {
         let beside = |step: f64| end + sign * step;
@@ -59,7 +59,7 @@ fn ends_hold(machine: &Machine, point: [f64; 3], asked: &DexterityRequest, inter
 
 /// An inclination of a dense scan is in an interval exactly if every margin is kept.
 #[test]
-fn a_dense_scan_finds_the_same() {
+fn intervals_agree_with_a_dense_scan_of_phi1() {
     const SCAN: u32 = 720;
     let mut numbers = Random(0x6c07_8965);
     let (mut several, mut some, mut by_table) = (0, 0, 0);

@@ -1,4 +1,4 @@
-//! Parts of a workspace compared with the whole: areas and volumes sum within the claimed errors.
+//! Portions of a workspace compared with the whole: areas and volumes sum within the claimed errors.
 
 use verne_solver::workspace::{Kind, Measure, Request, Unobserved, Volume, measure};
 use verne_solver::{Machine, MachineData};
@@ -9,7 +9,7 @@ fn measured(machine: &Machine, request: &Request) -> Measure {
     measure(machine, request, &Unobserved).unwrap()
 }
 
-/// Sums of areas and volumes, and of their claimed errors. The volume is omitted if a part folds.
+/// Sums of areas and volumes, and of their claimed errors. The volume is omitted if a portion folds.
 #[derive(Default)]
 struct Sum {
     area: [f64; 2],
@@ -65,7 +65,7 @@ fn machines(seed: u64, count: usize) -> impl Iterator<Item = (Machine, Measure)>
 
 /// In the working mode |alpha| is below a right angle.
 #[test]
-fn bands_of_tilt() {
+fn bands_of_the_tilting_range_sum_to_the_whole() {
     let mut numbers = Random(0x1d87_2b41);
     for (number, (machine, whole)) in machines(0x9d5c_fb4a_0b73_11e9, 120).enumerate() {
         let most = whole.inclination.unwrap();
@@ -82,7 +82,7 @@ fn bands_of_tilt() {
 
 /// A tilting range of `width` and tools inclined by its multiples: adjacent bands of alpha. Most of them are empty.
 #[test]
-fn bands_of_phi1() {
+fn bands_of_phi1_sum_to_the_whole() {
     let mut numbers = Random(0x77aa_0913);
     for (machine, whole) in machines(0x2c1b_3c6d_5511_aa07, 60) {
         let width = whole.inclination.unwrap() * numbers.between(0.3, 0.9);
@@ -96,9 +96,9 @@ fn bands_of_phi1() {
     }
 }
 
-/// One slider's stroke in parts: each column is divided, and the volumes of its parts sum.
+/// One slider's stroke in bands: each column is divided, and the volumes of its portions sum.
 #[test]
-fn bands_of_stroke() {
+fn bands_of_a_stroke_sum_to_the_whole() {
     let mut numbers = Random(0x4432_9907);
     let question = request(Kind::Platform, 0.0, 0.0, 1.0);
     for (number, (machine, _)) in machines(0x51ed_270b_a3c4_0f15, 100).enumerate() {

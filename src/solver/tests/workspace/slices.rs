@@ -20,7 +20,7 @@ fn inside(slice: &Slice, [x, y]: [f64; 2]) -> bool {
 
 /// Points of the cut are members and other points are not, except near the cut's boundary.
 #[test]
-fn are_sections_of_the_set() {
+fn points_of_a_slice_are_members_of_the_workspace() {
     let thin = changed(|data| data.limits.stroke = [[0.0, 150.0], [0.0, 200.0], [0.0, 150.0]]);
     let verne = Machine::verne();
     let cases = [
@@ -44,14 +44,14 @@ fn are_sections_of_the_set() {
             .filter(|(point, member)| inside(&cut, [point[0], point[1]]) != member.inside)
             .count();
         assert!(differing <= 6, "{request:?} {height}: {differing}");
-        let share = members.iter().filter(|member| member.inside).count() as f64 / 20_000.0;
-        assert!((share * 1.6e6 - cut.area()).abs() < 0.03 * 1.6e6 * share.max(0.05), "{height}");
+        let fraction = members.iter().filter(|member| member.inside).count() as f64 / 20_000.0;
+        assert!((fraction * 1.6e6 - cut.area()).abs() < 0.03 * 1.6e6 * fraction.max(0.05), "{height}");
         assert!(cut.polygons.iter().all(|polygon| polygon.outer.len() >= 3));
     }
 }
 
 #[test]
-fn contours_have_their_angle() {
+fn points_of_a_contour_have_its_alpha() {
     let machine = Machine::verne();
     let angles = [-0.3, 0.0, 0.25];
     let cut =
@@ -67,7 +67,7 @@ fn contours_have_their_angle() {
 }
 
 #[test]
-fn beside_the_workspace_are_empty() {
+fn a_slice_beside_the_workspace_is_empty() {
     let cut = slice(&Machine::verne(), &request(Kind::Platform, 0.0, 0.0, 1.0), 100.0, &[0.0], &Unobserved);
     assert_eq!(cut.unwrap(), Slice::default());
 }

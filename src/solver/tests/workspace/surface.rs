@@ -40,7 +40,7 @@ fn all_kinds() -> [Request; 4] {
 }
 
 #[test]
-fn is_closed_and_outward() {
+fn surfaces_are_closed_and_face_outwards() {
     let machines = others().into_iter().chain([("verne", Machine::verne())]);
     for (name, machine) in machines {
         for request in all_kinds() {
@@ -57,7 +57,7 @@ fn is_closed_and_outward() {
 }
 
 #[test]
-fn is_closed_for_any_machine() {
+fn surfaces_of_random_machines_are_closed() {
     let mut numbers = Random(88_172_645_463_325_252);
     for _ in 0..60 {
         let Some(machine) = random(&mut numbers) else { continue };
@@ -69,7 +69,7 @@ fn is_closed_for_any_machine() {
 }
 
 #[test]
-fn reference_bounds_and_count() {
+fn the_reference_surface_has_the_known_bounds() {
     let mesh = made(&Machine::verne(), &request(Kind::Platform, 0.0, 0.0, 1.0));
     assert!(mesh.triangles.len() < 5_000, "{}", mesh.triangles.len());
     assert_eq!(euler(&mesh), 2);
@@ -82,7 +82,7 @@ fn reference_bounds_and_count() {
 
 /// The error of the volume against the number of triangles: both depend on the square of the edges.
 #[test]
-fn converges_at_second_order() {
+fn the_volume_converges_at_second_order() {
     let machine = Machine::verne();
     let question = |tolerance| request(Kind::Platform, 0.0, 0.0, tolerance);
     let Volume::Value { value, .. } = measure(&machine, &question(1.0), &Unobserved).unwrap().volume else {
@@ -98,7 +98,7 @@ fn converges_at_second_order() {
 /// Points of the true boundary, by bisection on solution and margins, are near the mesh, and points
 /// of the mesh near the true boundary; in every kind's frame.
 #[test]
-fn true_boundary_is_near() {
+fn surface_and_true_boundary_are_within_the_tolerance() {
     let kinds = [
         request(Kind::Platform, 0.0, 0.0, 1.0),
         request(Kind::Tool, 150.0, 0.0, 1.0),
@@ -202,7 +202,7 @@ fn to_triangle(p: [f64; 3], corners: [[f64; 3]; 3]) -> f64 {
 
 /// Every vertex lies on the true boundary: a step to one side is inside, to another outside.
 #[test]
-fn corners_are_on_the_true_boundary() {
+fn vertices_are_on_the_true_boundary() {
     let machine = Machine::verne();
     let question = request(Kind::Platform, 0.0, 0.0, 1.0);
     let mesh = made(&machine, &question);
@@ -220,7 +220,7 @@ fn corners_are_on_the_true_boundary() {
 }
 
 #[test]
-fn does_not_depend_on_threads() {
+fn a_surface_does_not_depend_on_the_number_of_threads() {
     let machine = Machine::verne();
     let question = request(Kind::Part, 50.0, 10.0, 0.5);
     let with = |threads: usize| {
@@ -232,7 +232,7 @@ fn does_not_depend_on_threads() {
 }
 
 #[test]
-fn empty_is_an_answer() {
+fn an_empty_workspace_has_an_empty_surface() {
     let machine = changed(|data| data.limits.rotary = [-0.1, 0.1]);
     let question = Request { phi2: 1.0, ..request(Kind::Part, 50.0, 0.0, 1.0) };
     assert_eq!(made(&machine, &question), Surface::default());
@@ -255,7 +255,7 @@ fn requests_out_of_domain_are_refused() {
 /// Walls of rod interference name the two rods whose distance is twice the radius there. Legs of one length are
 /// always equally near, and the first is named.
 #[test]
-fn interfering_rods_are_named() {
+fn walls_of_rod_interference_name_the_two_rods() {
     let machine = changed(|data| data.geometry.rod_radius = 60.0);
     let mesh = made(&machine, &request(Kind::Platform, 0.0, 0.0, 0.5));
     let mut pairs = HashMap::new();

@@ -28,28 +28,28 @@ impl Topology {
     pub(crate) fn of(surface: &Surface) -> Self {
         let mut found = Self::default();
         let mut edges: HashMap<[u32; 2], [u32; 2]> = HashMap::new();
-        let mut piece: Vec<u32> = (0..).take(surface.positions.len()).collect();
+        let mut component: Vec<u32> = (0..).take(surface.positions.len()).collect();
         let mut links: Vec<Vec<[u32; 2]>> = vec![Vec::new(); surface.positions.len()];
         for &[a, b, c] in &surface.triangles {
             for [a, b, c] in [[a, b, c], [b, c, a], [c, a, b]] {
                 edges.entry([a.min(b), a.max(b)]).or_default()[usize::from(a > b)] += 1;
                 links[a as usize].push([b, c]);
-                let (a, b) = (root(&piece, a), root(&piece, b));
-                piece[a as usize] = b;
+                let (a, b) = (root(&component, a), root(&component, b));
+                component[a as usize] = b;
             }
         }
         found.bad_edges = edges.values().filter(|sides| **sides != [1, 1]).count();
         found.idle_vertices = links.iter().filter(|link| link.is_empty()).count();
         found.bad_vertices = links.iter().filter(|link| !link.is_empty() && !is_ring(link)).count();
         let mut euler: HashMap<u32, i64> = HashMap::new();
-        for vertex in (0..).take(piece.len()) {
-            *euler.entry(root(&piece, vertex)).or_default() += 1;
+        for vertex in (0..).take(component.len()) {
+            *euler.entry(root(&component, vertex)).or_default() += 1;
         }
         for [a, _] in edges.keys() {
-            *euler.entry(root(&piece, *a)).or_default() -= 1;
+            *euler.entry(root(&component, *a)).or_default() -= 1;
         }
         for [a, ..] in &surface.triangles {
-            *euler.entry(root(&piece, *a)).or_default() += 1;
+            *euler.entry(root(&component, *a)).or_default() += 1;
         }
         found.components = euler.len();
         found.euler = euler.values().sum();
@@ -62,9 +62,9 @@ impl Topology {
     }
 }
 
-fn root(piece: &[u32], mut vertex: u32) -> u32 {
-    while piece[vertex as usize] != vertex {
-        vertex = piece[vertex as usize];
+fn root(component: &[u32], mut vertex: u32) -> u32 {
+    while component[vertex as usize] != vertex {
+        vertex = component[vertex as usize];
     }
     vertex
 }

@@ -1,7 +1,7 @@
 //! Rectangles of the plane.
 
 /// Least and greatest x and y.
-pub(in super::super) type Rectangle = [[f64; 2]; 2];
+pub(in crate::workspace) type Rectangle = [[f64; 2]; 2];
 
 /// The halves across the longer side.
 pub(super) fn halves([low, high]: Rectangle) -> [Rectangle; 2] {

@@ -5,17 +5,18 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::super::domain::{Binding, stroke_binding};
-use super::super::path::{Limits, intervals};
-use super::section::{ALPHA, Piece, Setting};
+use super::monotone_piece::{ALPHA, MonotonePiece};
+use super::section::ToolWorkspace;
 use crate::fast_math::sin_cos;
+use crate::workspace::domain::{Binding, stroke_binding};
+use crate::workspace::feasible_intervals::{LimitFunctions, intervals};
 
-/// Least number of samples along a circle.
-const LOOKS: f64 = 24.0;
-/// Least number of samples along an arc.
+/// Least number of segments of a circle.
+const SEGMENTS: f64 = 24.0;
+/// Least number of segments of an arc.
 const LEAST: f64 = 3.0;
 
-/// A part of a circle on which the tool's position keeps all limits but the table's, and on which phi1 + psi is
+/// An arc of a circle on which the tool's position keeps all limits but the table's, and on which phi1 + psi is
 /// monotone.
 #[derive(Clone, Copy)]
 pub(super) struct Arc<'a> {
@@ -31,16 +32,20 @@ pub(super) struct Arc<'a> {
 /// A circle and a piece of the section that it crosses.
 #[derive(Clone, Copy)]
 pub(super) struct Circle<'a> {
-    pub(super) setting: &'a Setting<'a>,
-    pub(super) piece: &'a Piece,
+    pub(super) tool: &'a ToolWorkspace<'a>,
+    pub(super) piece: &'a MonotonePiece,
     pub(super) radius: f64,
 }
 
 /// The arcs of the circle of a radius in a section.
-pub(super) fn arcs<'a>(setting: &'a Setting<'a>, section: &'a [Piece], radius: f64) -> Vec<Arc<'a>> {
+pub(super) fn arcs<'a>(
+    tool: &'a ToolWorkspace<'a>,
+    section: &'a [MonotonePiece],
+    radius: f64,
+) -> Vec<Arc<'a>> {
     let mut found = Vec::new();
     for piece in section {
-        let circle = Circle { setting, piece, radius };
+        let circle = Circle { tool, piece, radius };
         for (window, bindings) in windows(piece, radius) {
             if circle.meets(window) {
                 circle.within(window, bindings, &mut found);
@@ -51,7 +56,7 @@ pub(super) fn arcs<'a>(setting: &'a Setting<'a>, section: &'a [Piece], radius: f
 }
 
 /// Finds the angles at which a circle is within a piece's range of eta.
-fn windows(piece: &Piece, radius: f64) -> Vec<([f64; 2], [Option<Binding>; 2])> {
+fn windows(piece: &MonotonePiece, radius: f64) -> Vec<([f64; 2], [Option<Binding>; 2])> {
     let ([least, greatest], [low, high]) = (piece.range(), piece.bindings);
     let [from, to] = [least / radius, greatest / radius];
     match (from > -1.0, to < 1.0) {
@@ -78,7 +83,7 @@ impl<'a> Circle<'a> {
 
     /// The arcs of a window on which the strokes are kept.
     fn within(self, window: [f64; 2], bindings: [Option<Binding>; 2], found: &mut Vec<Arc<'a>>) {
-        for cuts in intervals(&Strokes(self), window, looks(window)) {
+        for cuts in intervals(&Strokes(self), window, segments(window)) {
             let name = |end: usize| match cuts[end].limit {
                 Some(limit) => Some(stroke_binding(SLIDERS[limit / 2], limit % 2 == 1)),
                 None if cuts[end].t == window[end] => bindings[end],
@@ -99,16 +104,10 @@ impl<'a> Circle<'a> {
 
 const SLIDERS: [u8; 3] = [0, 1, 2];
 
-/// Number of samples for an interval of the angle.
+/// Number of segments for an interval of the angle.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
-pub(super) fn looks([from, to]: [f64; 2]) -> u32 {
-    (LOOKS * (to - from) / TAU).ceil().clamp(LEAST, 4.0 * LOOKS) as u32
-}
-
-/// Whole turns between two angles.
-pub(super) fn turns(from: f64, to: f64) -> impl Iterator<Item = f64> {
-    let first = (from / TAU).ceil() * TAU;
-    std::iter::successors(Some(first), |turn| Some(turn + TAU)).take_while(move |turn| *turn <= to)
+pub(super) fn segments([from, to]: [f64; 2]) -> u32 {
+    (SEGMENTS * (to - from) / TAU).ceil().clamp(LEAST, 4.0 * SEGMENTS) as u32
 }
 
 impl Arc<'_> {
@@ -116,10 +115,10 @@ impl Arc<'_> {
     fn unfolded(self, found: &mut Vec<Self>) {
         for folded in [false, true] {
             let sign = if folded { -1.0 } else { 1.0 };
-            for cuts in intervals(&Upright(self.circle, sign), self.ends, looks(self.ends)) {
+            for cuts in intervals(&Upright(self.circle, sign), self.ends, segments(self.ends)) {
                 let ends = cuts.map(|cut| cut.t);
-                let kept = |end: usize| self.bindings[end].filter(|_| ends[end] == self.ends[end]);
-                found.push(Arc { ends, bindings: [kept(0), kept(1)], folded, ..self });
+                let binding = |end: usize| self.bindings[end].filter(|_| ends[end] == self.ends[end]);
+                found.push(Arc { ends, bindings: [binding(0), binding(1)], folded, ..self });
             }
         }
     }
@@ -142,34 +141,34 @@ impl Strokes<'_> {
     }
 }
 
-impl Limits<6> for Strokes<'_> {
-    fn all(&self, beta: f64) -> [f64; 6] {
-        let (rho, stroke) = (self.rho(beta), &self.0.setting.machine.limits().stroke);
-        std::array::from_fn(|n| of_end(rho[n / 2], stroke[n / 2], n % 2))
+impl LimitFunctions<6> for Strokes<'_> {
+    fn values(&self, beta: f64) -> [f64; 6] {
+        let (rho, stroke) = (self.rho(beta), &self.0.tool.machine.limits().stroke);
+        std::array::from_fn(|n| stroke_room(rho[n / 2], stroke[n / 2], n % 2))
     }
 
-    fn one(&self, limit: usize, beta: f64) -> f64 {
+    fn value(&self, limit: usize, beta: f64) -> f64 {
         let slider = limit / 2;
         let Circle { piece, radius, .. } = self.0;
         let (s, c) = sin_cos(beta);
         let rho = -radius * c - piece.value(slider, radius * s);
-        of_end(rho, self.0.setting.machine.limits().stroke[slider], limit % 2)
+        stroke_room(rho, self.0.tool.machine.limits().stroke[slider], limit % 2)
     }
 }
 
-fn of_end(rho: f64, [low, high]: [f64; 2], end: usize) -> f64 {
+fn stroke_room(rho: f64, [low, high]: [f64; 2], end: usize) -> f64 {
     if end == 0 { rho - low } else { high - rho }
 }
 
 /// The sign of d(beta - alpha)/d(beta).
 struct Upright<'a>(Circle<'a>, f64);
 
-impl Limits<1> for Upright<'_> {
-    fn all(&self, beta: f64) -> [f64; 1] {
-        [self.one(0, beta)]
+impl LimitFunctions<1> for Upright<'_> {
+    fn values(&self, beta: f64) -> [f64; 1] {
+        [self.value(0, beta)]
     }
 
-    fn one(&self, _: usize, beta: f64) -> f64 {
+    fn value(&self, _: usize, beta: f64) -> f64 {
         let Circle { piece, radius, .. } = self.0;
         self.1 * (1.0 - piece.alpha_rate(radius * beta.sin()) * radius * beta.cos())
     }

@@ -4,13 +4,23 @@ use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
-use super::super::observer::go_on;
-use super::super::request::WorkspaceError;
-use super::Grid;
-use super::orientations::at;
-use super::section::{Piece, Setting};
-use super::slab::{Crossing, Row, Work};
+use super::grid::Grid;
+use super::monotone_piece::MonotonePiece;
+use super::nodes::{MapInput, Row};
+use super::orientations::intervals_at;
+use super::section::ToolWorkspace;
 use crate::pose::Point;
+use crate::workspace::observer::check_cancelled;
+use crate::workspace::request::WorkspaceError;
+
+/// The crossing of a grid edge with a region's surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Seven times the number of the node where the edge begins, plus the edge's direction.
+    pub edge: u64,
+    /// Its position in the part frame, mm.
+    pub at: Point,
+}
 
 /// The edges that begin at a node, as steps along the three axes: those of the six tetrahedra
 /// around the cube's diagonal.
@@ -19,49 +29,54 @@ pub(super) const EDGES: [[u32; 3]; 7] =
 
 /// Halvings of an edge.
 const HALVINGS: u32 = 8;
-/// Number of parts of an edge.
-const PARTS: u32 = 1 << HALVINGS;
+/// Number of steps along an edge.
+const STEPS: u32 = 1 << HALVINGS;
 
 /// The sections between two layers at which edges are examined. All edges are halved at the same x, so few sections
 /// serve them all.
 pub(super) struct Sections<'a> {
-    setting: &'a Setting<'a>,
-    first: &'a [Piece],
-    between: Vec<OnceLock<Vec<Piece>>>,
+    tool: &'a ToolWorkspace<'a>,
+    first: &'a [MonotonePiece],
+    between: Vec<OnceLock<Vec<MonotonePiece>>>,
     x: f64,
     step: f64,
 }
 
 impl<'a> Sections<'a> {
-    pub(super) fn new(setting: &'a Setting<'a>, grid: &Grid, layer: u32, first: &'a [Piece]) -> Self {
-        let between = (0..PARTS).map(|_| OnceLock::new()).collect();
-        Self { setting, first, between, x: grid.node([layer, 0, 0])[0], step: grid.step }
+    pub(super) fn new(
+        tool: &'a ToolWorkspace<'a>,
+        grid: &Grid,
+        layer: u32,
+        first: &'a [MonotonePiece],
+    ) -> Self {
+        let between = (0..STEPS).map(|_| OnceLock::new()).collect();
+        Self { tool, first, between, x: grid.node([layer, 0, 0])[0], step: grid.step }
     }
 
-    /// The section at a fraction of the way to the next layer.
-    fn at(&self, part: u32) -> &[Piece] {
-        if part == 0 {
+    /// The section after some steps of the way to the next layer.
+    fn at(&self, step: u32) -> &[MonotonePiece] {
+        if step == 0 {
             return self.first;
         }
-        self.between[part as usize]
-            .get_or_init(|| self.setting.section(self.x + self.step * f64::from(part) / f64::from(PARTS)))
+        self.between[step as usize]
+            .get_or_init(|| self.tool.section(self.x + self.step * f64::from(step) / f64::from(STEPS)))
     }
 }
 
 /// The crossings of the edges that begin in a layer, given its rows and the next layer's.
 pub(super) fn crossings(
-    work: &Work<'_>,
+    input: &MapInput<'_>,
     sections: &Sections<'_>,
     layer: u32,
     rows: [&[Row]; 2],
 ) -> Result<[Vec<Crossing>; 2], WorkspaceError> {
-    let [_, across, up] = work.grid.counts;
+    let [_, across, up] = input.grid.counts;
     let found: Vec<[Vec<Crossing>; 2]> = (0..across)
         .into_par_iter()
         .map(|j| {
             let mut found = [Vec::new(), Vec::new()];
             for k in 0..up {
-                go_on(work.observer)?;
+                check_cancelled(input.observer)?;
                 let start = rows[0][j as usize].inside[k as usize];
                 for (direction, [di, dj, dk]) in (0_u64..).zip(EDGES) {
                     let row = rows[di as usize].get((j + dj) as usize);
@@ -73,7 +88,7 @@ pub(super) fn crossings(
                             + u64::from(k);
                         found[region].push(Crossing {
                             edge: 7 * node + direction,
-                            at: work.crossing(sections, &edge, region)?,
+                            at: input.crossing(sections, &edge, region)?,
                         });
                     }
                 }
@@ -96,23 +111,23 @@ struct Edge {
     starts_inside: bool,
 }
 
-impl Work<'_> {
-    /// Finds the crossing by bisection: the middle of the last part of the edge that the region's surface crosses.
+impl MapInput<'_> {
+    /// Finds the crossing by bisection: the middle of the last step of the edge that the region's surface crosses.
     fn crossing(&self, sections: &Sections<'_>, edge: &Edge, region: usize) -> Result<Point, WorkspaceError> {
         let start = self.grid.node(edge.from);
-        let along = |part: f64| {
-            [0, 1, 2].map(|axis| start[axis] + self.grid.step * part * f64::from(edge.steps[axis]))
+        let along = |fraction: f64| {
+            [0, 1, 2].map(|axis| start[axis] + self.grid.step * fraction * f64::from(edge.steps[axis]))
         };
-        let (mut low, mut high) = (0, PARTS);
+        let (mut low, mut high) = (0, STEPS);
         while high - low > 1 {
-            go_on(self.observer)?;
+            check_cancelled(self.observer)?;
             let middle = u32::midpoint(low, high);
-            let [_, v1, z] = along(f64::from(middle) / f64::from(PARTS));
+            let [_, v1, z] = along(f64::from(middle) / f64::from(STEPS));
             let section = sections.at(if edge.steps[0] == 0 { 0 } else { middle });
-            let found = at(self.setting, section, [v1, z], self.request.phi1);
+            let found = intervals_at(self.tool, section, [v1, z], self.request.phi1);
             let ends: Vec<[f64; 2]> = found.iter().map(|interval| interval.ends).collect();
             if self.inside(&ends)[region] == edge.starts_inside { low = middle } else { high = middle }
         }
-        Ok(self.grid.in_part_frame(along((f64::from(low) + 0.5) / f64::from(PARTS))))
+        Ok(self.grid.in_part_frame(along((f64::from(low) + 0.5) / f64::from(STEPS))))
     }
 }

@@ -7,12 +7,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::super::domain::Binding;
-use super::arc::turns;
-use super::orientations::Interval;
+use super::inclination::{InclinationInterval, turns};
 use crate::clearance::Clearance;
 use crate::limit::{Constraint, Element};
 use crate::machine::Machine;
+use crate::workspace::domain::Binding;
 
 /// Half-width of arcs of phi1 below which they are not excluded, rad: intervals as close to each other are one.
 const NARROW: f64 = 5e-10;
@@ -38,7 +37,7 @@ impl Floor<'_> {
     }
 
     /// Removes the inclinations that are too deep at a height Z from the intervals.
-    pub(super) fn cut(&self, z: f64, mut found: Vec<Interval>) -> Vec<Interval> {
+    pub(super) fn cut(&self, z: f64, mut found: Vec<InclinationInterval>) -> Vec<InclinationInterval> {
         let room = z - self.clearance.least;
         for depth in self.depths() {
             let half = depth.half(room);
@@ -77,8 +76,7 @@ impl Floor<'_> {
         [from, to].into_iter().chain(inside).map(needed)
     }
 
-    /// Adds the parts of an interval of psi, at a radius, on which all inclinations of a range keep the
-    /// limit.
+    /// Adds the portions of an interval of psi, at a radius, on which all inclinations of a range keep the limit.
     pub(super) fn overlap(
         &self,
         radius: f64,
@@ -122,7 +120,12 @@ impl Depth {
 }
 
 /// Removes an arc from an interval.
-fn without(interval: &Interval, top: f64, half: f64, binding: Binding) -> Vec<Interval> {
+fn without(
+    interval: &InclinationInterval,
+    top: f64,
+    half: f64,
+    binding: Binding,
+) -> Vec<InclinationInterval> {
     let mut left = Vec::new();
     if half >= PI {
         return left;
@@ -133,9 +136,9 @@ fn without(interval: &Interval, top: f64, half: f64, binding: Binding) -> Vec<In
         let (begins, ends) = (top + turn - half, top + turn + half);
         if begins >= rest.ends[0] {
             let (ends, bindings) = ([rest.ends[0], begins.min(to)], [rest.bindings[0], Some(binding)]);
-            left.push(Interval { ends, bindings });
+            left.push(InclinationInterval { ends, bindings });
         }
-        rest = Interval { ends: [ends, to], bindings: [Some(binding), interval.bindings[1]] };
+        rest = InclinationInterval { ends: [ends, to], bindings: [Some(binding), interval.bindings[1]] };
         if ends > to {
             return left;
         }
@@ -151,20 +154,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_arc_leaves_what_is_beside_it_on_every_turn() {
+    fn an_excluded_arc_leaves_the_intervals_beside_it_on_every_turn() {
         let binding = Binding { constraint: Constraint::TableClearance, element: Element::Tool };
-        let whole = Interval { ends: [-PI, 2.0 * TAU], bindings: [None; 2] };
-        let left: Vec<[f64; 2]> = without(&whole, 0.0, 1.0, binding).iter().map(|part| part.ends).collect();
+        let whole = InclinationInterval { ends: [-PI, 2.0 * TAU], bindings: [None; 2] };
+        let left: Vec<[f64; 2]> = without(&whole, 0.0, 1.0, binding).iter().map(|rest| rest.ends).collect();
         assert_eq!(
             left,
             [[-PI, -1.0], [1.0, TAU - 1.0], [TAU + 1.0, 2.0 * TAU - 1.0]],
             "the last arc reaches beyond the end"
         );
-        let part = Interval { ends: [-0.5, 2.0], bindings: [None; 2] };
-        let left = without(&part, 0.0, 1.0, binding);
-        assert_eq!(left, [Interval { ends: [1.0, 2.0], bindings: [Some(binding), None] }]);
-        assert!(without(&part, 0.75, 1.3, binding).is_empty());
-        let gap = without(&part, PI, 2.9, binding);
+        let interval = InclinationInterval { ends: [-0.5, 2.0], bindings: [None; 2] };
+        let left = without(&interval, 0.0, 1.0, binding);
+        assert_eq!(left, [InclinationInterval { ends: [1.0, 2.0], bindings: [Some(binding), None] }]);
+        assert!(without(&interval, 0.75, 1.3, binding).is_empty());
+        let gap = without(&interval, PI, 2.9, binding);
         assert_eq!(gap.len(), 1);
         let [from, to] = gap[0].ends;
         assert!((from + (PI - 2.9)).abs() < 1e-12 && (to - (PI - 2.9)).abs() < 1e-12);

@@ -2,12 +2,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::super::observer::{Observer, go_on};
-use super::super::request::WorkspaceError;
-use super::section::{Piece, Setting};
-use super::{DexterityRequest, MOST_NODES};
+use super::monotone_piece::MonotonePiece;
+use super::request::{DexterityRequest, MOST_NODES};
+use super::section::ToolWorkspace;
 use crate::machine::Machine;
 use crate::pose::Point;
+use crate::workspace::observer::{Observer, check_cancelled};
+use crate::workspace::request::WorkspaceError;
 
 /// Number of sections from which the extent of the reachable set is found.
 const SECTIONS: u32 = 128;
@@ -30,8 +31,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Places the grid over all reachable points, with at least one layer of nodes beyond them on each side. The extent
-    /// is found from sections along x; it is generous, not exact.
+    /// Places the grid over all reachable points, with at least one layer of nodes beyond them on each side. The
+    /// extent is found from sections along x; it is generous, not exact.
     ///
     /// # Units
     ///
@@ -47,8 +48,8 @@ impl Grid {
     ///
     /// # References
     ///
-    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), (27); the
-    /// intervals are derived in the [workspace documentation](crate::workspace).
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (9), (14), (26), (27);
+    /// the intervals are derived in the [workspace documentation](crate::workspace).
     ///
     /// # Examples
     ///
@@ -57,14 +58,7 @@ impl Grid {
     /// use verne_solver::workspace::dexterity::{DexterityRequest, Grid};
     /// use verne_solver::workspace::{Unobserved, WorkspaceError};
     ///
-    /// let request = DexterityRequest {
-    ///     tool_length: 150.0,
-    ///     table_clearance: None,
-    ///     tool_radius: 0.0,
-    ///     phi2: 0.0,
-    ///     phi1: [-0.5, 0.5],
-    ///     cell: 200.0,
-    /// };
+    /// let request = DexterityRequest { tool_length: 150.0, ..DexterityRequest::new([-0.5, 0.5], 200.0) };
     /// let machine = Machine::verne();
     /// let grid = Grid::new(&machine, &request, &Unobserved)?;
     /// assert!(grid.nodes() > 0);
@@ -77,8 +71,8 @@ impl Grid {
     ) -> Result<Self, WorkspaceError> {
         request.check()?;
         let (step, turn) = (request.cell, request.phi2);
-        let setting = Setting::new(machine, request);
-        let Some([low, high]) = extent(&setting, request.phi1, observer)? else {
+        let tool = ToolWorkspace::new(machine, request);
+        let Some([low, high]) = extent(&tool, request.phi1, observer)? else {
             return Ok(Self { origin: [0.0; 3], step, counts: [0; 3], turn });
         };
         let room = [0, 1, 2].map(|axis| ROOM * (high[axis] - low[axis]));
@@ -157,19 +151,19 @@ fn whole(count: f64) -> u32 {
 
 /// Finds a box in the turned frame that contains the reachable set; `None` if the set is empty.
 fn extent(
-    setting: &Setting<'_>,
+    tool: &ToolWorkspace<'_>,
     phi1: [f64; 2],
     observer: &dyn Observer,
 ) -> Result<Option<[Point; 2]>, WorkspaceError> {
-    let [low, high] = setting.domain.rectangle();
+    let [low, high] = tool.domain.rectangle();
     let step = (high[0] - low[0]) / f64::from(SECTIONS);
     let mut found: Option<[Point; 2]> = None;
     for number in 0..=SECTIONS {
-        go_on(observer)?;
+        check_cancelled(observer)?;
         let x = low[0] + step * f64::from(number);
-        for piece in setting.section(x) {
-            let [v1, mut z] = flat_extent(setting, &piece, phi1);
-            if let Some(floor) = &setting.floor {
+        for piece in tool.section(x) {
+            let [v1, mut z] = flat_extent(tool, &piece, phi1);
+            if let Some(floor) = &tool.floor {
                 z[0] = z[0].max(floor.lowest(phi1));
                 if z[0] > z[1] {
                     continue;
@@ -177,7 +171,7 @@ fn extent(
             }
             let [a, b] = found.unwrap_or([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]]);
             found = Some([
-                // A part of the set that begins between two sections begins less than a step away.
+                // A region of the set that begins between two sections begins less than a step away.
                 [a[0].min(x - step), a[1].min(v1[0]), a[2].min(z[0])],
                 [b[0].max(x + step), b[1].max(v1[1]), b[2].max(z[1])],
             ]);
@@ -187,7 +181,7 @@ fn extent(
 }
 
 /// The ranges of V1 and Z of a piece's outline, turned through the range of phi1.
-fn flat_extent(setting: &Setting<'_>, piece: &Piece, [from, to]: [f64; 2]) -> [[f64; 2]; 2] {
+fn flat_extent(tool: &ToolWorkspace<'_>, piece: &MonotonePiece, [from, to]: [f64; 2]) -> [[f64; 2]; 2] {
     let (mut v1, mut z) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
     for (eta, alpha, zetas) in piece.outline() {
         for zeta in zetas {
@@ -196,7 +190,7 @@ fn flat_extent(setting: &Setting<'_>, piece: &Piece, [from, to]: [f64; 2]) -> [[
             let [first, last] = [from, to].map(|phi1| beta - alpha + phi1);
             let mut reach = |psi: f64| {
                 meet(&mut v1, -radius * psi.sin());
-                meet(&mut z, setting.machine.table().dt + radius * psi.cos());
+                meet(&mut z, tool.machine.table().dt + radius * psi.cos());
             };
             reach(first);
             // Counted: the angle of a quarter, divided by a quarter, may be rounded below its number.

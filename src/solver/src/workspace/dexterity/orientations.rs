@@ -1,34 +1,24 @@
 //! The inclinations that reach one point.
 
-use super::super::domain::Binding;
-use super::super::request::WorkspaceError;
-use super::DexterityRequest;
-use super::arc::{Arc, arcs, turns};
-use super::section::{Piece, Setting};
+use super::arc::{Arc, arcs};
+use super::inclination::{InclinationInterval, joined, turns};
+use super::monotone_piece::MonotonePiece;
+use super::request::DexterityRequest;
+use super::section::ToolWorkspace;
 use crate::limit::{Constraint, Element};
 use crate::machine::Machine;
 use crate::pose::Point;
 use crate::request_range::MAX_INPUT;
-
-/// Intervals that are less than this apart are one, rad.
-const APART: f64 = 1e-9;
-
-/// An interval of inclinations that reach a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
-    /// `[from, to]` of phi1, rad.
-    pub ends: [f64; 2],
-    /// The constraint that ends it at either end. `None` if the requested range ends it.
-    pub bindings: [Option<Binding>; 2],
-}
+use crate::workspace::domain::Binding;
+use crate::workspace::request::WorkspaceError;
 
 /// Computes the intervals of phi1 within the request's range for which the working mode reaches the part point and
 /// keeps every limit. They are in ascending order. Intervals less than 1e-9 rad apart are one.
 ///
 /// The intervals are arcs of a circle (see the [workspace documentation](crate::workspace)). On it each stroke's limit
-/// is examined at steps of at most 1/48 of a turn, taken for a parabola between them, and examined again half-way if it
-/// may vanish twice. An interval or gap wider than the steps is always found. A narrower one is missed only if a limit
-/// turns twice between two steps.
+/// is examined at steps of at most 1/48 of a turn, taken for a parabola between them, and examined again half-way if
+/// it may vanish twice. An interval or gap wider than the steps is always found. A narrower one is missed only if a
+/// limit turns twice between two steps.
 ///
 /// # Units
 ///
@@ -49,67 +39,59 @@ pub struct Interval {
 /// ```
 /// use verne_solver::Machine;
 /// use verne_solver::workspace::dexterity::{DexterityRequest, orientations};
-/// use verne_solver::workspace::{Unobserved, WorkspaceError};
+/// use verne_solver::workspace::WorkspaceError;
 ///
-/// let request = DexterityRequest {
-///     tool_length: 150.0,
-///     table_clearance: None,
-///     tool_radius: 0.0,
-///     phi2: 0.0,
-///     phi1: [-0.5, 0.5],
-///     cell: 200.0,
-/// };
+/// let request = DexterityRequest { tool_length: 150.0, ..DexterityRequest::new([-0.5, 0.5], 200.0) };
 /// let machine = Machine::verne();
 /// let found = orientations(&machine, [100.0, 50.0, 300.0], &request)?;
 /// assert_eq!(found.len(), 1);
 /// assert_eq!(found[0].ends, [-0.5, 0.5], "the whole range");
-/// # let _ = Unobserved;
 /// # Ok::<(), WorkspaceError>(())
 /// ```
 pub fn orientations(
     machine: &Machine,
     point: Point,
     request: &DexterityRequest,
-) -> Result<Vec<Interval>, WorkspaceError> {
+) -> Result<Vec<InclinationInterval>, WorkspaceError> {
     request.check()?;
     if !point.iter().all(|coordinate| coordinate.abs() <= MAX_INPUT) {
         return Err(WorkspaceError::OutOfDomain { field: "point" });
     }
-    let setting = Setting::new(machine, request);
+    let tool = ToolWorkspace::new(machine, request);
     let [x, y, z] = point;
     let (s, c) = request.phi2.sin_cos();
-    let section = setting.section(x * c + y * s);
-    Ok(at(&setting, &section, [y * c - x * s, z], request.phi1))
+    let section = tool.section(x * c + y * s);
+    Ok(intervals_at(&tool, &section, [y * c - x * s, z], request.phi1))
 }
 
 /// The intervals at a section's point (V1, Z).
-pub(super) fn at(
-    setting: &Setting<'_>,
-    section: &[Piece],
+pub(super) fn intervals_at(
+    tool: &ToolWorkspace<'_>,
+    section: &[MonotonePiece],
     [v1, z]: [f64; 2],
     range: [f64; 2],
-) -> Vec<Interval> {
-    let up = z - setting.machine.table().dt;
+) -> Vec<InclinationInterval> {
+    let up = z - tool.machine.table().dt;
     let (radius, psi) = (v1.hypot(up), (-v1).atan2(up));
     let mut found = Vec::new();
     if !section.is_empty() {
-        for arc in arcs(setting, section, radius) {
-            turned(&arc, psi, &mut |ends, bindings| {
+        for arc in arcs(tool, section, radius) {
+            within_tilt(&arc, psi, &mut |ends, bindings| {
                 inclinations(&arc, psi, range, ends, bindings, &mut found);
             });
         }
     }
     let found = joined(found);
-    match &setting.floor {
+    match &tool.floor {
         Some(floor) => floor.cut(z, found),
         None => found,
     }
 }
 
-/// Finds the parts of an arc on which theta1 is within its range.
-fn turned(arc: &Arc<'_>, psi: f64, part: &mut dyn FnMut([f64; 2], [Option<Binding>; 2])) {
-    let Some([middle, half]) = arc.circle.setting.tilt else {
-        part(arc.ends, arc.bindings);
+/// Finds the portions of an arc on which theta1 is within its range.
+fn within_tilt(arc: &Arc<'_>, psi: f64, portion: &mut dyn FnMut([f64; 2], [Option<Binding>; 2])) {
+    let Some([middle, half]) = arc.circle.tool.tilt else {
+        portion(arc.ends, arc.bindings);
         return;
     };
     let ([from, to], middle) = (arc.ends, middle + psi);
@@ -119,19 +101,19 @@ fn turned(arc: &Arc<'_>, psi: f64, part: &mut dyn FnMut([f64; 2], [Option<Bindin
         let (start, first) = if low > from { (low, tilt(false)) } else { (from, arc.bindings[0]) };
         let (end, last) = if high < to { (high, tilt(true)) } else { (to, arc.bindings[1]) };
         if start <= end {
-            part([start, end], [first, last]);
+            portion([start, end], [first, last]);
         }
     }
 }
 
-/// phi1 along a part of an arc, within the range.
+/// phi1 along a portion of an arc, within the range.
 fn inclinations(
     arc: &Arc<'_>,
     psi: f64,
     [from, to]: [f64; 2],
     ends: [f64; 2],
     [first, last]: [Option<Binding>; 2],
-    found: &mut Vec<Interval>,
+    found: &mut Vec<InclinationInterval>,
 ) {
     let [start, end] = ends.map(|beta| arc.circle.alpha(beta) - beta + psi);
     let (low, high, bindings) =
@@ -140,25 +122,7 @@ fn inclinations(
         let (least, below) = if low + turn > from { (low + turn, bindings[0]) } else { (from, None) };
         let (greatest, above) = if high + turn < to { (high + turn, bindings[1]) } else { (to, None) };
         if least <= greatest {
-            found.push(Interval { ends: [least, greatest], bindings: [below, above] });
+            found.push(InclinationInterval { ends: [least, greatest], bindings: [below, above] });
         }
     }
-}
-
-/// Sorts the intervals and unites those that meet.
-fn joined(mut found: Vec<Interval>) -> Vec<Interval> {
-    found.sort_by(|a, b| a.ends[0].total_cmp(&b.ends[0]).then(a.ends[1].total_cmp(&b.ends[1])));
-    let mut joined: Vec<Interval> = Vec::with_capacity(found.len());
-    for interval in found {
-        match joined.last_mut() {
-            Some(last) if interval.ends[0] <= last.ends[1] + APART => {
-                if interval.ends[1] > last.ends[1] {
-                    last.ends[1] = interval.ends[1];
-                    last.bindings[1] = interval.bindings[1];
-                }
-            }
-            _ => joined.push(interval),
-        }
-    }
-    joined
 }

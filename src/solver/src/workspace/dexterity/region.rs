@@ -1,19 +1,18 @@
 //! A region of part points: its volume, and its surface by marching tetrahedra.
 
-use super::super::measure::Volume;
-use super::super::observer::{Observer, go_on};
-use super::super::request::WorkspaceError;
-use super::Grid;
-use super::crossings::EDGES;
-use super::slab::Crossing;
+use super::crossings::{Crossing, EDGES};
+use super::grid::Grid;
 use crate::pose::Point;
+use crate::workspace::measure::Volume;
+use crate::workspace::observer::{Observer, check_cancelled};
+use crate::workspace::request::WorkspaceError;
 
 /// A region of part points.
 ///
 /// The surface consists of cuts through the six tetrahedra around the diagonals of the grid's cubes, between corners
 /// inside and corners outside. It is closed and a manifold for any region. Its vertices lie on edges of the
-/// tetrahedra, less than 1/500 of an edge from the true surface. A part of the region that is smaller than a cell may
-/// be missing.
+/// tetrahedra, less than 1/500 of an edge from the true surface. A component that is smaller than a cell may be
+/// missing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     /// The volume, by integration over the region, not from the surface.
@@ -41,11 +40,11 @@ pub(super) fn triangles(
     crossings: &[Crossing],
     observer: &dyn Observer,
 ) -> Result<Vec<[u32; 3]>, WorkspaceError> {
-    let mut surface = Surface { grid, inside, crossings, triangles: Vec::new() };
+    let mut surface = RegionSurface { grid, inside, crossings, triangles: Vec::new() };
     let cubes = grid.counts.map(|count| count.saturating_sub(1));
     for i in 0..cubes[0] {
         for j in 0..cubes[1] {
-            go_on(observer)?;
+            check_cancelled(observer)?;
             for k in 0..cubes[2] {
                 surface.cube([i, j, k])?;
             }
@@ -54,14 +53,14 @@ pub(super) fn triangles(
     Ok(surface.triangles)
 }
 
-struct Surface<'a> {
+struct RegionSurface<'a> {
     grid: &'a Grid,
     inside: &'a [bool],
     crossings: &'a [Crossing],
     triangles: Vec<[u32; 3]>,
 }
 
-impl Surface<'_> {
+impl RegionSurface<'_> {
     fn number(&self, [i, j, k]: [u32; 3]) -> usize {
         let [_, across, up] = self.grid.counts.map(|count| count as usize);
         (i as usize * across + j as usize) * up + k as usize

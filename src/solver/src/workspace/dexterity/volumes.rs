@@ -1,18 +1,17 @@
 //! Volumes of the two regions: numerical integration over x and over the radius about the tilting axis, closed form
 //! over the angle psi.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use rayon::prelude::*;
 
-use super::super::measure::Volume;
-use super::super::observer::{Observer, go_on};
-use super::super::quadrature::{Integral, rule};
-use super::super::request::WorkspaceError;
-use super::DexterityRequest;
-use super::angles::angles;
-use super::section::{Piece, Setting};
+use super::monotone_piece::MonotonePiece;
+use super::reach_angles::reach_angles;
+use super::request::DexterityRequest;
+use super::section::ToolWorkspace;
 use crate::machine::Machine;
+use crate::workspace::measure::Volume;
+use crate::workspace::observer::{Observer, ProgressCounter, check_cancelled, count};
+use crate::workspace::quadrature::{Integral, adaptive};
+use crate::workspace::request::WorkspaceError;
 
 /// Number of sections from which the range of x is found.
 const SECTIONS: u32 = 96;
@@ -52,21 +51,12 @@ const HALVINGS: u32 = 40;
 /// ```
 /// use verne_solver::Machine;
 /// use verne_solver::workspace::dexterity::{DexterityRequest, volumes};
-/// use verne_solver::workspace::{Unobserved, WorkspaceError};
+/// use verne_solver::workspace::{Unobserved, Volume, WorkspaceError};
 ///
-/// let request = DexterityRequest {
-///     tool_length: 150.0,
-///     table_clearance: None,
-///     tool_radius: 0.0,
-///     phi2: 0.0,
-///     phi1: [-0.5, 0.5],
-///     cell: 200.0,
-/// };
+/// let request = DexterityRequest { tool_length: 150.0, ..DexterityRequest::new([-0.5, 0.5], 200.0) };
 /// let machine = Machine::verne();
-/// use verne_solver::workspace::Volume;
-///
 /// let [some, all] = volumes(&machine, &request, &Unobserved)?;
-/// let value = |volume| if let Volume::Value { value, .. } = volume { value } else { f64::NAN };
+/// let value = |volume| if let Volume::Value { value, .. } = volume { Some(value) } else { None };
 /// assert!(value(all) < value(some));
 /// # Ok::<(), WorkspaceError>(())
 /// ```
@@ -76,24 +66,22 @@ pub fn volumes(
     observer: &dyn Observer,
 ) -> Result<[Volume; 2], WorkspaceError> {
     request.check()?;
-    let setting = Setting::new(machine, request);
-    let work = Work { setting: &setting, phi1: request.phi1, observer };
-    let ranges = work.ranges()?;
-    let count = ranges.len() * PANELS[0] as usize;
+    let tool = ToolWorkspace::new(machine, request);
+    let integral = VolumeIntegral { tool: &tool, phi1: request.phi1, observer };
+    let ranges = integral.ranges()?;
+    let panels = ranges.len() * PANELS[0] as usize;
     let rough: Vec<[f64; 2]> =
-        ranges.par_iter().map(|&range| work.rough(range)).collect::<Result<_, WorkspaceError>>()?;
-    let total = rough.iter().fold([0.0; 2], |sum, part| [0, 1].map(|n| sum[n] + part[n]));
-    let done = AtomicUsize::new(0);
-    let panels: Vec<(Integral<2>, bool)> = (0..count)
+        ranges.par_iter().map(|&range| integral.rough(range)).collect::<Result<_, WorkspaceError>>()?;
+    let total = rough.iter().fold([0.0; 2], |sum, range| [0, 1].map(|n| sum[n] + range[n]));
+    let allowed = total.map(|total| ACCURACY * total / count(panels));
+    let progress = ProgressCounter::new(observer, panels);
+    let panels: Vec<(Integral<2>, bool)> = (0..panels)
         .into_par_iter()
         .map(|number| {
-            let [from, to] = ranges[number / PANELS[0] as usize];
-            let part = |n: usize| super::ratio(n, PANELS[0] as usize);
+            let range = ranges[number / PANELS[0] as usize];
             let within = number % PANELS[0] as usize;
-            // Towards the ends of x the section's area goes like a root: 3 t² - 2 t³ makes it smooth.
-            let allowed = total.map(|total| ACCURACY * total / super::count(count));
-            let panel = work.panel([from, to], [part(within), part(within + 1)], &allowed, DEPTH[0])?;
-            observer.progress(super::ratio(done.fetch_add(1, Ordering::Relaxed) + 1, count));
+            let panel = integral.panel(range, within, &allowed)?;
+            progress.finished(1);
             Ok(panel)
         })
         .collect::<Result<_, WorkspaceError>>()?;
@@ -111,22 +99,22 @@ pub fn volumes(
     }))
 }
 
-struct Work<'a> {
-    setting: &'a Setting<'a>,
+struct VolumeIntegral<'a> {
+    tool: &'a ToolWorkspace<'a>,
     phi1: [f64; 2],
     observer: &'a dyn Observer,
 }
 
-impl Work<'_> {
+impl VolumeIntegral<'_> {
     /// The ranges of x in which sections are not empty.
     fn ranges(&self) -> Result<Vec<[f64; 2]>, WorkspaceError> {
-        let [low, high] = self.setting.domain.rectangle();
+        let [low, high] = self.tool.domain.rectangle();
         let step = (high[0] - low[0]) / f64::from(SECTIONS);
         let (mut ranges, mut last): (Vec<[f64; 2]>, Option<f64>) = (Vec::new(), None);
         for number in 0..=SECTIONS {
-            go_on(self.observer)?;
+            check_cancelled(self.observer)?;
             let x = low[0] + step * f64::from(number);
-            let there = !self.setting.section(x).is_empty();
+            let there = !self.tool.section(x).is_empty();
             match (there, last) {
                 (true, None) => {
                     let from = if number == 0 { x } else { self.end(x, x - step)? };
@@ -152,9 +140,9 @@ impl Work<'_> {
     /// Finds the x between `inside` and `outside` beyond which sections are empty.
     fn end(&self, mut inside: f64, mut outside: f64) -> Result<f64, WorkspaceError> {
         for _ in 0..HALVINGS {
-            go_on(self.observer)?;
+            check_cancelled(self.observer)?;
             let middle = 0.5 * (inside + outside);
-            if self.setting.section(middle).is_empty() { outside = middle } else { inside = middle }
+            if self.tool.section(middle).is_empty() { outside = middle } else { inside = middle }
         }
         Ok(inside)
     }
@@ -162,80 +150,65 @@ impl Work<'_> {
     /// A rough value, which sets the scale of the allowed errors.
     fn rough(&self, [from, to]: [f64; 2]) -> Result<[f64; 2], WorkspaceError> {
         let mut sum = [0.0; 2];
-        for part in [0.1, 0.3, 0.5, 0.7, 0.9] {
-            let (area, _) = self.area(from + part * (to - from), &[f64::INFINITY; 2])?;
+        for fraction in [0.1, 0.3, 0.5, 0.7, 0.9] {
+            let (area, _) = self.area(from + fraction * (to - from), &[f64::INFINITY; 2])?;
             sum = [0, 1].map(|n| sum[n] + 0.2 * (to - from) * area.value[n]);
         }
         Ok(sum)
     }
 
-    /// The part `[a, b]`, in t, of a range of x.
+    /// Integrates one of the panels of a range of x, and tells whether the part's map may fold there.
+    ///
+    /// Towards the ends of x the section's area goes like a root: 3 t² - 2 t³ makes it smooth.
     fn panel(
         &self,
         range: [f64; 2],
-        [a, b]: [f64; 2],
+        number: usize,
         allowed: &[f64; 2],
-        depth: u32,
     ) -> Result<(Integral<2>, bool), WorkspaceError> {
         let width = range[1] - range[0];
         let mut folded = false;
-        let whole = rule([a, b], |t| {
+        let ends = [number, number + 1].map(|end| count(end) / f64::from(PANELS[0]));
+        let integral = adaptive(ends, allowed, DEPTH[0], &mut |t, length, allowed| {
             let weight = 6.0 * width * t * (1.0 - t);
-            let share = allowed.map(|allowed| 0.3 * allowed / (b - a) / weight);
-            let (mut area, fold) = self.area(range[0] + width * t * t * (3.0 - 2.0 * t), &share)?;
+            let allowed = allowed.map(|allowed| 0.3 * allowed / length / weight);
+            let (area, fold) = self.area(range[0] + width * t * t * (3.0 - 2.0 * t), &allowed)?;
             folded |= fold;
-            area.value = area.value.map(|value| value * weight);
-            area.error = area.error.map(|error| error * weight);
-            Ok::<_, WorkspaceError>(area)
+            Ok::<_, WorkspaceError>(area.times(weight))
         })?;
-        if depth == 0 || whole.within(allowed) {
-            return Ok((whole, folded));
-        }
-        let (middle, allowed) = (0.5 * (a + b), allowed.map(|allowed| 0.5 * allowed));
-        let (mut sum, first) = self.panel(range, [a, middle], &allowed, depth - 1)?;
-        let (rest, second) = self.panel(range, [middle, b], &allowed, depth - 1)?;
-        sum.add(&rest);
-        Ok((sum, folded || first || second))
+        Ok((integral, folded))
     }
 
-    /// Computes the areas of a section's reachable and dexterous parts, and whether the part's map may fold there.
+    /// Computes the areas of a section's reachable and dexterous regions, and whether the part's map may fold there.
     fn area(&self, x: f64, allowed: &[f64; 2]) -> Result<(Integral<2>, bool), WorkspaceError> {
-        let section = self.setting.section(x);
+        let section = self.tool.section(x);
         let mut sum = Integral::ZERO;
         let Some([least, greatest]) = radii(&section) else { return Ok((sum, false)) };
         let step = (greatest - least) / f64::from(PANELS[1]);
         let allowed = allowed.map(|allowed| allowed / f64::from(PANELS[1]));
         for panel in 0..PANELS[1] {
             let from = least + step * f64::from(panel);
-            sum.add(&self.ring(&section, [from, from + step], &allowed, DEPTH[1])?);
+            sum.add(&self.ring(&section, [from, from + step], &allowed)?);
         }
         Ok((sum, section.iter().any(|piece| piece.folds)))
     }
 
     fn ring(
         &self,
-        section: &[Piece],
+        section: &[MonotonePiece],
         radii: [f64; 2],
         allowed: &[f64; 2],
-        depth: u32,
     ) -> Result<Integral<2>, WorkspaceError> {
-        let whole = rule(radii, |radius| {
-            go_on(self.observer)?;
-            let value = angles(self.setting, section, radius, self.phi1).map(|angle| angle * radius);
-            Ok::<_, WorkspaceError>(Integral { value, error: [0.0; 2] })
-        })?;
-        if depth == 0 || whole.within(allowed) {
-            return Ok(whole);
-        }
-        let (middle, allowed) = (0.5 * (radii[0] + radii[1]), allowed.map(|allowed| 0.5 * allowed));
-        let mut sum = self.ring(section, [radii[0], middle], &allowed, depth - 1)?;
-        sum.add(&self.ring(section, [middle, radii[1]], &allowed, depth - 1)?);
-        Ok(sum)
+        adaptive(radii, allowed, DEPTH[1], &mut |radius, _, _| {
+            check_cancelled(self.observer)?;
+            let value = reach_angles(self.tool, section, radius, self.phi1).map(|angle| angle * radius);
+            Ok(Integral { value, error: [0.0; 2] })
+        })
     }
 }
 
 /// The least and the greatest distance of a section's outline from the axis, and some room.
-fn radii(section: &[Piece]) -> Option<[f64; 2]> {
+fn radii(section: &[MonotonePiece]) -> Option<[f64; 2]> {
     let mut found: Option<[f64; 2]> = None;
     for piece in section {
         let [low, high] = piece.zetas;

@@ -2,14 +2,14 @@
 
 use std::convert::Infallible;
 
-use super::super::column::Column;
-use super::super::cover::Cover;
-use super::super::domain::Domain;
-use super::super::path::End;
-use super::super::quadrature::{Integral, rule};
-use super::super::root;
-use super::crossing;
+use super::line_intervals;
 use crate::limit::Element;
+use crate::workspace::column::Column;
+use crate::workspace::cover::Cover;
+use crate::workspace::domain::{ColumnEnd, Domain, Limit};
+use crate::workspace::feasible_intervals::IntervalEnd;
+use crate::workspace::quadrature::{Integral, adaptive};
+use crate::workspace::root;
 
 /// Halvings of an interval whose integrand is not smooth.
 const DEPTH: u32 = 6;
@@ -36,55 +36,54 @@ impl Extremes {
 }
 
 /// The structure of a line: for each interval the limits that end it (with the nearest rods if a limit is theirs),
-/// and the sliders that bind `z_lo` and `z_hi` along it. Between lines of equal structure the integrals are smooth in
+/// and what bounds `z_lo` and `z_hi` along it. Between lines of equal structure the integrals are smooth in
 /// x.
-pub(super) type Structure = Vec<([Option<(usize, Element)>; 2], Vec<[usize; 2]>)>;
+pub(super) type Structure = Vec<([Option<(usize, Element)>; 2], Vec<[ColumnEnd; 2]>)>;
 
-/// A line and its feasible intervals, cut where another slider binds.
+/// A line and its feasible intervals.
 pub(super) struct Line<'a> {
     domain: &'a Domain<'a>,
     x: f64,
-    intervals: Vec<[End; 2]>,
+    intervals: Vec<[IntervalEnd; 2]>,
 }
 
 impl<'a> Line<'a> {
     /// The line at x through a domain's cover.
     pub(super) fn new(domain: &'a Domain<'a>, cover: &Cover, x: f64) -> Self {
-        Self { domain, x, intervals: crossing::intervals(domain, cover, x) }
+        Self { domain, x, intervals: line_intervals::intervals(domain, cover, x) }
     }
 
     pub(super) fn structure(&self) -> Structure {
         let mut found = Structure::new();
         for [low, high] in &self.intervals {
-            let mut sliders = vec![self.sliders(&low.column)];
-            self.creases(&low.column, &high.column, &mut |_, after| sliders.push(after));
-            found.push(([self.bound(low), self.bound(high)], sliders));
+            let mut column_ends = vec![self.column_ends(&low.column)];
+            self.creases(&low.column, &high.column, &mut |_, after| column_ends.push(after));
+            found.push(([self.bound(low), self.bound(high)], column_ends));
         }
         found
     }
 
-    fn bound(&self, end: &End) -> Option<(usize, Element)> {
+    fn bound(&self, end: &IntervalEnd) -> Option<(usize, Element)> {
         let limit = end.limit?;
-        let number = u8::try_from(limit).unwrap_or(u8::MAX);
-        Some((limit, self.domain.binding_at(number, [end.column.x, end.column.y]).element))
+        let binding = self.domain.binding_at(Limit::ALL[limit], [end.column.x, end.column.y]);
+        Some((limit, binding.element))
     }
 
-    /// The sliders that bind `z_lo` and `z_hi`.
-    fn sliders(&self, column: &Column) -> [usize; 2] {
-        [false, true].map(|upper| Domain::binding_slider(self.domain.sheet(column, upper), upper))
+    /// The bounds that `z_lo` and `z_hi` follow.
+    fn column_ends(&self, column: &Column) -> [ColumnEnd; 2] {
+        [false, true].map(|upper| ColumnEnd::binding(self.domain.sheet(column, upper), upper))
     }
 
-    /// Calls `at` with each y between two columns at which another slider begins to bind, and the
-    /// sliders that bind beyond.
-    fn creases(&self, a: &Column, b: &Column, at: &mut dyn FnMut(f64, [usize; 2])) {
+    /// Calls `at` with each y between two columns at which another bound begins, and the bounds beyond.
+    fn creases(&self, a: &Column, b: &Column, at: &mut dyn FnMut(f64, [ColumnEnd; 2])) {
         let middle = self.domain.column([self.x, 0.5 * (a.y + b.y)]);
         for [from, to] in [[a, &middle], [&middle, b]] {
             self.creases_between(from, to, 3, at);
         }
     }
 
-    fn creases_between(&self, a: &Column, b: &Column, depth: u32, at: &mut dyn FnMut(f64, [usize; 2])) {
-        let (before, after) = (self.sliders(a), self.sliders(b));
+    fn creases_between(&self, a: &Column, b: &Column, depth: u32, at: &mut dyn FnMut(f64, [ColumnEnd; 2])) {
+        let (before, after) = (self.column_ends(a), self.column_ends(b));
         if before == after {
             return;
         }
@@ -92,15 +91,16 @@ impl<'a> Line<'a> {
         let (i, j) = (before[sheet], after[sheet]);
         let lead = |column: &Column| {
             let heights = self.domain.sheet(column, sheet == 1);
-            heights[i] - heights[j]
+            heights[i.index()] - heights[j.index()]
         };
-        let part = root::zero(lead(a), lead(b), 1e-12, |part| {
-            lead(&self.domain.column([self.x, a.y + part * (b.y - a.y)]))
+        let at_fraction = |fraction: f64| a.y + fraction * (b.y - a.y);
+        let fraction = root::zero(lead(a), lead(b), 1e-12, |fraction| {
+            lead(&self.domain.column([self.x, at_fraction(fraction)]))
         });
-        let y = a.y + part * (b.y - a.y);
-        // If the other sheet, or the third slider, changes as well, each side has its own sliders.
+        let y = at_fraction(fraction);
+        // If the other sheet changes as well, or a third bound, each side has its own bounds.
         let crease = self.domain.column([self.x, y]);
-        let there = self.sliders(&crease);
+        let there = self.column_ends(&crease);
         let other = 1 - sheet;
         let single = before[other] == after[other] && (there[sheet] == i || there[sheet] == j);
         if single || depth == 0 || y <= a.y || y >= b.y {
@@ -110,8 +110,8 @@ impl<'a> Line<'a> {
             let (left, right) =
                 (self.domain.column([self.x, y - step]), self.domain.column([self.x, y + step]));
             self.creases_between(a, &left, depth - 1, at);
-            if self.sliders(&left) != self.sliders(&right) {
-                at(y, self.sliders(&right));
+            if self.column_ends(&left) != self.column_ends(&right) {
+                at(y, self.column_ends(&right));
             }
             self.creases_between(&right, b, depth - 1, at);
         }
@@ -130,8 +130,7 @@ impl<'a> Line<'a> {
             cuts.push(high.t);
             for to in cuts {
                 if to > from {
-                    let share = allowed.map(|a| a * ACCURACY);
-                    total.add(&self.integral([from, to], &share, DEPTH, extremes));
+                    total.add(&self.integral([from, to], &allowed.map(|a| a * ACCURACY), extremes));
                 }
                 from = from.max(to);
             }
@@ -139,20 +138,12 @@ impl<'a> Line<'a> {
         total
     }
 
-    fn integral(&self, range: [f64; 2], allowed: &[f64; 2], depth: u32, seen: &mut Extremes) -> Integral<2> {
-        let Ok(whole) = rule::<2, Infallible>(range, |y| {
+    fn integral(&self, range: [f64; 2], allowed: &[f64; 2], extremes: &mut Extremes) -> Integral<2> {
+        let Ok(integral) = adaptive::<2, Infallible>(range, allowed, DEPTH, &mut |y, _, _| {
             let column = self.domain.column([self.x, y]);
-            let value = [1.0, self.integrand(&column, seen)];
-            Ok(Integral { value, error: [0.0; 2] })
+            Ok(Integral { value: [1.0, self.integrand(&column, extremes)], error: [0.0; 2] })
         });
-        if depth == 0 || whole.within(allowed) {
-            return whole;
-        }
-        let middle = 0.5 * (range[0] + range[1]);
-        let allowed = allowed.map(|a| 0.5 * a);
-        let mut total = self.integral([range[0], middle], &allowed, depth - 1, seen);
-        total.add(&self.integral([middle, range[1]], &allowed, depth - 1, seen));
-        total
+        integral
     }
 
     /// ∫ of the Jacobian determinant along a column.

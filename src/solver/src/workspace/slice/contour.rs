@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use super::super::column::Column;
-use super::super::domain::Domain;
-use super::super::path::Path;
+use crate::workspace::column::Column;
+use crate::workspace::domain::Domain;
+use crate::workspace::feasible_intervals::Curve;
 
 /// Segments of half an ellipse on which the limits are examined.
-const PIECES: u32 = 24;
+const SEGMENTS: u32 = 24;
 /// Halvings of a line.
 const DEPTH: u32 = 16;
 /// Fraction of the tolerance by which a chord may be off.
@@ -28,7 +28,7 @@ pub struct Contour {
 ///
 /// Eliminating w1 from (A): X1² + y² (1 + u²/v²) = L1² - C + k cos a, an ellipse in (X1, y); the
 /// working mode is on the half where y and sin a have different signs.
-pub(super) fn at(domain: &Domain<'_>, alpha: f64, tolerance: f64) -> Vec<Contour> {
+pub(super) fn contours_at(domain: &Domain<'_>, alpha: f64, tolerance: f64) -> Vec<Contour> {
     let (g, d) = (domain.machine.geometry(), &domain.machine.mechanism);
     let (s, c) = alpha.sin_cos();
     let (u, v) = (g.R1 * c - g.r1, g.R1 * s);
@@ -39,13 +39,14 @@ pub(super) fn at(domain: &Domain<'_>, alpha: f64, tolerance: f64) -> Vec<Contour
     let half = square.sqrt();
     let flat = half * v / u.hypot(v);
     let at = |t: f64| [half * t.cos() - d.e1, -flat * t.sin()];
-    let path = Path { domain, at };
-    path.intervals([0.0, PI], PIECES)
+    let ellipse = Curve { domain, at };
+    ellipse
+        .intervals([0.0, PI], SEGMENTS)
         .into_iter()
         .filter_map(|[low, high]| {
             let middle = domain.column(at(0.5 * (low.t + high.t)));
-            let mine = (middle.alpha() - alpha).abs() < OTHER;
-            mine.then(|| {
+            let has_angle = (middle.alpha() - alpha).abs() < OTHER;
+            has_angle.then(|| {
                 let mut points = vec![image(domain, &low.column)];
                 let drawn = |t: f64| image(domain, &domain.column(at(t)));
                 draw([low.t, high.t], CLOSE * tolerance, DEPTH, &drawn, &mut points);
@@ -62,7 +63,7 @@ fn image(domain: &Domain<'_>, column: &Column) -> [f64; 2] {
     [x, y]
 }
 
-/// The points to draw between two of a line.
+/// Adds the points that are drawn between two points of a line.
 fn draw(
     [from, to]: [f64; 2],
     allowed: f64,
@@ -71,8 +72,8 @@ fn draw(
     points: &mut Vec<[f64; 2]>,
 ) {
     let (a, b, middle) = (drawn(from), drawn(to), 0.5 * (from + to));
-    let near = |part: f64| {
-        let p = drawn(from + part * (to - from));
+    let near = |fraction: f64| {
+        let p = drawn(from + fraction * (to - from));
         let chord = (b[0] - a[0]).hypot(b[1] - a[1]);
         let area = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
         area.abs() <= allowed * chord
