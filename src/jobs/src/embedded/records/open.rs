@@ -70,8 +70,8 @@ pub(crate) fn open(
     let mut opened = match attempt() {
         Err(DatabaseError::Damaged(reason)) => {
             let moved_to = set_aside(directory).map_err(unusable)?;
-            let moved_to = moved_to.display();
-            tracing::error!(reason, %moved_to, "cannot read the database of jobs; creating a new one");
+            let shown = moved_to.display();
+            tracing::error!(reason, moved_to = %shown, "cannot read the database of jobs; creating a new one");
             attempt().map(|opened| Opened { damaged_database: Some(moved_to), ..opened })
         }
         opened => opened,
