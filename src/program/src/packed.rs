@@ -79,7 +79,7 @@ pub fn write(program: &Program, writer: impl Write) -> Result<(), postcard::Erro
     postcard::to_io(&packed, writer).map(drop)
 }
 
-/// Reads the program that [`write`] wrote. Numbers are the same to the last bit.
+/// Reads the program that [`write()`] wrote. Numbers are the same to the last bit.
 ///
 /// # Errors
 ///

@@ -36,7 +36,7 @@ impl Default for ComputationMetrics {
 impl ComputationMetrics {
     /// Adds the metrics to a registry.
     pub(crate) fn register(&self, registry: &mut Registry) {
-        registry.register("computations", "Workspaces and pieces of maps computed", self.computed.clone());
+        registry.register("computations", "Workspaces and subtasks of maps computed", self.computed.clone());
         let seconds = "Run time of jobs and of their subtasks, including runs that find a stored result";
         registry.register_with_unit("job_run", seconds, Unit::Seconds, self.seconds.clone());
     }
