@@ -5,8 +5,10 @@ use super::request::{Kind, Request};
 use crate::machine::{Machine, Table};
 use crate::pose::Point;
 
-/// Least |cos theta1| of a column. A plane Z = const of the part frame meets a steeper one far beyond every stroke.
-const LEAST_COSINE: f64 = 1e-12;
+/// |cos theta1| below which a plane Z = const of the part frame counts as parallel to a column.
+const PARALLEL: f64 = 1e-12;
+/// Distance at which a parallel plane is taken to meet a column, mm: beyond every stroke.
+const FAR: f64 = 1e15;
 
 /// The map of each kind. It is linear in z along a column, and so is its Jacobian determinant.
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +68,7 @@ impl Image {
             Self::Part { length, table, phi1, .. } => {
                 let [c1, s1] = tilt(column, *phi1);
                 let over = table.dt - height - length * phi1[0] + column.y * s1;
-                table.da + over / c1.abs().max(LEAST_COSINE).copysign(c1)
+                if c1.abs() > PARALLEL { table.da + over / c1 } else { FAR.copysign(over * c1) }
             }
         }
     }
