@@ -31,12 +31,15 @@ def bill(name: str) -> dict[str, str]:
 
 def binary(target: str) -> set[tuple[str, str]]:
     """What the crates of the workspace that are in the binary name themselves, without macros."""
-    crates = [path.parent.name for path in ROOT.glob("src/*/Cargo.toml")]
-    packages = [argument for crate in sorted(crates) for argument in ("-p", f"verne-{crate}")]
-    options = ["--locked", f"--target={target}", "--edges=normal,no-proc-macro", "--depth=1", "--prefix=none"]
-    command = ["cargo", "tree", *packages, *options]
-    tree = subprocess.run(command, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
-    found = set(re.findall(r"^(\S+) v(\S+)", tree, re.MULTILINE))
+    options = ["--locked", f"--target={target}", "--edges=normal,no-proc-macro", "--prefix=none"]
+
+    def tree(*arguments: str) -> str:
+        command = ["cargo", "tree", *arguments, *options]
+        return subprocess.run(command, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
+
+    crates = set(re.findall(r"^(verne-\S+) v", tree("-p", "verne-service"), re.MULTILINE))
+    packages = [argument for crate in sorted(crates) for argument in ("-p", crate)]
+    found = set(re.findall(r"^(\S+) v(\S+)", tree(*packages, "--depth=1"), re.MULTILINE))
     # The bill is its own.
     return {("verne" if name == "verne-service" else name, version) for name, version in found}
 
