@@ -7,11 +7,12 @@ use crate::machine::Machine;
 use crate::pose::TableAngles;
 
 /// The rod that represents each family.
-const FAMILY_ROD: [Element; 4] = [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
+pub(crate) const FAMILY_ROD: [Element; 4] =
+    [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
 
 /// The least number and its index.
 #[inline]
-fn least(margins: &[f64]) -> (usize, f64) {
+pub(crate) fn least(margins: &[f64]) -> (usize, f64) {
     let mut found = (0, f64::INFINITY);
     for (i, &margin) in margins.iter().enumerate() {
         if margin < found.1 {

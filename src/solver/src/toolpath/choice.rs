@@ -74,28 +74,17 @@ impl<'a> Chooser<'a> {
         mut go_on: impl FnMut(usize) -> bool,
     ) -> Option<Choice> {
         let mut meridian = Meridian::new(cap, self.setting.stretches);
-        let mut position: Option<ToolPosition> = None;
         for index in 0..motions.count() {
             if !go_on(index) {
                 return None;
             }
             let motion = motions.motion(index);
-            match position {
-                Some(start) if motion.kind != MotionKind::Arrive => {
-                    let path = Path::new(start, &motion);
-                    meridian.pass(motion.kind, &path);
-                    if motion.kind == MotionKind::Rapid {
-                        self.jump(&motion, meridian.spans.last());
-                    } else {
-                        self.feed(index, &motion, &path, &meridian.spans);
-                    }
+            match meridian.advance(&motion) {
+                Some(path) if motion.kind == MotionKind::Feed => {
+                    self.feed(index, &motion, &path, &meridian.spans);
                 }
-                _ => {
-                    meridian.arrive(&motion);
-                    self.jump(&motion, meridian.spans.last());
-                }
+                _ => self.jump(&motion, meridian.spans.last()),
             }
-            position = Some(motion.end);
         }
         Some(self.traced())
     }

@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::azimuth::{azimuth, azimuths, continued, of_arrival, to_nearest};
 use super::cap::Cap;
-use super::motion::{Motion, MotionKind};
+use super::motion::{Motion, MotionKind, ToolPosition};
 use super::path::Path;
 use super::stretches::Stretch;
 
@@ -83,16 +83,39 @@ pub(super) struct Meridian<'a> {
     done: f64,
     is_inside: bool,
     phi2: Option<f64>,
+    /// The end of the last motion.
+    position: Option<ToolPosition>,
     pub(super) spans: Vec<Span>,
 }
 
 impl<'a> Meridian<'a> {
     pub(super) fn new(cap: Cap, stretches: &'a [Stretch]) -> Self {
-        Self { cap, stretches, next: 0, done: 0.0, is_inside: false, phi2: None, spans: Vec::new() }
+        Self {
+            cap,
+            stretches,
+            next: 0,
+            done: 0.0,
+            is_inside: false,
+            phi2: None,
+            position: None,
+            spans: Vec::new(),
+        }
+    }
+
+    /// Moves to the end of a motion; `spans` then contains the parts of its path. `None`: the program has no path to
+    /// this position.
+    pub(super) fn advance(&mut self, motion: &Motion) -> Option<Path> {
+        let start = self.position.replace(motion.end).filter(|_| motion.kind != MotionKind::Arrive);
+        let path = start.map(|start| Path::new(start, motion));
+        match &path {
+            Some(path) => self.pass(motion.kind, path),
+            None => self.arrive(motion),
+        }
+        path
     }
 
     /// Arrives at a position from anywhere: a single span at parameter 1.
-    pub(super) fn arrive(&mut self, motion: &Motion) {
+    fn arrive(&mut self, motion: &Motion) {
         self.leave();
         self.spans.clear();
         let rule = if self.cap.has(motion.end.axis) {
@@ -108,7 +131,7 @@ impl<'a> Meridian<'a> {
     }
 
     /// Moves along a path; `spans` then contains its parts.
-    pub(super) fn pass(&mut self, kind: MotionKind, path: &Path) {
+    fn pass(&mut self, kind: MotionKind, path: &Path) {
         let (cap, mut spans) = (self.cap, std::mem::take(&mut self.spans));
         spans.clear();
         cap.split(path, |[from, to], inside| {

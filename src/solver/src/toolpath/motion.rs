@@ -59,7 +59,7 @@ pub enum Turning {
 /// One motion of a program: from the end of the motion before it to its own end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
-    /// What the motion is for.
+    /// The purpose of the motion.
     pub kind: MotionKind,
     /// Where it ends.
     pub end: ToolPosition,

@@ -5,6 +5,7 @@ use super::node::Node;
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
 use crate::margins::Margins;
+use crate::margins::worst::{FAMILY_ROD, least};
 
 /// Greatest number of failures that a report lists.
 pub const MOST_FAILURES: usize = 1_000;
@@ -158,17 +159,9 @@ impl Report {
 
 /// The least margin of each constraint of one place.
 fn each(margins: &Margins) -> impl Iterator<Item = Margin> {
-    const RODS: [Element; 4] = [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
-    let least = |values: &[f64]| {
-        let start = (0, f64::INFINITY);
-        values
-            .iter()
-            .enumerate()
-            .fold(start, |least, (i, value)| if *value < least.1 { (i, *value) } else { least })
-    };
     let of_rods = |constraint, values: &[f64; 4]| {
         let (i, value) = least(values);
-        Margin { constraint, element: RODS[i], value }
+        Margin { constraint, element: FAMILY_ROD[i], value }
     };
     let strokes: [f64; 6] = std::array::from_fn(|i| margins.stroke[i / 2][i % 2]);
     let (stroke, value) = least(&strokes);

@@ -17,7 +17,7 @@ use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
 use crate::pose::TableAngles;
 
-/// What a row is for.
+/// The purpose of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowKind {
     /// A place of a rapid, or the first position.
@@ -35,7 +35,7 @@ pub enum RowKind {
 pub struct Row {
     /// Index of the motion that the row belongs to.
     pub motion: usize,
-    /// What the row is for.
+    /// The purpose of the row.
     pub kind: RowKind,
     /// Where the tool is.
     pub position: ToolPosition,
@@ -47,7 +47,7 @@ pub struct Row {
     pub margin: Margin,
 }
 
-/// What the rows of a program are made with.
+/// Tolerances and mode of a program's rows.
 pub(super) struct RowSettings {
     pub(super) feed: Deviation,
     pub(super) rapid: Deviation,
@@ -84,28 +84,18 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         mut meridian: Meridian<'_>,
         mut go_on: impl FnMut(usize, u64) -> bool,
     ) -> Option<Report> {
-        let mut position: Option<ToolPosition> = None;
         for index in 0..motions.count() {
             if !go_on(index, self.report.rows) {
                 return None;
             }
             let motion = motions.motion(index);
-            match position {
-                Some(start) if motion.kind != MotionKind::Arrive => {
-                    let path = Path::new(start, &motion);
-                    meridian.pass(motion.kind, &path);
-                    if motion.kind == MotionKind::Rapid {
-                        self.rapid(index, &motion, &path, &meridian.spans);
-                    } else {
-                        self.feed(index, &motion, &path, &meridian.spans);
-                    }
+            match meridian.advance(&motion) {
+                Some(path) if motion.kind == MotionKind::Rapid => {
+                    self.rapid(index, &motion, &path, &meridian.spans);
                 }
-                _ => {
-                    meridian.arrive(&motion);
-                    self.arrive(index, &motion, &meridian.spans);
-                }
+                Some(path) => self.feed(index, &motion, &path, &meridian.spans),
+                None => self.arrive(index, &motion, &meridian.spans),
             }
-            position = Some(motion.end);
         }
         Some(self.report)
     }

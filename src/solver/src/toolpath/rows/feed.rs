@@ -84,7 +84,6 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             self.row(index, kind, &track.path.at(end), end, &ends[1], motion.tool_length);
             return;
         }
-        let mut failure = None;
         let result = linearise(track, stops[0], stops[1], &feed, |stop, segment, deviation| {
             let is_end = stop.s >= 1.0;
             let kind = if kind == RowKind::Feed && !is_end { RowKind::Inserted } else { kind };
@@ -96,15 +95,12 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
                 self.examine(index, segment, motion.tool_length);
             }
         });
-        if let Err(error) = result {
-            failure = Some(error);
-        }
-        match failure {
-            None => {}
-            Some(LineariseError::Refused(s, refusal)) => {
+        match result {
+            Ok(()) => {}
+            Err(LineariseError::Refused(s, refusal)) => {
                 self.break_off(index, motion, track, s, refusal, &ends[1]);
             }
-            Some(LineariseError::Jump(s)) => {
+            Err(LineariseError::Jump(s)) => {
                 let refusal = KinematicsError::Unreachable(Margin {
                     constraint: Constraint::ParallelSingularity,
                     element: Element::Platform,
