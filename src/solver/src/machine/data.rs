@@ -39,7 +39,7 @@ pub struct Limits {
     pub platform_axes: Option<[[f64; 3]; 4]>,
 }
 
-/// Plain numbers that may or may not describe a valid machine. [`Machine::new`] checks them.
+/// Plain numbers that may or may not describe a valid machine. [`Machine::new`](crate::Machine::new) checks them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineData {
     /// Short name, as used in requests.
