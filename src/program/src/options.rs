@@ -74,7 +74,8 @@ pub enum Compensation {
     Refuse,
 }
 
-/// How a program is read.
+/// How a program is read. Its serialised form, which is part of the ids of programs, is what a client can choose: it
+/// leaves out the limit.
 ///
 /// ```
 /// use verne_program::{ReadOptions, Units};
@@ -82,13 +83,14 @@ pub enum Compensation {
 /// let options = ReadOptions { units: Some(Units::Inches), ..ReadOptions::default() };
 /// assert_eq!(options.most_moves, 10_000_000);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReadOptions {
     /// The unit of lengths if the program states none. CL text without either is refused; rows are then millimetres.
     pub units: Option<Units>,
     /// What to do with cutter radius compensation.
     pub compensation: Compensation,
     /// The most moves that a program may have. A move takes 72 bytes of memory, an arc 56 more.
+    #[serde(skip)]
     pub most_moves: usize,
 }
 
