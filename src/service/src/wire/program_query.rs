@@ -32,7 +32,12 @@ pub(crate) struct ProgramQuery {
 impl ProgramQuery {
     /// The options for the reader.
     pub(crate) fn options(&self) -> ReadOptions {
-        ReadOptions { units: self.units, compensation: self.compensation, most_moves: MOST_MOVES }
+        ReadOptions {
+            units: self.units,
+            compensation: self.compensation,
+            most_moves: MOST_MOVES,
+            ..ReadOptions::default()
+        }
     }
 
     /// The format, stated here or by the media type of the body.
