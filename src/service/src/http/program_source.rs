@@ -42,8 +42,9 @@ pub(crate) fn respond_source(
     conditions: &Conditions,
 ) -> Result<Response, HttpError> {
     let coding = accepts_gzip(headers).then_some("gzip");
-    // Each coding is a representation with a tag of its own.
-    let etag = entity_tag(&source.hash(), coding)?;
+    // The id identifies the file. Its compressed bytes also depend on the pieces in which it arrived.
+    let hash = if coding.is_some() { source.hash() } else { blake3::Hash::from_bytes(*id.job().as_bytes()) };
+    let etag = entity_tag(&hash, coding)?;
     let file_name = format!("inline; filename=\"program-{id:.8}.{}\"", format.name());
     let mut about = HeaderMap::new();
     about.insert(CACHE_CONTROL, HeaderValue::from_static(IMMUTABLE));

@@ -15,7 +15,9 @@ use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouter};
 use utoipa_axum::routes;
 
 use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
-use crate::http::handlers::{batch, dexterity, jobs, kinematics, machines, programs, results, service, workspace};
+use crate::http::handlers::{
+    batch, dexterity, jobs, kinematics, machines, programs, results, service, workspace,
+};
 use crate::http::openapi::{self, Document, problem_responses, security};
 use crate::http::state::SharedState;
 use crate::http::unknown_parameters::reject_unknown;

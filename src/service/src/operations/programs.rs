@@ -19,7 +19,6 @@ use crate::operations::programs::receiver::ReceivedProgram;
 use crate::operations::results::{Results, hashed};
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
-use crate::wire::program::ProgramSummary;
 use crate::wire::result_id::ResultId;
 
 /// The blob with the packed program.
@@ -59,14 +58,14 @@ pub(crate) async fn store_program(
     if let Some(summary) = complete_summary(results, id).await {
         return Ok(StoredProgram { id, summary, is_new: false });
     }
-    let (program, format, size) = (Arc::clone(&received.program), received.format, received.size);
+    let (received, source) = (received.clone(), received.source.clone());
     let (packed, summary) = run_on_pool(move |_| {
-        let summary = ProgramSummary::new(id, format, size, &program).ok_or(OperationError::Internal)?;
-        Ok::<_, OperationError>((pack(&program)?, write_json(&summary, SUMMARY_BYTES)?))
+        let summary = received.summary().ok_or(OperationError::Internal)?;
+        Ok::<_, OperationError>((pack(&received.program)?, write_json(&summary, SUMMARY_BYTES)?))
     })
     .await?;
     results.put_blob(id, PROGRAM, packed).await?;
-    results.put_blob(id, SOURCE, received.source.clone()).await?;
+    results.put_blob(id, SOURCE, source).await?;
     results.put_blob(id, SUMMARY, summary).await?;
     // The store drops what it has no room for without a word.
     let summary = complete_summary(results, id).await.ok_or(OperationError::ProgramTooLarge)?;
@@ -164,4 +163,58 @@ fn unpack(id: ResultId, blob: &[u8]) -> Result<Arc<Program>, OperationError> {
 
 fn unknown(id: ResultId) -> OperationError {
     OperationError::ProgramNotFound(id.to_string())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use tokio::runtime::Handle;
+    use verne_program::{Format, ReadOptions, Row};
+    use verne_store::Store;
+
+    use super::receiver::{ProgramReceiver, ReceivedProgram, receive_points};
+    use super::{load_program, load_program_in_job, program_lines_in_job, store_program};
+    use crate::operations::blocking_results::BlockingResults;
+    use crate::operations::results::Results;
+    use crate::wire::error::OperationError;
+
+    fn received(format: Format, text: &str) -> ReceivedProgram {
+        let mut receiver = ProgramReceiver::new(format, &ReadOptions::default());
+        assert!(receiver.push(text.as_bytes()).is_continue());
+        receiver.finish().unwrap()
+    }
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn handlers_and_jobs_load_what_was_stored() {
+        let results = Results::new(Store::in_memory(1 << 20));
+        let sent = received(Format::Apt, "UNITS/MM\nGOTO/0,0,300,0,0.6,0.8\nSTOP\nGOTO/10,0,300\n");
+        let missing = load_program(&results, sent.id).await.unwrap_err();
+        assert_eq!(missing, OperationError::ProgramNotFound(sent.id.to_string()));
+        let stored = store_program(&results, &sent).await.unwrap();
+        assert!(stored.is_new && !store_program(&results, &sent).await.unwrap().is_new);
+        assert_eq!(load_program(&results, sent.id).await.unwrap(), sent.program);
+        let in_job = BlockingResults { results, runtime: Handle::current() };
+        let work = move || {
+            assert_eq!(load_program_in_job(&in_job, sent.id).unwrap(), sent.program);
+            assert_eq!(program_lines_in_job(&in_job, sent.id, &[3]), [(3, "STOP".to_owned())]);
+        };
+        tokio::task::spawn_blocking(work).await.unwrap();
+    }
+
+    #[test]
+    fn points_of_a_request_are_the_program_of_the_same_rows_in_a_file() {
+        let objects = r#"[{"x": 1, "y": 2, "z": 0.1, "phi1": 20, "phi2": 1e3, "feed": 800, "line": 7},
+                          {"x": 1.0, "y": 2, "z": 3, "phi1": -0.3, "phi2": 0, "kind": "rapid"},
+                          [1.5, 2, 3, 0.1, 17.000000000000004]]"#;
+        for text in
+            [objects, "[[0, 0, 300], [1e-7, 0, 299.9]]", "[[0, 0, 3, 0, 0.6, 0.8], [9, 0, 3, 0, 0, 1]]"]
+        {
+            let rows: Vec<Row> = serde_json::from_str(text).unwrap();
+            let points = receive_points(&rows, &ReadOptions::default()).unwrap();
+            let lines = rows.iter().map(|row| serde_json::to_string(row).unwrap() + "\n");
+            let file = received(Format::Ndjson, &lines.collect::<String>());
+            assert_eq!((points.id, points.size), (file.id, file.size));
+            assert_eq!(points.program, file.program);
+        }
+    }
 }

@@ -11,7 +11,7 @@ use crate::wire::error::{FieldError, OperationError};
 const MOST_MOVES: usize = 2_000_000;
 
 /// How a program is read.
-#[derive(Debug, Deserialize, IntoParams)]
+#[derive(Debug, Default, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct ProgramQuery {

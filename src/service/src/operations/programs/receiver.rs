@@ -10,7 +10,7 @@ use flate2::write::GzEncoder;
 use verne_program::{Format, Program, ReadOptions, Reader, Row, read_points};
 
 use crate::wire::error::OperationError;
-use crate::wire::program::FileSize;
+use crate::wire::program::{FileSize, ProgramSummary};
 use crate::wire::result_id::ResultId;
 
 /// Begins the hash of a program.
@@ -29,6 +29,13 @@ pub(crate) struct ReceivedProgram {
     pub source: Bytes,
     /// The size of the file.
     pub size: FileSize,
+}
+
+impl ReceivedProgram {
+    /// The summary, as it is sent.
+    pub(crate) fn summary(&self) -> Option<ProgramSummary> {
+        ProgramSummary::new(self.id, self.format, self.size, &self.program)
+    }
 }
 
 /// Receives a program. It blocks the thread for the time that reading takes: call it on the compute pool.
@@ -74,10 +81,7 @@ impl ProgramReceiver {
 /// # Errors
 ///
 /// [`OperationError::ProgramFaults`]
-pub(crate) fn receive_points(
-    rows: &[Row],
-    options: &ReadOptions,
-) -> Result<ReceivedProgram, OperationError> {
+pub(crate) fn receive_points(rows: &[Row], options: &ReadOptions) -> Result<ReceivedProgram, OperationError> {
     let program = read_points(rows.iter().copied(), options).map_err(OperationError::ProgramFaults)?;
     let mut file = ReceivedFile::new(Format::Ndjson, options);
     let mut line = Vec::new();
