@@ -7,7 +7,6 @@ pub(crate) mod receiver;
 use std::io::BufReader;
 use std::sync::Arc;
 
-use bytes::Bytes;
 use flate2::read::GzDecoder;
 use serde::Deserialize;
 use verne_program::{Format, Program, line_texts, packed};
@@ -16,7 +15,7 @@ use verne_store::{Content, ContentReader};
 use crate::operations::blocking_results::BlockingResults;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::programs::receiver::ReceivedProgram;
-use crate::operations::results::{Results, hashed};
+use crate::operations::results::Results;
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::result_id::ResultId;
@@ -108,12 +107,14 @@ struct FormatField<'a> {
 /// # Errors
 ///
 /// [`OperationError::ProgramNotFound`]
+#[allow(dead_code, reason = "tool paths will use it")]
 pub(crate) async fn load_program(results: &Results, id: ResultId) -> Result<Arc<Program>, OperationError> {
     let packed = results.blob(id, PROGRAM).await.ok_or_else(|| unknown(id))?;
     run_on_pool(move |_| unpack(id, &packed.bytes)).await
 }
 
 /// The same for the threads of the job queue.
+#[allow(dead_code, reason = "tool paths will use it")]
 pub(crate) fn load_program_in_job(
     results: &BlockingResults,
     id: ResultId,
@@ -123,6 +124,7 @@ pub(crate) fn load_program_in_job(
 
 /// The texts of some lines of a stored program, for the threads of the job queue; nothing if the store has evicted the
 /// file. `numbers` are the lines from 1, in ascending order.
+#[allow(dead_code, reason = "tool paths will use it")]
 pub(crate) fn program_lines_in_job(
     results: &BlockingResults,
     id: ResultId,
@@ -151,6 +153,7 @@ fn pack(program: &Program) -> Result<Vec<u8>, OperationError> {
 }
 
 /// A blob that cannot be unpacked is damaged; the client replaces it when it sends the program again.
+#[allow(dead_code, reason = "tool paths will use it")]
 fn unpack(id: ResultId, blob: &[u8]) -> Result<Arc<Program>, OperationError> {
     match packed::unpack(blob) {
         Ok(program) => Ok(Arc::new(program)),
