@@ -76,17 +76,29 @@ pub(crate) struct BatchBody {
 }
 
 impl BatchBody {
+    /// Reads the body on the worker threads.
+    pub(crate) async fn read<T: Send + 'static>(
+        self,
+        read: impl FnOnce(&[u8]) -> Result<T, OperationError> + Send + 'static,
+    ) -> Result<T, HttpError> {
+        let Self { body, coding, limit, mut memory, permit } = self;
+        run_on_pool(move |_| {
+            let body = decoded(body, coding, limit, &mut memory)?;
+            let outcome = read(&body);
+            drop((body, memory, permit));
+            Ok(outcome?)
+        })
+        .await
+    }
+
     /// Computes the answer on the worker threads. The batch keeps its permit until the answer is sent or dropped.
     pub(crate) async fn answer(
         self,
         compute: impl FnOnce(&[u8], &dyn Observer) -> Result<Vec<u8>, OperationError> + Send + 'static,
     ) -> Result<Bytes, HttpError> {
-        let Self { mut body, coding, limit, mut memory, permit } = self;
+        let Self { body, coding, limit, mut memory, permit } = self;
         run_on_pool(move |observer| {
-            if let Some(coding) = coding {
-                let sent = body.len();
-                body = coding.decode(&body, limit, |decoded| memory.grow_to(sent + decoded))?;
-            }
+            let body = decoded(body, coding, limit, &mut memory)?;
             let answer = compute(&body, observer);
             drop((body, memory));
             Ok(bytes_with_permit(answer?, permit))
@@ -107,6 +119,18 @@ impl FromRequest<SharedState> for BatchBody {
         let permit = state.admission.batches.take(client.quota())?;
         Ok(Self { body, coding, limit, memory, permit })
     }
+}
+
+/// The decoded body of a batch.
+fn decoded(
+    body: Vec<u8>,
+    coding: Option<Coding>,
+    limit: usize,
+    memory: &mut BodyMemory,
+) -> Result<Vec<u8>, HttpError> {
+    let Some(coding) = coding else { return Ok(body) };
+    let sent = body.len();
+    coding.decode(&body, limit, |decoded| memory.grow_to(sent + decoded))
 }
 
 /// The content coding of a JSON body. Fails for other media types.

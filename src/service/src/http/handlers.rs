@@ -7,4 +7,5 @@ pub(crate) mod kinematics;
 pub(crate) mod machines;
 pub(crate) mod results;
 pub(crate) mod service;
+pub(crate) mod toolpath;
 pub(crate) mod workspace;

@@ -37,6 +37,9 @@ const JOB: &[Code] = &[
 /// Codes of requests for a stored result.
 const RESULT: &[Code] = &[Code::NotFound, Code::WorkspaceNotFound, Code::RangeNotSatisfiable];
 
+/// Codes of requests with a program.
+const PROGRAM: &[Code] = &[Code::ProgramFault, Code::ProgramNotFound];
+
 type Responses = BTreeMap<String, RefOr<Response>>;
 
 macro_rules! problems {
@@ -78,6 +81,10 @@ problems! {
     MeshProblems: RESULT, JOB, &[Code::NoMesh, Code::Forbidden];
     /// Problems of the points of a dexterity map.
     CellsProblems: RESULT, JOB, &[Code::NoCells, Code::Forbidden];
+    /// Problems of a tool path.
+    ToolpathProblems: BODY, JOB, PROGRAM;
+    /// Problems of the report on a tool path.
+    ReportProblems: RESULT;
     /// Problems of a machine.
     MachineProblems: &[Code::NotFound, Code::MachineNotFound];
     /// Problems of the list of jobs.
