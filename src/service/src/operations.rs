@@ -6,6 +6,7 @@
 //!   into answers.
 //! - Workspaces: [`workspace_question`], [`family_question`] and [`dexterity_question`] check requests; [`workspace`]
 //!   and [`dexterity_map`] compute answers; [`mesh_files`], [`slice`] and [`drawing`] write files.
+//! - Programs: a client's file is read while it arrives and kept in the result store ([`programs`]).
 //! - Tool paths: [`toolpath_question`] checks requests; [`program_motions`] are what the planner reads; [`toolpath`]
 //!   plans, [`toolpath_rows`] and [`toolpath_report`] are what it leaves.
 //! - Jobs: a [`question`] is submitted as text ([`question_text`]); [`job_executor`] answers it, large ones in
@@ -35,6 +36,7 @@ pub(crate) mod mesh_files;
 pub(crate) mod nearest;
 pub(crate) mod observers;
 pub(crate) mod program_motions;
+pub(crate) mod programs;
 pub(crate) mod question;
 pub(crate) mod question_cache;
 pub(crate) mod question_text;

@@ -38,14 +38,15 @@ pub(crate) fn nest(routes: Router, base: &BasePath) -> Router {
     )
 }
 
-/// A summary with links that begin with the base path; `None` without one. All links are below the path
-/// of the result, which occurs nowhere else.
+/// A summary with links that begin with the base path; `None` without one. All links are below the path of the
+/// result, which occurs nowhere else.
 pub(crate) fn summary_below(base: &BasePath, summary: &[u8], path: &str) -> Option<Vec<u8>> {
     if base.as_str().is_empty() {
         return None;
     }
+    let link = format!("\"{path}");
     let text = std::str::from_utf8(summary).ok()?;
-    Some(text.replace(&format!("\"{path}"), &format!("\"{base}{path}")).into_bytes())
+    Some(text.replace(&link, &format!("\"{base}{path}")).into_bytes())
 }
 
 fn remove_from_uri(base: &BasePath, mut request: Request) -> Request {

@@ -1,6 +1,6 @@
 //! Reads a request for a tool path: its options are checked, and its program is found or received.
 
-use verne_program::{ReadOptions, Units};
+use verne_program::ReadOptions;
 
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::programs::receiver::{ReceivedProgram, receive_points};
@@ -47,7 +47,7 @@ pub(crate) fn read_request(
             ProgramSource::Stored(id)
         }
         Some(ProgramRef::Points(points)) => {
-            let options = ReadOptions { units: request.units.map(Units::from), ..ReadOptions::default() };
+            let options = ReadOptions { units: request.units, ..ReadOptions::default() };
             ProgramSource::Received(Box::new(receive_points(&points.points, &options)?))
         }
     };

@@ -1,10 +1,10 @@
 //! A short program in a JSON body: its points.
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use utoipa::openapi::schema::{AnyOfBuilder, ArrayBuilder, ArrayItems, ObjectBuilder, Type};
 use utoipa::openapi::{RefOr, Schema};
 use utoipa::{PartialSchema, ToSchema};
-use verne_program::{Row, Units};
+use verne_program::Row;
 
 /// The points of a program.
 #[derive(Clone, Debug, Deserialize, ToSchema)]
@@ -34,22 +34,3 @@ impl PartialSchema for PointSchema {
 }
 
 impl ToSchema for PointSchema {}
-
-/// Unit of lengths in a program: `mm`, or `inch` of 25.4 mm.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum ProgramUnits {
-    /// Millimetres.
-    Mm,
-    /// Inches of 25.4 mm.
-    Inch,
-}
-
-impl From<ProgramUnits> for Units {
-    fn from(units: ProgramUnits) -> Self {
-        match units {
-            ProgramUnits::Mm => Self::Millimetres,
-            ProgramUnits::Inch => Self::Inches,
-        }
-    }
-}

@@ -8,10 +8,12 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
+use verne_program::Units;
 
 use crate::wire::fixed_array::Triple;
 use crate::wire::machine_ref::MachineRef;
-use crate::wire::program_points::{ProgramPoints, ProgramUnits};
+use crate::wire::program_points::ProgramPoints;
+use crate::wire::program_query::units;
 use crate::wire::strict_object::{optional_strict_object, strict_object};
 
 /// A request for the joint motion of a program.
@@ -24,7 +26,8 @@ pub(crate) struct ToolpathRequest {
     pub program: Option<ProgramRef>,
     /// The unit of lengths in the points: `mm` (default) or `inch`. A stored program states its own unit.
     #[serde(default)]
-    pub units: Option<ProgramUnits>,
+    #[schema(schema_with = units)]
+    pub units: Option<Units>,
     /// The machine: the name of a published machine, or a machine object.
     #[serde(default)]
     pub machine: MachineRef,
