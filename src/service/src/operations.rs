@@ -49,6 +49,7 @@ pub(crate) mod subtask;
 pub(crate) mod table_angles;
 pub(crate) mod toolpath;
 pub(crate) mod toolpath_cost;
+pub(crate) mod toolpath_job;
 pub(crate) mod toolpath_question;
 pub(crate) mod toolpath_report;
 pub(crate) mod toolpath_request;

@@ -138,11 +138,17 @@ fn decoded(
 fn coding_of_json(headers: &HeaderMap) -> Result<Option<Coding>, RequestError> {
     let Some(declared) = headers.get(header::CONTENT_TYPE) else { return Err(RequestError::NotJson(None)) };
     let declared = declared.to_str().unwrap_or_default();
-    let essence = declared.split(';').next().unwrap_or_default().trim().to_ascii_lowercase();
-    if essence == "application/json" || (essence.starts_with("application/") && essence.ends_with("+json")) {
-        return Coding::of(headers);
+    if is_json(declared) {
+        Coding::of(headers)
+    } else {
+        Err(RequestError::NotJson(Some(declared.to_owned())))
     }
-    Err(RequestError::NotJson(Some(declared.to_owned())))
+}
+
+/// Whether a media type is that of JSON.
+pub(crate) fn is_json(media_type: &str) -> bool {
+    let essence = media_type.split(';').next().unwrap_or_default().trim().to_ascii_lowercase();
+    essence == "application/json" || (essence.starts_with("application/") && essence.ends_with("+json"))
 }
 
 /// Reads a body of at most `limit` bytes. Calls `reserve` with the new length before the body grows.

@@ -17,15 +17,11 @@ use crate::operations::family_question::FamilyQuestion;
 use crate::operations::family_table::FamilyTable;
 use crate::operations::mesh_files::{MeshDescription, mesh_file_name, write_mesh};
 use crate::operations::observers::{ObserverFns, equal_section};
-use crate::operations::programs::load_program_in_job;
 use crate::operations::question::Question;
 use crate::operations::question_text::JobParameters;
 use crate::operations::results::{CELLS, MESH, Results, pack_mesh};
 use crate::operations::subtask::{Subtask, SubtaskRequest};
-use crate::operations::toolpath::compute_toolpath;
-use crate::operations::toolpath_question::ToolpathQuestion;
-use crate::operations::toolpath_report::row_count;
-use crate::operations::toolpath_rows::{chunk_count, chunk_name};
+use crate::operations::toolpath_job::answer_toolpath;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::telemetry::metrics::computations::ComputationMetrics;
@@ -65,7 +61,7 @@ impl JobExecutor {
             Question::Workspace(workspace) => self.workspace(workspace, parameters, observer).map(drop),
             Question::Family(family) => self.family(question, family, parameters, observer),
             Question::Dexterity(map) => self.dexterity(question, map, parameters, observer),
-            Question::Toolpath(path) => self.toolpath(question, path, observer),
+            Question::Toolpath(path) => answer_toolpath(&self.store, path, &self.computations, observer),
             Question::Subtask(subtask) => self.subtask(subtask, parameters, observer).map(drop),
         }
     }
@@ -179,29 +175,6 @@ impl JobExecutor {
             self.store.put_blob(map.id, name, bytes)?;
         }
         self.store.put_record(question, &merged.summary, None)
-    }
-
-    /// Plans a tool path, unless the store has its report and all its rows.
-    fn toolpath(
-        &self,
-        question: &Question,
-        path: &ToolpathQuestion,
-        observer: &dyn Observer,
-    ) -> Result<(), OperationError> {
-        if self.has_toolpath(path.id) {
-            return Ok(());
-        }
-        let program = load_program_in_job(&self.store, path.request.program)?;
-        self.computations.count();
-        let put = |chunk, rows| self.store.put_blob(path.id, &chunk_name(chunk), rows).map(drop);
-        let report = compute_toolpath(path, &program, put, observer)?;
-        self.store.put_record(question, &report, None)
-    }
-
-    fn has_toolpath(&self, id: ResultId) -> bool {
-        let Some(record) = self.store.complete_record(id, &[]) else { return false };
-        row_count(&record.summary.bytes)
-            .is_some_and(|rows| (0..chunk_count(rows)).all(|chunk| self.store.has_blob(id, &chunk_name(chunk))))
     }
 
     /// The subtasks from which a question's answer is merged; none if the answer is stored.

@@ -121,18 +121,25 @@ pub(crate) fn load_program_in_job(
     unpack(id, &results.blob(id, PROGRAM).ok_or_else(|| unknown(id))?)
 }
 
-/// The texts of some lines of a stored program, for the threads of the job queue; nothing if the store has evicted the
-/// file. `numbers` are the lines from 1, in ascending order.
+/// The texts of some lines of a stored program, for the threads of the job queue. `numbers` are the lines from 1, in
+/// ascending order. Rows have no texts: they may state the lines of another file.
+///
+/// # Errors
+///
+/// [`OperationError::ProgramNotFound`]
 pub(crate) fn program_lines_in_job(
     results: &BlockingResults,
     id: ResultId,
     numbers: &[u32],
-) -> Vec<(u32, String)> {
-    let Some(source) = results.blob(id, SOURCE) else { return Vec::new() };
-    let texts = line_texts(BufReader::new(GzDecoder::new(&*source)), numbers);
-    texts.unwrap_or_else(|error| {
+) -> Result<Vec<(u32, String)>, OperationError> {
+    let (_, format) = results.runtime.block_on(program_source(&results.results, id))?;
+    if matches!(format, Format::Csv | Format::Ndjson) {
+        return Ok(Vec::new());
+    }
+    let source = results.blob(id, SOURCE).ok_or_else(|| unknown(id))?;
+    line_texts(BufReader::new(GzDecoder::new(&*source)), numbers).map_err(|error| {
         tracing::warn!(%id, %error, "cannot read the file of a stored program");
-        Vec::new()
+        unknown(id)
     })
 }
 
@@ -196,7 +203,7 @@ mod tests {
         let in_job = BlockingResults { results, runtime: Handle::current() };
         let work = move || {
             assert_eq!(load_program_in_job(&in_job, sent.id).unwrap(), sent.program);
-            assert_eq!(program_lines_in_job(&in_job, sent.id, &[3]), [(3, "STOP".to_owned())]);
+            assert_eq!(program_lines_in_job(&in_job, sent.id, &[3]).unwrap(), [(3, "STOP".to_owned())]);
         };
         tokio::task::spawn_blocking(work).await.unwrap();
     }

@@ -19,14 +19,16 @@ const REPORT_BYTES: usize = 4096;
 /// How many motions are planned between two calls of the observer.
 const MOTIONS_PER_CALL: u32 = 16;
 
-/// Plans a program. Hands the chunks of rows to `put`, with their numbers, and returns the report as it is sent.
+/// Plans a program. Hands the chunks of rows to `put`, with their numbers, and returns the report as it is sent. `texts`
+/// returns the texts of lines, of which it knows any or none.
 ///
 /// # Errors
 ///
-/// Those of `put`; program faults, or more rows than a plan may have.
+/// Those of `texts` and `put`; program faults, or more rows than a plan may have.
 pub(crate) fn compute_toolpath(
     question: &ToolpathQuestion,
     program: &Arc<Program>,
+    texts: impl FnOnce(&[u32]) -> Result<Vec<(u32, String)>, OperationError>,
     put: impl FnMut(u64, Vec<u8>) -> Result<(), OperationError>,
     observer: &dyn Observer,
 ) -> Result<Vec<u8>, OperationError> {
@@ -53,12 +55,21 @@ pub(crate) fn compute_toolpath(
     written?;
     let planned = planned.map_err(plan_error)?;
     writer.finish()?;
-    write_json(&report(question, &motions, &planned), REPORT_BYTES)
+    let mut report = report(question, &motions, &planned);
+    let mut failing: Vec<u32> = report.failures.iter().map(|failure| failure.lines[0]).collect();
+    failing.sort_unstable();
+    failing.dedup();
+    if !failing.is_empty() {
+        report.add_texts(&texts(&failing)?);
+    }
+    write_json(&report, REPORT_BYTES)
 }
 
 fn plan_error(error: PlanError) -> OperationError {
     match error {
         PlanError::Cancelled => OperationError::Cancelled,
-        PlanError::TooManyRows => OperationError::Fields(vec![FieldError::new("/tolerance", error.to_string())]),
+        PlanError::TooManyRows => {
+            OperationError::Fields(vec![FieldError::new("/tolerance", error.to_string())])
+        }
     }
 }

@@ -166,7 +166,8 @@ fn check_tools(request: &ToolpathRequest, faults: &mut FieldErrors) {
         Some(ToolLengths::One(length)) => faults.tool_length(*length),
         Some(ToolLengths::Table(table)) => {
             if !(1..=MOST_TOOLS).contains(&table.len()) {
-                faults.add("/tool_length", format!("must have 1 to {MOST_TOOLS} entries, not {}", table.len()));
+                faults
+                    .add("/tool_length", format!("must have 1 to {MOST_TOOLS} entries, not {}", table.len()));
             }
             for (number, _) in table.iter().filter(|(_, length)| !is_tool_length(**length)) {
                 let detail = format!("must be a number from 0 to {MAX_INPUT:e} mm");
@@ -177,10 +178,15 @@ fn check_tools(request: &ToolpathRequest, faults: &mut FieldErrors) {
     match (request.length_before, &request.tool_length) {
         (None, _) => {}
         (Some(number), Some(ToolLengths::Table(table))) if !table.contains_key(&number) => {
-            faults.add("/length_before", format!("must be an entry of tool_length, which has none for {number}"));
+            faults.add(
+                "/length_before",
+                format!("must be an entry of tool_length, which has none for {number}"),
+            );
         }
         (Some(_), Some(ToolLengths::Table(_))) => {}
-        (Some(_), _) => faults.add("/length_before", "is allowed only with a table of lengths in tool_length"),
+        (Some(_), _) => {
+            faults.add("/length_before", "is allowed only with a table of lengths in tool_length")
+        }
     }
     faults.clearance(request.table_clearance, request.tool_radius, None);
 }

@@ -24,7 +24,11 @@ pub(crate) fn row_count(report: &[u8]) -> Option<u64> {
 }
 
 /// The report.
-pub(crate) fn report(question: &ToolpathQuestion, motions: &ProgramMotions, planned: &Report) -> ToolpathReport {
+pub(crate) fn report(
+    question: &ToolpathQuestion,
+    motions: &ProgramMotions,
+    planned: &Report,
+) -> ToolpathReport {
     let [feed, rapid] = planned.length;
     let [theta1, theta2] = planned.turning.map(to_degrees);
     let read = motions.program().warnings();
@@ -48,10 +52,7 @@ pub(crate) fn report(question: &ToolpathQuestion, motions: &ProgramMotions, plan
         ranges: planned.ranges.map(ranges),
         turning: TurningObject { theta1, theta2 },
         pole_distance: planned.least_inclination.map(to_degrees),
-        deviation: DeviationObject {
-            tip: planned.deviation.tip,
-            axis: to_degrees(planned.deviation.axis),
-        },
+        deviation: DeviationObject { tip: planned.deviation.tip, axis: to_degrees(planned.deviation.axis) },
         preimage_changes: planned.preimage_changes,
         departures: planned.departures.iter().map(|departure| departed(motions, departure)).collect(),
         departure_count: planned.departure_count,
@@ -80,7 +81,9 @@ fn departed(motions: &ProgramMotions, departure: &Departure) -> DepartureObject 
     DepartureObject {
         line: motions.line(departure.motion),
         distance: departure.distance,
-        direction: departure.distance.map(|_| FixedArray(departure.direction.map(|component| component + 0.0))),
+        direction: departure
+            .distance
+            .map(|_| FixedArray(departure.direction.map(|component| component + 0.0))),
     }
 }
 

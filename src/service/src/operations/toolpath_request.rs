@@ -36,7 +36,9 @@ pub(crate) fn read_request(
     let request: ToolpathRequest = parse_body(body)?;
     let fault = |pointer: &str, detail: &str| OperationError::Fields(vec![FieldError::new(pointer, detail)]);
     let source = match &request.program {
-        None => return Err(OperationError::Fields(vec![FieldError::missing("/program".to_owned(), "program")])),
+        None => {
+            return Err(OperationError::Fields(vec![FieldError::missing("/program".to_owned(), "program")]));
+        }
         Some(ProgramRef::Id(_)) if request.units.is_some() => {
             return Err(fault("/units", "is allowed only with points: a stored program has its unit"));
         }

@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use crate::wire::result_id::ResultId;
-use crate::wire::toolpath::{OnLimitName, OrientationName, RapidsName, Setup, TipName, Tolerance, ToolLengths};
+use crate::wire::toolpath::{
+    OnLimitName, OrientationName, RapidsName, Setup, TipName, Tolerance, ToolLengths,
+};
 
 /// The request for a tool path with its default values, without the fields that have no effect.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]

@@ -14,7 +14,7 @@ use crate::wire::fixed_array::Triple;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::program_points::ProgramPoints;
 use crate::wire::program_query::units;
-use crate::wire::strict_object::{optional_strict_object, strict_object};
+use crate::wire::strict_object::{StrictObject, optional_strict_object, strict_object};
 
 /// A request for the joint motion of a program.
 #[derive(Clone, Debug, Default, Deserialize, ToSchema)]
@@ -36,7 +36,7 @@ pub(crate) struct ToolpathRequest {
     pub setup: Setup,
     /// The program's frame in the part frame for each work offset that the program calls, by the names `G54` to `G59`,
     /// `G59.1`, `G59.2` and `G59.3`. `setup` is the frame of G54 unless it is listed here.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "strict_objects")]
     pub offsets: BTreeMap<String, Setup>,
     /// Distance from P to the tool end, mm: one number for every tool, or an object with the length of each tool by its
     /// number. Without it the lengths that the program states are used.
@@ -78,6 +78,11 @@ pub(crate) struct ToolpathRequest {
     /// What happens where the machine cannot follow a cut.
     #[serde(default)]
     pub on_limit: OnLimitName,
+}
+
+fn strict_objects<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<String, Setup>, D::Error> {
+    let frames = BTreeMap::<String, StrictObject<Setup>>::deserialize(deserializer)?;
+    Ok(frames.into_iter().map(|(name, frame)| (name, frame.0)).collect())
 }
 
 /// A program: the id of a stored one, or points.

@@ -13,6 +13,9 @@ use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::program::WarningObject;
 use crate::wire::result_id::ResultId;
 
+/// Most characters of a line's text.
+const TEXT_CHARACTERS: usize = 200;
+
 /// The report on the joint motion of a program.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct ToolpathReport {
@@ -82,7 +85,7 @@ pub(crate) struct FailureObject {
     /// The first and the last line.
     #[schema(value_type = Vec<u32>, min_items = 2, max_items = 2)]
     pub lines: [u32; 2],
-    /// The text of the first line. Points of a request have none.
+    /// The first 200 characters of the first line. Rows (CSV, NDJSON, points) have no text.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub text: Option<String>,
@@ -200,6 +203,16 @@ pub(crate) struct ToolpathLinks {
     /// This report.
     #[serde(rename = "self")]
     pub itself: String,
+}
+
+impl ToolpathReport {
+    /// Adds the texts of the first lines of failures, as far as they are known. Texts are in the order of their lines.
+    pub(crate) fn add_texts(&mut self, texts: &[(u32, String)]) {
+        for failure in &mut self.failures {
+            let found = texts.binary_search_by_key(&failure.lines[0], |(line, _)| *line).ok();
+            failure.text = found.map(|index| texts[index].1.chars().take(TEXT_CHARACTERS).collect());
+        }
+    }
 }
 
 impl FailurePlace {

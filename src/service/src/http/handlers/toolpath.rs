@@ -5,24 +5,28 @@ use std::sync::Arc;
 use axum::extract::State;
 use axum::response::Response;
 
-use crate::http::conditional_response::{Conditions, IMMUTABLE, Representation};
+use crate::http::conditional_response::{Conditions, IMMUTABLE};
 use crate::http::error::{HttpError, LookupError};
-use crate::http::extractors::{BatchBody, PathParameter};
+use crate::http::extractors::PathParameter;
 use crate::http::handlers::results::record;
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
+use crate::http::openapi::body_schemas::{Binary, Text};
 use crate::http::openapi::problem_responses::{ReportProblems, ToolpathProblems};
-use crate::http::result_or_job::ResultOrJob;
+use crate::http::program_body::ProgramInMemory;
 use crate::http::result_representation::{summary, summary_or_job};
 use crate::http::state::{AppState, SharedState};
+use crate::http::toolpath_body::{FileRequest, ToolpathBody};
 use crate::http::wait_policy::WaitPolicy;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::programs::{load_program, store_program};
 use crate::operations::question::Question;
 use crate::operations::question_text::QuestionKind;
-use crate::operations::toolpath_question::CheckedToolpath;
+use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
 use crate::operations::toolpath_request::{ProgramSource, read_request};
+use crate::wire::program_query::ProgramQuery;
 use crate::wire::toolpath::ToolpathRequest;
+use crate::wire::toolpath_query::{ToolpathQuery, point_into_toolpath_query};
 use crate::wire::toolpath_report::ToolpathReport;
 
 /// The joint motion of a program
@@ -30,10 +34,16 @@ use crate::wire::toolpath_report::ToolpathReport;
 /// Plans the motion of the five joints along a program: it chooses the orientation and the winding of the table for each
 /// cut, divides the moves into rows between which a controller may move the joints linearly, and checks every limit. The
 /// report says whether the machine can run the program; if not, it names the lines, the limits, and how much is missing.
-/// If the computation takes longer than the wait, the answer is 202 with the job.
+///
+/// The body is JSON with all fields, or the file of a program, with `format` and the other fields as parameters. If the
+/// computation takes longer than the wait, the answer is 202 with the job. The header `Prefer: wait=N` sets the wait;
+/// `Prefer: respond-async` skips it (RFC 7240).
 #[utoipa::path(
-    post, path = "/toolpath", operation_id = "toolpath", tag = "toolpath",
-    request_body(content = ToolpathRequest, description = "The program, its set-up, and the tolerances."),
+    post, path = "/toolpath", operation_id = "toolpath", tag = "toolpath", params(ProgramQuery, ToolpathQuery),
+    request_body(content(
+        (ToolpathRequest = "application/json"), (Text = "text/plain"), (Text = "text/csv"),
+        (Text = "application/x-ndjson"), (Binary = "application/octet-stream"),
+    ), description = "The program, its set-up and the tolerances as JSON; or the file of a program."),
     responses(
         (status = 200, description = "The report.", body = ToolpathReport),
         (status = 202, description = "The job that computes the result. The header Location has its path.", body =
@@ -46,12 +56,28 @@ pub(crate) async fn post_toolpath(
     accept: Accept,
     wait_policy: WaitPolicy,
     conditions: Conditions,
-    body: BatchBody,
+    body: ToolpathBody,
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
-    let machines = Arc::clone(&state);
-    let (checked, source) = body.read(move |body| read_request(body, &machines.machines)).await?;
-    let report = report_or_job(&state, checked, source, &wait_policy).await?;
+    let question = match body {
+        ToolpathBody::Json(body) => {
+            let shared = Arc::clone(&state);
+            let read = move |body: &[u8]| read_request(body, &shared.machines);
+            let (checked, source) = body.read(read).await?;
+            question(&state, checked, source).await?
+        }
+        ToolpathBody::File(file) => {
+            let FileRequest { reading, query, body } = *file;
+            let format = reading.format(body.media_type())?;
+            let checked = CheckedToolpath::new(&query.into_request(), &state.machines);
+            let checked = checked.map_err(point_into_toolpath_query)?;
+            let ProgramInMemory { program, memory } = body.receive(format, reading.options()).await?;
+            let question = question(&state, checked, ProgramSource::Received(Box::new(program))).await?;
+            drop(memory);
+            question
+        }
+    };
+    let report = summary_or_job(&state, &Arc::new(Question::Toolpath(question)), &wait_policy).await?;
     report.respond(&state, wait_policy, &conditions)
 }
 
@@ -77,16 +103,15 @@ pub(crate) async fn get_report(
     summary(&state, record).cached(IMMUTABLE).respond(&conditions)
 }
 
-/// The report, or the job that computes it.
-async fn report_or_job(
+/// The question, whose program is checked and stored unless the answer is known.
+async fn question(
     state: &AppState,
     checked: CheckedToolpath,
     source: ProgramSource,
-    wait_policy: &WaitPolicy,
-) -> Result<ResultOrJob<Representation>, HttpError> {
+) -> Result<ToolpathQuestion, HttpError> {
     let question = checked.question(source.id());
-    if let Some(record) = state.results.record(question.id).await {
-        return Ok(ResultOrJob::Result(summary(state, record)));
+    if state.results.record(question.id).await.is_some() {
+        return Ok(question);
     }
     let program = match &source {
         ProgramSource::Received(received) => Arc::clone(&received.program),
@@ -98,5 +123,9 @@ async fn report_or_job(
         // The job loads the program from the store.
         store_program(&state.results, &received).await?;
     }
-    summary_or_job(state, &Arc::new(Question::Toolpath(question)), wait_policy).await
+    Ok(question)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests;

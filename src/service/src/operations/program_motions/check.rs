@@ -42,11 +42,17 @@ fn fault(
     }
     let is_vector = matches!(step.orientation(), Orientation::Vector(_));
     if motions.orientation() == Some(OrientationName::Rotary) && is_vector {
-        return Some("orientation=rotary needs rotary words (A and C, B and C, or phi1 and phi2) in every move".to_owned());
+        return Some(
+            "orientation=rotary needs rotary words (A and C, B and C, or phi1 and phi2) in every move"
+                .to_owned(),
+        );
     }
     let arrives = motion.kind == MotionKind::Arrive;
     if arrives && index > 0 && motions.program().arc(step).is_some() {
-        return Some("an arc needs a point to begin at, after a change of tool, length or origin; put one before".to_owned());
+        return Some(
+            "an arc needs a point to begin at, after a change of tool, length or origin; put one before"
+                .to_owned(),
+        );
     }
     let before = before.filter(|_| !arrives && step.kind() == MoveKind::Feed)?;
     let could_turn_either_way =
@@ -66,7 +72,10 @@ fn out_of_reach(motion: &Motion, machine: &Machine) -> Option<String> {
     };
     let lengths = motion.end.tip.into_iter().chain(centre).chain([motion.tool_length]);
     let beyond = |length| out_of_proportion(length, machine);
-    lengths.into_iter().find_map(beyond).map(|detail| format!("a length of the move, with its set-up, {detail}"))
+    lengths
+        .into_iter()
+        .find_map(beyond)
+        .map(|detail| format!("a length of the move, with its set-up, {detail}"))
 }
 
 fn are_opposite(a: [f64; 3], b: [f64; 3]) -> bool {

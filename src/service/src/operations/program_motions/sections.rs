@@ -153,7 +153,14 @@ impl<'a> Divider<'a> {
             TipName::End => 0.0,
             TipName::Centre => request.tool_radius.unwrap_or_default(),
         };
-        Self { program, beyond, sections: Vec::new(), states: Vec::new(), faults: Vec::new(), is_complete: true }
+        Self {
+            program,
+            beyond,
+            sections: Vec::new(),
+            states: Vec::new(),
+            faults: Vec::new(),
+            is_complete: true,
+        }
     }
 
     /// Begins a section at a move. The last state before a move counts.
@@ -182,7 +189,8 @@ impl<'a> Divider<'a> {
         };
         let length = state.length.and_then(|length| {
             let length = length - self.beyond;
-            let short = || format!("the tool is {} mm shorter than tool_radius; give a longer one", 0.0 - length);
+            let short =
+                || format!("the tool is {} mm shorter than tool_radius; give a longer one", 0.0 - length);
             if length >= 0.0 { Ok(length) } else { Err(short()) }
         });
         match (length, state.frame) {

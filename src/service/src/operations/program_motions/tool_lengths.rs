@@ -55,7 +55,8 @@ impl<'a> LengthRule<'a> {
             (Some(ToolLengths::One(length)), _) => Ok(*length),
             (Some(ToolLengths::Table(_)), Some(number)) => self.entry(number),
             (Some(ToolLengths::Table(_)), None) => {
-                Err("the program states no number for this tool; give one tool_length for every tool".to_owned())
+                Err("the program states no number for this tool; give one tool_length for every tool"
+                    .to_owned())
             }
             (None, _) => stated.ok_or_else(|| {
                 "the program does not state the length of this tool; give tool_length".to_owned()

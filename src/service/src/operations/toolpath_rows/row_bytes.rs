@@ -49,7 +49,8 @@ pub(crate) fn read_row(bytes: &[u8]) -> Option<StoredRow> {
     let (numbers, rest) = numbers.as_chunks::<8>();
     let numbers: &[[u8; 8]; 13] = numbers.try_into().ok()?;
     let numbers = numbers.map(f64::from_le_bytes);
-    let [l0, l1, l2, l3, i0, i1, i2, i3, kind, has_duration, constraint, element, first, second, _, _] = *head;
+    let [l0, l1, l2, l3, i0, i1, i2, i3, kind, has_duration, constraint, element, first, second, _, _] =
+        *head;
     let [x, y, z, i, j, k, rho1, rho2, rho3, theta1, theta2, duration, value] = numbers;
     rest.is_empty().then_some(())?;
     Some(StoredRow {
