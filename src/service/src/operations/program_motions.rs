@@ -43,7 +43,7 @@ impl ProgramMotions {
     ) -> Result<Self, ProgramErrors> {
         let Sections { sections, frames, warnings } = Sections::of(&program, request)?;
         let motions = Self { program, sections, frames, orientation: request.orientation, warnings };
-        check_motions(&motions, machine)?;
+        check_motions(&motions.program, &motions, request.orientation, machine)?;
         Ok(motions)
     }
 
@@ -55,11 +55,6 @@ impl ProgramMotions {
     /// The line of a motion.
     pub(crate) fn line(&self, index: usize) -> u32 {
         self.program.moves().get(index).map_or(0, Move::line)
-    }
-
-    /// How the program demands the axis to move between two points.
-    pub(crate) fn orientation(&self) -> Option<OrientationName> {
-        self.orientation
     }
 
     fn section(&self, index: usize) -> &Section {

@@ -18,8 +18,8 @@ use crate::wire::machine::MachineObject;
 use crate::wire::result_id::ResultId;
 use crate::wire::workspace::CanonicalWorkspace;
 
-/// The kind of a result: `workspace`; `family`, a table of workspaces; `dexterity`, a map; `toolpath`; `subtask`, a part
-/// of a family or of a map.
+/// The kind of a result: `workspace`; `family`, a table of workspaces; `dexterity`, a map; `toolpath`; `subtask`, a
+/// part of a family or of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum QuestionKind {

@@ -9,7 +9,8 @@ use verne_solver::workspace::Observer;
 
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_report::report;
-use crate::operations::toolpath_rows::{RowWriter, StoredRow};
+use crate::operations::toolpath_rows::RowWriter;
+use crate::operations::toolpath_rows::row_bytes::StoredRow;
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::json::write_json;
 
@@ -19,8 +20,8 @@ const REPORT_BYTES: usize = 4096;
 /// How many motions are planned between two calls of the observer.
 const MOTIONS_PER_CALL: u32 = 16;
 
-/// Plans a program. Hands the chunks of rows to `put`, with their numbers, and returns the report as it is sent. `texts`
-/// returns the texts of lines, of which it knows any or none.
+/// Plans a program. Hands the chunks of rows to `put`, with their numbers, and returns the report as it is sent.
+/// `texts` returns the texts of lines, of which it knows any or none.
 ///
 /// # Errors
 ///

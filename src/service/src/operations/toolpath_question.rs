@@ -93,7 +93,8 @@ impl ToolpathQuestion {
         Self { machine, request, id, cost }
     }
 
-    /// Checks the program, and estimates the work. It takes some 0.1 s for a million moves: call it on the compute pool.
+    /// Checks the program, and estimates the work. It takes some 0.1 s for a million moves: call it on the compute
+    /// pool.
     ///
     /// # Errors
     ///

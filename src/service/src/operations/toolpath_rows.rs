@@ -1,14 +1,9 @@
 //! The rows of a tool path in the store: blobs of equally many rows, each row of equally many bytes. So a reader finds
 //! any row without reading those before it.
 
-mod row_bytes;
+pub(crate) mod row_bytes;
 
-use verne_program::Program;
-use verne_solver::Margin;
-use verne_solver::TableAngles;
-use verne_solver::toolpath::{Row, RowKind, ToolPosition};
-
-use crate::operations::toolpath_rows::row_bytes::{ROW_BYTES, read_row, write_row};
+use crate::operations::toolpath_rows::row_bytes::{ROW_BYTES, StoredRow, read_row, write_row};
 use crate::wire::error::OperationError;
 
 /// Rows in a chunk; the last one has fewer.
@@ -26,37 +21,6 @@ pub(crate) fn chunk_name(chunk: u64) -> String {
 /// The number of chunks of a tool path with so many rows.
 pub(crate) fn chunk_count(rows: u64) -> u64 {
     rows.div_ceil(ROWS_PER_CHUNK)
-}
-
-/// A row as it is stored: mm, radians and seconds, in the part frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct StoredRow {
-    /// The line of the program.
-    pub line: u32,
-    /// The index of the program's move.
-    pub index: u32,
-    /// The purpose of the row.
-    pub kind: RowKind,
-    /// Where the tool is.
-    pub position: ToolPosition,
-    /// The sliders.
-    pub rho: [f64; 3],
-    /// The table.
-    pub table: TableAngles,
-    /// How long the motion to this row takes; nothing if neither a feed nor drives say so.
-    pub duration: Option<f64>,
-    /// The worst margin.
-    pub margin: Margin,
-}
-
-impl StoredRow {
-    /// A row of a program's plan.
-    pub(crate) fn new(row: &Row, program: &Program, duration: Option<f64>) -> Self {
-        let Row { motion, kind, position, rho, table, margin } = *row;
-        let line = program.moves().get(motion).map_or(0, verne_program::Move::line);
-        let index = u32::try_from(motion).unwrap_or(u32::MAX);
-        Self { line, index, kind, position, rho, table, duration, margin }
-    }
 }
 
 /// Divides rows into chunks, and hands over each chunk when it is full.
@@ -107,7 +71,8 @@ mod tests {
     use verne_solver::toolpath::{RowKind, ToolPosition};
     use verne_solver::{Constraint, Element, Margin, TableAngles};
 
-    use super::{ROWS_PER_CHUNK, RowWriter, StoredRow, chunk_count, read_chunk};
+    use super::row_bytes::StoredRow;
+    use super::{ROWS_PER_CHUNK, RowWriter, chunk_count, read_chunk};
 
     fn row(index: u32) -> StoredRow {
         let elements = [

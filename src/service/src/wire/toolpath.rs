@@ -201,8 +201,8 @@ pub(crate) enum TipName {
     Centre,
 }
 
-/// The motion of the tool's axis between two points: `vector`, along the great circle at a constant rate; `rotary`, with
-/// phi1 and phi2 of the program linear in the path.
+/// The motion of the tool's axis between two points: `vector`, along the great circle at a constant rate; `rotary`,
+/// with phi1 and phi2 of the program linear in the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = OrientationInterpolation)]

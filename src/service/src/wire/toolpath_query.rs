@@ -79,8 +79,8 @@ pub(crate) struct ToolpathQuery {
     #[serde(default)]
     #[arg(long, default_value = "linear")]
     pub rapids: RapidsName,
-    /// Where the machine stands before the program as JSON, such as `{"theta1":0,"theta2":180}`. Without it, the machine
-    /// stands at the first point.
+    /// Where the machine stands before the program as JSON, such as `{"theta1":0,"theta2":180}`. Without it, the
+    /// machine stands at the first point.
     #[arg(long, value_name = "JSON")]
     #[param(value_type = String, nullable = false)]
     pub start: Option<JsonText<StrictObject<Start>>>,

@@ -121,8 +121,8 @@ impl Report {
         }
     }
 
-    /// Notes the margins of a place, which is given by its joints and the tool's length; those of limits that are broken
-    /// are failures.
+    /// Notes the margins of a place, which is given by its joints and the tool's length; those of limits that are
+    /// broken are failures.
     pub(super) fn meet(
         &mut self,
         machine: &Machine,

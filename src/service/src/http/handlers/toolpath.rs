@@ -31,9 +31,10 @@ use crate::wire::toolpath_report::ToolpathReport;
 
 /// The joint motion of a program
 ///
-/// Plans the motion of the five joints along a program: it chooses the orientation and the winding of the table for each
-/// cut, divides the moves into rows between which a controller may move the joints linearly, and checks every limit. The
-/// report says whether the machine can run the program; if not, it names the lines, the limits, and how much is missing.
+/// Plans the motion of the five joints along a program: it chooses the orientation and the winding of the table for
+/// each cut, divides the moves into rows between which a controller may move the joints linearly, and checks every
+/// limit. The report says whether the machine can run the program; if not, it names the lines, the limits, and how much
+/// is missing.
 ///
 /// The body is JSON with all fields, or the file of a program, with `format` and the other fields as parameters. If the
 /// computation takes longer than the wait, the answer is 202 with the job. The header `Prefer: wait=N` sets the wait;

@@ -1,9 +1,8 @@
 //! One row as bytes: little-endian, in the order of the fields of [`StoredRow`].
 
-use verne_solver::toolpath::{RowKind, ToolPosition};
+use verne_program::{Move, Program};
+use verne_solver::toolpath::{Row, RowKind, ToolPosition};
 use verne_solver::{Constraint, Element, Margin, TableAngles};
-
-use crate::operations::toolpath_rows::StoredRow;
 
 /// Bytes of a row: two numbers of four bytes, six codes and two spare bytes, then thirteen doubles.
 pub(crate) const ROW_BYTES: usize = 8 + 8 + 13 * 8;
@@ -25,6 +24,37 @@ const CONSTRAINTS: [Constraint; 11] = [
     Constraint::Rotary,
     Constraint::TableClearance,
 ];
+
+/// A row as it is stored: mm, radians and seconds, in the part frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct StoredRow {
+    /// The line of the program.
+    pub line: u32,
+    /// The index of the program's move.
+    pub index: u32,
+    /// The purpose of the row.
+    pub kind: RowKind,
+    /// Where the tool is.
+    pub position: ToolPosition,
+    /// The sliders.
+    pub rho: [f64; 3],
+    /// The table.
+    pub table: TableAngles,
+    /// How long the motion to this row takes; nothing if neither a feed nor drives say so.
+    pub duration: Option<f64>,
+    /// The worst margin.
+    pub margin: Margin,
+}
+
+impl StoredRow {
+    /// A row of a program's plan.
+    pub(crate) fn new(row: &Row, program: &Program, duration: Option<f64>) -> Self {
+        let Row { motion, kind, position, rho, table, margin } = *row;
+        let line = program.moves().get(motion).map_or(0, Move::line);
+        let index = u32::try_from(motion).unwrap_or(u32::MAX);
+        Self { line, index, kind, position, rho, table, duration, margin }
+    }
+}
 
 /// Appends a row.
 pub(crate) fn write_row(row: &StoredRow, bytes: &mut Vec<u8>) {
