@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use verne_program::Program;
-use verne_solver::toolpath::{PlanError, plan};
+use verne_solver::toolpath::{PlanError, Row, plan};
 use verne_solver::workspace::Observer;
 
 use crate::operations::toolpath_question::ToolpathQuestion;
@@ -46,7 +46,7 @@ pub(crate) fn compute_toolpath(
         observer.progress(fraction);
         !observer.cancelled() && !has_failed.get()
     };
-    let emit = |row: &_| {
+    let emit = |row: &Row| {
         if written.is_ok() {
             written = writer.push(&StoredRow::new(row, program, None));
             has_failed.set(written.is_err());

@@ -67,7 +67,7 @@ impl CheckedToolpath {
         check_tools(request, &mut faults);
         check_tolerances(request, &mut faults);
         if let Some(start) = &request.start {
-            faults.lengths("/start/rho", start.rho.as_ref().map_or(&[], |rho| &rho.0));
+            faults.lengths("/start/rho", start.rho.as_ref().map_or(&[][..], |rho| &rho.0[..]));
             faults.angle("/start/theta1", Some(start.theta1));
             faults.angle("/start/theta2", Some(start.theta2));
         }

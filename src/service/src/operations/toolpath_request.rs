@@ -1,12 +1,11 @@
 //! Reads a request for a tool path: its options are checked, and its program is found or received.
 
-use verne_program::ReadOptions;
-
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::programs::receiver::{ReceivedProgram, receive_points};
 use crate::operations::toolpath_question::CheckedToolpath;
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::parse::parse_body;
+use crate::wire::program_query::ProgramQuery;
 use crate::wire::result_id::ResultId;
 use crate::wire::toolpath::{ProgramRef, ToolpathRequest};
 
@@ -49,7 +48,7 @@ pub(crate) fn read_request(
             ProgramSource::Stored(id)
         }
         Some(ProgramRef::Points(points)) => {
-            let options = ReadOptions { units: request.units, ..ReadOptions::default() };
+            let options = ProgramQuery { units: request.units, ..ProgramQuery::default() }.options();
             ProgramSource::Received(Box::new(receive_points(&points.points, &options)?))
         }
     };

@@ -149,7 +149,7 @@ pub(crate) struct Setup {
 #[serde(untagged)]
 pub(crate) enum ToolLengths {
     /// The length of every tool, mm.
-    One(#[schema(minimum = 0, maximum = 1e7)] f64),
+    One(f64),
     /// The length of each tool by its number, mm.
     Table(BTreeMap<u32, f64>),
 }
@@ -183,8 +183,17 @@ impl<'de> Visitor<'de> for OneOrTable {
         Ok(ToolLengths::One(length as f64))
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, fields: A) -> Result<ToolLengths, A::Error> {
-        BTreeMap::deserialize(MapAccessDeserializer::new(fields)).map(ToolLengths::Table)
+    fn visit_map<A: MapAccess<'de>>(self, mut fields: A) -> Result<ToolLengths, A::Error> {
+        let mut table = BTreeMap::new();
+        while let Some((name, length)) = fields.next_entry::<String, f64>()? {
+            let number = name.parse::<u32>().map_err(|_| {
+                A::Error::custom(format_args!("`{name}` is no tool number: a whole number such as \"1\""))
+            })?;
+            if table.insert(number, length).is_some() {
+                return Err(A::Error::custom(format_args!("tool {number} has two lengths")));
+            }
+        }
+        Ok(ToolLengths::Table(table))
     }
 }
 

@@ -26,16 +26,16 @@ pub(crate) struct ToolpathQuery {
     pub machine: String,
     /// The program's frame in the part frame as JSON: any of x, y, z (mm), a, b, c (degrees), such as `{"x":10}`.
     #[arg(long, value_name = "JSON")]
-    #[param(value_type = String, nullable = false)]
+    #[param(value_type = Option<String>, nullable = false)]
     pub setup: Option<JsonText<StrictObject<Setup>>>,
     /// The program's frame for each work offset as JSON, such as `{"G55":{"x":100}}`.
     #[arg(long, value_name = "JSON")]
-    #[param(value_type = String, nullable = false)]
+    #[param(value_type = Option<String>, nullable = false)]
     pub offsets: Option<JsonText<BTreeMap<String, StrictObject<Setup>>>>,
     /// Distance from P to the tool end, mm: one number for every tool, or JSON with the length of each tool by its
     /// number, such as `{"1":120,"2":95}`. Without it the lengths that the program states are used.
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
-    #[param(value_type = String, nullable = false)]
+    #[param(value_type = Option<String>, nullable = false)]
     pub tool_length: Option<JsonText<ToolLengths>>,
     /// The entry of `tool_length` for moves before the program calls a tool.
     #[arg(long)]
@@ -82,7 +82,7 @@ pub(crate) struct ToolpathQuery {
     /// Where the machine stands before the program as JSON, such as `{"theta1":0,"theta2":180}`. Without it, the
     /// machine stands at the first point.
     #[arg(long, value_name = "JSON")]
-    #[param(value_type = String, nullable = false)]
+    #[param(value_type = Option<String>, nullable = false)]
     pub start: Option<JsonText<StrictObject<Start>>>,
     /// Least height of the tool's end and of the platform's six joints over the table (the plane Z = 0 of the part
     /// frame), mm. The default is the limit of the machine; if the machine has none, the service does not check the

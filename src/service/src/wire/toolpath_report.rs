@@ -194,6 +194,7 @@ pub(crate) struct DepartureObject {
     /// Greatest distance of the tool's end from the straight line, mm; null if the platform passes a singularity.
     pub distance: Option<f64>,
     /// Unit vector in the part frame from the line to the tool's end at this distance; null without a distance.
+    #[schema(inline)]
     pub direction: Option<Triple>,
 }
 
