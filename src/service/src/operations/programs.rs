@@ -7,7 +7,6 @@ pub(crate) mod receiver;
 use std::io::BufReader;
 use std::sync::Arc;
 
-use bytes::Bytes;
 use flate2::read::GzDecoder;
 use serde::Deserialize;
 use verne_program::{Format, Program, line_texts, packed};
@@ -16,7 +15,7 @@ use verne_store::{Content, ContentReader};
 use crate::operations::blocking_results::BlockingResults;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::programs::receiver::ReceivedProgram;
-use crate::operations::results::{Results, hashed};
+use crate::operations::results::Results;
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::result_id::ResultId;
