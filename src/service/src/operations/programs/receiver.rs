@@ -52,7 +52,8 @@ impl ProgramReceiver {
         Self { format, reader: Reader::new(format, options), file: ReceivedFile::new(format, options) }
     }
 
-    /// Takes the next bytes. `Break` says that the program is refused; [`finish`](Self::finish) then returns the faults.
+    /// Takes the next bytes. `Break` says that the program is refused; [`finish`](Self::finish) then returns its
+    /// faults.
     pub(crate) fn push(&mut self, chunk: &[u8]) -> ControlFlow<()> {
         self.reader.push(chunk)?;
         self.file.push(chunk);
@@ -81,6 +82,7 @@ impl ProgramReceiver {
 /// # Errors
 ///
 /// [`OperationError::ProgramFaults`]
+#[allow(dead_code, reason = "tool paths will use it")]
 pub(crate) fn receive_points(rows: &[Row], options: &ReadOptions) -> Result<ReceivedProgram, OperationError> {
     let program = read_points(rows.iter().copied(), options).map_err(OperationError::ProgramFaults)?;
     let mut file = ReceivedFile::new(Format::Ndjson, options);
