@@ -107,14 +107,12 @@ struct FormatField<'a> {
 /// # Errors
 ///
 /// [`OperationError::ProgramNotFound`]
-#[allow(dead_code, reason = "tool paths will use it")]
 pub(crate) async fn load_program(results: &Results, id: ResultId) -> Result<Arc<Program>, OperationError> {
     let packed = results.blob(id, PROGRAM).await.ok_or_else(|| unknown(id))?;
     run_on_pool(move |_| unpack(id, &packed.bytes)).await
 }
 
 /// The same for the threads of the job queue.
-#[allow(dead_code, reason = "tool paths will use it")]
 pub(crate) fn load_program_in_job(
     results: &BlockingResults,
     id: ResultId,
@@ -159,7 +157,6 @@ fn pack(program: &Program) -> Result<Vec<u8>, OperationError> {
 }
 
 /// A blob that cannot be unpacked is damaged; the client replaces it when it sends the program again.
-#[allow(dead_code, reason = "tool paths will use it")]
 fn unpack(id: ResultId, blob: &[u8]) -> Result<Arc<Program>, OperationError> {
     match packed::unpack(blob) {
         Ok(program) => Ok(Arc::new(program)),

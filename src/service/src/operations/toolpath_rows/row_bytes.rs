@@ -74,7 +74,6 @@ pub(crate) fn write_row(row: &StoredRow, bytes: &mut Vec<u8>) {
 }
 
 /// The row of some bytes; nothing if another version wrote them.
-#[cfg_attr(not(test), expect(dead_code, reason = "no operation returns rows yet"))]
 pub(crate) fn read_row(bytes: &[u8]) -> Option<StoredRow> {
     let (head, numbers) = bytes.split_first_chunk::<16>()?;
     let (numbers, rest) = numbers.as_chunks::<8>();
@@ -118,7 +117,6 @@ fn element_code(element: Element) -> [u8; 3] {
     }
 }
 
-#[cfg_attr(not(test), expect(dead_code, reason = "no operation returns rows yet"))]
 fn element_of(code: [u8; 3]) -> Option<Element> {
     Some(match code {
         [0, slider, high] => Element::Stroke { slider, high: high == 1 },
