@@ -53,6 +53,7 @@ pub(crate) mod toolpath_job;
 pub(crate) mod toolpath_question;
 pub(crate) mod toolpath_report;
 pub(crate) mod toolpath_request;
+pub(crate) mod toolpath_row_text;
 pub(crate) mod toolpath_rows;
 pub(crate) mod workspace;
 pub(crate) mod workspace_colours;

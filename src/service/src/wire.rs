@@ -42,6 +42,7 @@ pub(crate) mod tool;
 pub(crate) mod toolpath;
 pub(crate) mod toolpath_query;
 pub(crate) mod toolpath_report;
+pub(crate) mod toolpath_row;
 pub(crate) mod workspace;
 pub(crate) mod workspace_query;
 pub(crate) mod workspace_summary;

@@ -9,4 +9,5 @@ pub(crate) mod programs;
 pub(crate) mod results;
 pub(crate) mod service;
 pub(crate) mod toolpath;
+pub(crate) mod toolpath_rows;
 pub(crate) mod workspace;

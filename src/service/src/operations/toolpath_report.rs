@@ -59,7 +59,10 @@ pub(crate) fn report(
         warnings: warnings.collect(),
         warning_count: planning + read.total,
         not_checked: Unchecked::beside(question.request.table_clearance.is_some()),
-        links: ToolpathLinks { itself: question.id.toolpath() },
+        links: ToolpathLinks {
+            itself: question.id.toolpath(),
+            rows: format!("{}/rows", question.id.toolpath()),
+        },
     }
 }
 

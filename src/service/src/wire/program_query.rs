@@ -1,6 +1,9 @@
 //! Parameters of /programs in query strings.
 
+use clap::Args;
 use serde::Deserialize;
+use serde::de::IntoDeserializer;
+use serde::de::value::Error as ValueError;
 use utoipa::IntoParams;
 use utoipa::openapi::schema::{Object, ObjectBuilder, Type};
 use verne_program::{Compensation, Format, FormatError, ReadOptions, Units};
@@ -11,20 +14,23 @@ use crate::wire::error::{FieldError, OperationError};
 const MOST_MOVES: usize = 2_000_000;
 
 /// How a program is read.
-#[derive(Debug, Default, Deserialize, IntoParams)]
+#[derive(Debug, Default, Deserialize, IntoParams, Args)]
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct ProgramQuery {
     /// Format of the program: `apt` (CL text), `csv` or `ndjson`. With it the service accepts any Content-Type. Without
     /// it Content-Type must tell the format.
+    #[arg(long)]
     #[param(nullable = false)]
     pub format: Option<String>,
     /// Unit of the lengths, if the program states none: CL text without a unit is refused, rows are then millimetres.
+    #[arg(long)]
     #[param(nullable = false, schema_with = units)]
     pub units: Option<Units>,
     /// What to do with cutter radius compensation (CUTCOM): `accept` makes it a warning, because the points of a
     /// program are the tool's path; `refuse` makes it a fault.
     #[serde(default)]
+    #[arg(long, default_value = "accept", value_parser = read_compensation)]
     #[param(schema_with = compensation)]
     pub compensation: Compensation,
 }
@@ -56,6 +62,11 @@ fn format_fault(error: &FormatError) -> OperationError {
         stated => stated.to_string(),
     };
     OperationError::Fields(vec![FieldError::new("/query/format", detail)])
+}
+
+/// Reads `accept` or `refuse` on the command line.
+fn read_compensation(text: &str) -> Result<Compensation, String> {
+    Compensation::deserialize(text.into_deserializer()).map_err(|error: ValueError| error.to_string())
 }
 
 fn names(names: [&str; 2]) -> ObjectBuilder {

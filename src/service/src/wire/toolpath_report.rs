@@ -204,6 +204,8 @@ pub(crate) struct ToolpathLinks {
     /// This report.
     #[serde(rename = "self")]
     pub itself: String,
+    /// The rows.
+    pub rows: String,
 }
 
 impl ToolpathReport {

@@ -224,7 +224,12 @@ fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
                          "tolerance": {"tip": 0.05}});
     let report = json_of(toolpath_report(&request, machines));
     let of_report = json!({"id": report["id"]});
-    vec![post("/toolpath", request, |_| Ok(&report)), get("/toolpath/{id}", of_report, Some(report.clone()))]
+    let some_rows = json!({"id": report["id"], "format": "csv", "from": 0, "to": 3});
+    vec![
+        post("/toolpath", request, |_| Ok(&report)),
+        get("/toolpath/{id}", of_report, Some(report.clone())),
+        get("/toolpath/{id}/rows", some_rows, None),
+    ]
 }
 
 /// The report on a tool path whose request has points.
