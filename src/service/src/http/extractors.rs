@@ -165,7 +165,7 @@ async fn read(
     let mut body = Limited::new(body, limit);
     let mut bytes = Vec::new();
     while let Some(frame) = body.frame().await {
-        let frame = frame.map_err(|error| unreadable(error, limit))?;
+        let frame = frame.map_err(|error| unreadable(&error, limit))?;
         if let Ok(data) = frame.into_data() {
             reserve(bytes.len() + data.len())?;
             bytes.extend_from_slice(&data);
@@ -175,7 +175,7 @@ async fn read(
 }
 
 /// Why a body of at most `limit` bytes cannot be read.
-pub(crate) fn unreadable(error: BoxError, limit: usize) -> RequestError {
+pub(crate) fn unreadable(error: &BoxError, limit: usize) -> RequestError {
     let is_too_large = error.is::<LengthLimitError>();
     if is_too_large {
         RequestError::BodyTooLarge(limit)

@@ -82,7 +82,7 @@ impl ProgramBody {
         let mut body = Limited::new(body, limit);
         let mut piece = Vec::new();
         while let Some(frame) = body.frame().await {
-            let frame = frame.map_err(|error| unreadable(error, limit))?;
+            let frame = frame.map_err(|error| unreadable(&error, limit))?;
             piece.extend_from_slice(frame.data_ref().map(AsRef::as_ref).unwrap_or_default());
             if piece.len() >= PIECE_BYTES {
                 let full = std::mem::take(&mut piece);

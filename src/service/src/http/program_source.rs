@@ -36,7 +36,7 @@ const RESPONSE_BYTES: u64 = 2 * 1024 * 1024;
 /// The response with the file of a program.
 pub(crate) fn respond_source(
     id: ResultId,
-    source: ContentReader,
+    source: &ContentReader,
     format: Format,
     headers: &HeaderMap,
     conditions: &Conditions,
@@ -80,7 +80,7 @@ fn accepts_gzip(headers: &HeaderMap) -> bool {
 }
 
 /// The file, in pieces that are decoded when the connection has room for them.
-fn decoded(source: ContentReader) -> impl Stream<Item = io::Result<Bytes>> + Send {
+fn decoded(source: &ContentReader) -> impl Stream<Item = io::Result<Bytes>> + Send + use<> {
     let length = source.len();
     let compressed = source.stream(0..length).map(|piece| piece.map_err(io::Error::other)).boxed();
     let start = Decoding { compressed, pending: Bytes::new(), decoder: GzDecoder::new(Vec::new()) };

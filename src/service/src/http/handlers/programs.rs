@@ -103,7 +103,7 @@ pub(crate) async fn get_source(
 ) -> Result<Response, HttpError> {
     let id = known_id(id)?;
     let (source, format) = program_source(&state.results, id).await?;
-    respond_source(id, source, format, &headers, &conditions)
+    respond_source(id, &source, format, &headers, &conditions)
 }
 
 /// The id in a path. A text that is no id is the id of no program.

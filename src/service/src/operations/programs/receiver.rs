@@ -123,7 +123,7 @@ impl ReceivedFile {
         if self.outcome.is_ok() {
             self.outcome = self.source.write_all(chunk);
         }
-        let ends = chunk.iter().filter(|byte| **byte == b'\n').count();
+        let ends = chunk.split(|byte| *byte == b'\n').count() - 1;
         self.size.bytes += chunk.len() as u64;
         self.size.lines = self.size.lines.saturating_add(u32::try_from(ends).unwrap_or(u32::MAX));
         if let Some(last) = chunk.last() {
