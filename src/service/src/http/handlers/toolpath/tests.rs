@@ -98,7 +98,7 @@ async fn equal_requests_have_equal_ids_in_every_form() {
 #[tokio::test]
 async fn ik_reproduces_a_failure() {
     let service = service().await;
-    let tilted = [0.0, -0.9, 0.4];
+    let tilted = [0.0, -0.9, -0.4];
     let programs = [
         // Past a stroke, out of reach, past a cone or a range, and turned about more than the rotary range allows.
         json!([[0, 0, 300], [0, 0, 2000]]),
