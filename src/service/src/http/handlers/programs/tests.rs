@@ -81,8 +81,8 @@ async fn a_program_sent_twice_is_one_object() {
 async fn the_file_is_returned_as_it_was_sent() {
     let service = service("").await;
     // Several pieces, and more than one step of the decoder.
-    let rows: String = (0..60_000).map(|i| format!("{},{},{}\n", i % 800, i % 7, i % 31)).collect();
-    let file = format!("x,y,z\n{rows}");
+    let rows: Vec<_> = (0..60_000).map(|i| format!("{},{},{}\n", i % 800, i % 7, i % 31)).collect();
+    let file = format!("x,y,z\n{}", rows.concat());
     let sent = Request::post("/programs").header(CONTENT_TYPE, "text/csv");
     let answer = send(&service, sent.body(file.clone().into()).unwrap()).await;
     assert_eq!(answer.json["format"], "csv", "{}", answer.json);
@@ -156,7 +156,8 @@ async fn a_body_that_breaks_off_is_refused() {
 #[tokio::test]
 async fn evicted_programs_can_be_sent_again_and_larger_ones_than_the_store_are_refused() {
     let service = service("--cache-bytes 8000").await;
-    let rows = |count: i32, z: i32| -> String { (0..count).map(|i| format!("[{i}, 0, {z}]\n")).collect() };
+    let rows =
+        |count: i32, z: i32| (0..count).map(|i| format!("[{i}, 0, {z}]\n")).collect::<Vec<_>>().concat();
     let refused = post(&service, "format=ndjson", rows(1000, 1)).await;
     assert_eq!((refused.status.as_u16(), &refused.json["code"]), (507, &json!("program_too_large")));
     let first = post(&service, "format=ndjson", rows(50, 1)).await;
