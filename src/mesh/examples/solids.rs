@@ -38,11 +38,10 @@ fn write(path: &Path, mesh: &Mesh) -> Result<(), Box<dyn Error>> {
     let options = Options {
         name: "solid".to_owned(),
         up: Up::NegativeZ,
-        crease: 40_f64.to_radians(),
         extras: extras.clone(),
     };
     let file = |extension: &str| File::create(path.with_extension(extension));
-    let glb = timed(|| glb::write(mesh, &options, file("glb")?))?;
+    let glb = timed(|| glb::write(mesh, 40_f64.to_radians(), &options, file("glb")?))?;
     let stl = timed(|| stl::write(mesh, "solid", file("stl")?))?;
     let ply = timed(|| ply::write(mesh, &extras.to_string(), file("ply")?))?;
     let json = timed(|| verne_mesh::json::write(mesh, &extras, file("json")?))?;
