@@ -96,8 +96,14 @@ impl PathBuilder {
     /// ```
     pub fn new(expected: u64, most: u64) -> Self {
         let every = expected.div_ceil(most.max(1)).max(1);
-        let [points, values, strokes] = [Vec::new(), Vec::new(), Vec::new()];
-        Self { every, count: 0, points, values, strokes, pending: None }
+        Self {
+            every,
+            count: 0,
+            points: Vec::new(),
+            values: Vec::new(),
+            strokes: Vec::new(),
+            pending: None,
+        }
     }
 
     /// Adds a point with its value, and how the segment that leads to it is drawn.

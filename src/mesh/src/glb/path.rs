@@ -22,8 +22,8 @@ const STRIDE: usize = 20;
 /// Bytes of one segment: two 32-bit indices.
 const SEGMENT: u64 = 8;
 
-/// Writes the path as a GLB: one primitive of lines with vertex colours for the coloured segments, and one of lines with
-/// a material for the plain ones. A path without segments becomes a scene without nodes.
+/// Writes the path as a GLB: one primitive of lines with vertex colours for the coloured segments, and one of lines
+/// with a material for the plain ones. A path without segments becomes a scene without nodes.
 ///
 /// Each primitive's material has the name of its segments.
 ///

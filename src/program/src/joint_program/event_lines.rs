@@ -41,6 +41,10 @@ pub(super) fn event_line(event: &Event, speed: Option<f64>) -> Option<EventLine>
         EventKind::Home
         | EventKind::Frame
         | EventKind::Compensation { .. }
+        | EventKind::LengthOffset { .. }
+        | EventKind::WorkOffset(_)
+        | EventKind::CentrePointControl { .. }
+        | EventKind::TiltedPlane { .. }
         | EventKind::Comment
         | EventKind::Other => Some(EventLine::Comment(comment(&event.text))),
     }

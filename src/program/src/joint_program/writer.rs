@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::Write;
+use std::iter::Peekable;
 
 use super::error::JointProgramError;
 use super::event_lines::{EventLine, event_line};
@@ -28,12 +29,11 @@ const STANDSTILL: f64 = 1e-6;
 ///     JointRow { step, line: 3, rapid, joints, tip: [0.0, 0.0, -rho], duration }
 /// };
 ///
-/// let mut out = Vec::new();
 /// let options = JointProgramOptions::default();
-/// let mut writer = JointProgramWriter::new(&mut out, &options, program.events())?;
+/// let mut writer = JointProgramWriter::new(Vec::new(), options, program.events().to_vec())?;
 /// writer.row(&row(0, true, 600.0, None))?;
 /// writer.row(&row(1, false, 620.0, Some(1.0)))?;
-/// writer.finish()?;
+/// let (out, _) = writer.finish()?;
 ///
 /// let lines: Vec<_> = out.split(|byte| *byte == b'\n').map(String::from_utf8_lossy).collect();
 /// assert_eq!(lines[2..5], ["G21 G90 G40 G49 G80 G93", "G0 X600.0 Y600.0 Z600.0 A0.0 C0.5", "M8"]);
@@ -41,11 +41,11 @@ const STANDSTILL: f64 = 1e-6;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct JointProgramWriter<'a, W> {
+pub struct JointProgramWriter<W> {
     out: W,
-    options: &'a JointProgramOptions,
+    options: JointProgramOptions,
     /// The events that were not written yet.
-    events: &'a [Event],
+    events: Peekable<std::vec::IntoIter<Event>>,
     /// The row of the last block.
     last: Option<JointRow>,
     /// Where the axes stand; unknown after an insert.
@@ -69,22 +69,18 @@ struct Modal {
     feed: String,
 }
 
-impl<'a, W: Write> JointProgramWriter<'a, W> {
+impl<W: Write> JointProgramWriter<W> {
     /// Writes the head. The events are those of the program, in its order.
     ///
     /// # Errors
     ///
     /// [`JointProgramError::Options`], or the error of `out`.
-    pub fn new(
-        out: W,
-        options: &'a JointProgramOptions,
-        events: &'a [Event],
-    ) -> Result<Self, JointProgramError> {
+    pub fn new(out: W, options: JointProgramOptions, events: Vec<Event>) -> Result<Self, JointProgramError> {
         options.check()?;
         let mut writer = Self {
             out,
             options,
-            events,
+            events: events.into_iter().peekable(),
             last: None,
             position: None,
             modal: Modal::default(),
@@ -108,7 +104,7 @@ impl<'a, W: Write> JointProgramWriter<'a, W> {
     /// - [`JointProgramError::Write`]: the error of `out`.
     pub fn row(&mut self, row: &JointRow) -> Result<(), JointProgramError> {
         self.events_before(row.step)?;
-        let words = words(self.options, row)?;
+        let words = words(&self.options, row)?;
         let is_g0 = row.rapid && (self.options.rapids == RapidWord::G0 || row.duration.is_none());
         if self.position == Some(words) {
             self.carried += row.duration.filter(|_| !is_g0).unwrap_or(0.0);
@@ -121,18 +117,23 @@ impl<'a, W: Write> JointProgramWriter<'a, W> {
         Ok(())
     }
 
-    /// Writes the events that are left, and the foot.
+    /// Where the program is written to.
+    pub fn out(&mut self) -> &mut W {
+        &mut self.out
+    }
+
+    /// Writes the events that are left, and the foot. Returns the destination, and what was written.
     ///
     /// # Errors
     ///
     /// [`JointProgramError::Write`]: the error of `out`.
-    pub fn finish(mut self) -> Result<JointProgramSummary, JointProgramError> {
+    pub fn finish(mut self) -> Result<(W, JointProgramSummary), JointProgramError> {
         self.events_before(usize::MAX)?;
         for line in &self.options.foot {
             writeln!(self.out, "{line}")?;
         }
         self.out.flush()?;
-        Ok(self.summary)
+        Ok((self.out, self.summary))
     }
 
     fn head(&mut self) -> Result<(), JointProgramError> {
@@ -142,7 +143,7 @@ impl<'a, W: Write> JointProgramWriter<'a, W> {
         for text in &self.options.comments {
             writeln!(self.out, "{}", comment(text))?;
         }
-        writeln!(self.out, "{}", comment(&legend(self.options)))?;
+        writeln!(self.out, "{}", comment(&legend(&self.options)))?;
         let [length, angle] = [self.options.length_decimals, self.options.angle_decimals]
             .map(|decimals| format!("{:.*}", usize::from(decimals) + 1, 0.5 / 10_f64.powi(decimals.into())));
         let rounding = format!("words differ from joints by at most {length} mm and {angle} degrees");
@@ -155,11 +156,10 @@ impl<'a, W: Write> JointProgramWriter<'a, W> {
     }
 
     fn events_before(&mut self, step: usize) -> Result<(), JointProgramError> {
-        let events = self.events;
-        let count = events.iter().take_while(|event| event.before as usize <= step).count();
-        let (now, later) = events.split_at(count);
-        self.events = later;
-        now.iter().try_for_each(|event| self.event(event))
+        while let Some(event) = self.events.next_if(|event| event.before as usize <= step) {
+            self.event(&event)?;
+        }
+        Ok(())
     }
 
     fn event(&mut self, event: &Event) -> Result<(), JointProgramError> {

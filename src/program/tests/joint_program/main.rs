@@ -18,10 +18,9 @@ fn write(
     events: &[Event],
     rows: &[JointRow],
 ) -> Result<(String, JointProgramSummary), JointProgramError> {
-    let mut out = Vec::new();
-    let mut writer = JointProgramWriter::new(&mut out, options, events)?;
+    let mut writer = JointProgramWriter::new(Vec::new(), options.clone(), events.to_vec())?;
     rows.iter().try_for_each(|row| writer.row(row))?;
-    let summary = writer.finish()?;
+    let (out, summary) = writer.finish()?;
     Ok((String::from_utf8(out).unwrap(), summary))
 }
 

@@ -5,7 +5,7 @@ use verne_solver::{
     forward_working, part, part_working, platform, platform_working, tool, tool_working,
 };
 
-use crate::random_machines::Draw;
+use crate::random::Random;
 
 fn blocked<T: std::fmt::Debug>(answer: Result<T, KinematicsError>) -> (Constraint, Element) {
     match answer {
@@ -57,7 +57,7 @@ fn sliders_too_far_apart_for_the_legs_are_unreachable() {
 
 #[test]
 fn sliders_without_a_working_mode_are_refused() {
-    let (machine, mut draw, mut seen) = (Machine::verne(), Draw::seeded(141), 0);
+    let (machine, mut draw, mut seen) = (Machine::verne(), Random::new(141), 0);
     for _ in 0..2000 {
         let rho = draw.rho(&machine);
         let modes = forward(&machine, rho).unwrap_or_default();

@@ -5,10 +5,11 @@
 use nalgebra::{Vector3, Vector4};
 use verne_solver::{Machine, Posture, forward};
 
+use crate::lengths::scale;
 use crate::oracle::constructed_postures::{hung, leaning};
 use crate::oracle::{Found, Legs, wrapped};
-use crate::random_machines::{Draw, scale};
-use crate::reference_sets;
+use crate::random::Random;
+use crate::reference_cases;
 
 /// Distances from the fold in the space of the sliders, on a machine of a metre, mm.
 const DISTANCES: [f64; 10] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
@@ -27,7 +28,7 @@ struct Fold {
 
 /// Follows a random family of postures, alpha from one value to another with y fixed, to a
 /// singular one.
-fn fold(machine: &Machine, draw: &mut Draw) -> Option<Fold> {
+fn fold(machine: &Machine, draw: &mut Random) -> Option<Fold> {
     let legs = Legs::of(machine);
     let unit = scale(machine);
     let (y, side) = (unit * draw.between(-0.6, 0.6), draw.pick(&[1.0, -1.0]));
@@ -75,7 +76,7 @@ fn crossing(legs: &Legs, found: &Found) -> Option<Fold> {
     })
 }
 
-fn folds(machine: &Machine, draw: &mut Draw, wanted: usize) -> Vec<Fold> {
+fn folds(machine: &Machine, draw: &mut Random, wanted: usize) -> Vec<Fold> {
     let found: Vec<Fold> = (0..50_000).filter_map(|_| fold(machine, draw)).take(wanted).collect();
     assert_eq!(found.len(), wanted);
     found
@@ -137,7 +138,7 @@ impl Fold {
 
 #[test]
 fn two_modes_merge_at_singularities_of_the_reference_machine() {
-    let (machine, mut draw) = (Machine::verne(), Draw::seeded(91));
+    let (machine, mut draw) = (Machine::verne(), Random::new(91));
     for fold in folds(&machine, &mut draw, 60) {
         fold.check(&machine);
     }
@@ -145,7 +146,7 @@ fn two_modes_merge_at_singularities_of_the_reference_machine() {
 
 #[test]
 fn two_modes_merge_at_singularities_of_the_asymmetric_machine() {
-    let (machine, mut draw) = (reference_sets::asymmetric(), Draw::seeded(92));
+    let (machine, mut draw) = (reference_cases::asymmetric(), Random::new(92));
     for fold in folds(&machine, &mut draw, 60) {
         fold.check(&machine);
     }
@@ -153,7 +154,7 @@ fn two_modes_merge_at_singularities_of_the_asymmetric_machine() {
 
 #[test]
 fn two_modes_merge_at_singularities_of_random_machines() {
-    let mut draw = Draw::seeded(93);
+    let mut draw = Random::new(93);
     for _ in 0..60 {
         let machine = draw.machine();
         let found = (0..300).find_map(|_| fold(&machine, &mut draw));

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use verne_solver::axis::{Preimages, preimages, tool_axis};
 use verne_solver::{Machine, PartPose, part};
 
-use crate::random_machines::Draw;
+use crate::random::Random;
 
 fn assert_same(a: [f64; 3], b: [f64; 3]) {
     assert!((0..3).all(|i| (a[i] - b[i]).abs() < 1e-14), "{a:?} is not {b:?}");
@@ -27,7 +27,7 @@ fn the_axis_follows_the_formula_of_the_part_frame() {
 
 #[test]
 fn both_preimages_give_the_axis() {
-    let mut draw = Draw::seeded(161);
+    let mut draw = Random::new(161);
     for _ in 0..5000 {
         let (phi1, phi2) = (draw.between(-PI, PI), draw.between(-PI, PI));
         let (axis, length) = (tool_axis(phi1, phi2), draw.magnitude(1e-3, 1e3));
@@ -41,7 +41,7 @@ fn both_preimages_give_the_axis() {
 
 #[test]
 fn the_preimages_of_an_orientation_contain_it() {
-    let mut draw = Draw::seeded(162);
+    let mut draw = Random::new(162);
     for _ in 0..1000 {
         let (phi1, phi2) = (draw.between(1e-6, PI - 1e-6), draw.between(-PI, PI));
         let [first, _] = both(tool_axis(phi1, phi2));

@@ -3,9 +3,10 @@
 use verne_solver::jacobian::velocities;
 use verne_solver::{Machine, Posture, forward_working};
 
+use crate::lengths::scale;
 use crate::oracle::Legs;
 use crate::oracle::constructed_postures::postures;
-use crate::random_machines::{Draw, scale};
+use crate::random::Random;
 
 fn pose(posture: &Posture) -> [f64; 4] {
     let p = &posture.pose;
@@ -41,7 +42,7 @@ fn check(machine: &Machine, posture: &Posture, step: f64, tolerance: f64) -> usi
 
 #[test]
 fn velocities_of_the_reference_machine_equal_central_differences() {
-    let (machine, mut draw, mut checked) = (Machine::verne(), Draw::seeded(111), 0);
+    let (machine, mut draw, mut checked) = (Machine::verne(), Random::new(111), 0);
     for _ in 0..1000 {
         let rho = [0, 1, 2].map(|_| draw.between(50.0, 700.0));
         let Ok(posture) = forward_working(&machine, rho) else { continue };

@@ -9,7 +9,8 @@ use verne_solver::{
     platform, tool, tool_point,
 };
 
-use crate::random_machines::{Draw, scale};
+use crate::lengths::scale;
+use crate::random::Random;
 
 /// Leg I closed at a platform angle with the drop w1: P, but for its z. `None` if the leg does not
 /// reach or leg II or III does not.
@@ -65,7 +66,7 @@ fn sixteen_postures_are_found_with_almost_horizontal_rods() {
 }
 
 /// A random machine with leg I nearly level at alpha near `middle`, and the point P.
-fn nearly_level(draw: &mut Draw, middle: f64) -> Option<(Machine, [f64; 3], f64, f64)> {
+fn nearly_level(draw: &mut Random, middle: f64) -> Option<(Machine, [f64; 3], f64, f64)> {
     let machine = draw.any_machine();
     let size = draw.magnitude(1e-6, 1e-4) * scale(&machine);
     // Neither of the two so small beside the other that x could not hold it.
@@ -85,7 +86,7 @@ fn nearly_level(draw: &mut Draw, middle: f64) -> Option<(Machine, [f64; 3], f64,
 }
 
 fn around(middle: f64, seed: u64) {
-    let (mut draw, mut checked) = (Draw::seeded(seed), 0);
+    let (mut draw, mut checked) = (Random::new(seed), 0);
     while checked < 1500 {
         let Some((machine, p, alpha, w1)) = nearly_level(&mut draw, middle) else { continue };
         checked += 1;

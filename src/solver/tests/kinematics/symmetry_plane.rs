@@ -5,8 +5,9 @@ use verne_solver::{
     Machine, Mode, PartPose, Posture, part, part_working, platform, platform_working, tool, tool_working,
 };
 
+use crate::lengths::scale;
 use crate::oracle::{self, Comparison, Path};
-use crate::random_machines::{Draw, scale};
+use crate::random::Random;
 
 /// y from exactly zero to a micrometre on a metre, on both sides.
 const OFFSETS: [f64; 22] = [
@@ -16,7 +17,7 @@ const OFFSETS: [f64; 22] = [
 
 /// Positions in the plane where the reference machine has all sixteen postures.
 fn positions() -> Vec<[f64; 2]> {
-    let mut draw = Draw::seeded(41);
+    let mut draw = Random::new(41);
     let random = (0..30).map(|_| [draw.between(-350.0, 350.0), draw.between(900.0, 1600.0)]);
     let sixteen = |&[x, z]: &[f64; 2]| {
         let answer = oracle::inverse(&Machine::verne(), &Path::platform([x, 0.0, z]));
@@ -108,7 +109,7 @@ fn part_poses_in_the_plane_agree_with_the_oracle() {
 
 #[test]
 fn solutions_at_any_distance_from_the_plane_agree_with_the_oracle() {
-    let (mut draw, mut comparison) = (Draw::seeded(43), Comparison::default());
+    let (mut draw, mut comparison) = (Random::new(43), Comparison::default());
     for _ in 0..2000 {
         let machine = if draw.one_in(2) { Machine::verne() } else { draw.machine() };
         let [x, _, z] = draw.point(&machine);
@@ -132,7 +133,7 @@ fn solutions_at_any_distance_from_the_plane_agree_with_the_oracle() {
 
 #[test]
 fn random_machines_in_the_plane_agree_with_the_oracle() {
-    let (mut draw, mut comparison) = (Draw::seeded(42), Comparison::default());
+    let (mut draw, mut comparison) = (Random::new(42), Comparison::default());
     for _ in 0..1500 {
         let machine = draw.machine();
         let [x, _, z] = draw.point(&machine);

@@ -5,7 +5,7 @@ use verne_solver::{
     platform_working, tool, tool_working,
 };
 
-use crate::random_machines::Draw;
+use crate::random::Random;
 
 /// How many working postures there are among all; the one returned must be one of them, to the last
 /// bit.
@@ -31,7 +31,7 @@ fn check(
 
 #[test]
 fn forward_working_returns_the_working_assembly_mode() {
-    let (mut draw, mut found, mut none) = (Draw::seeded(21), 0, 0);
+    let (mut draw, mut found, mut none) = (Random::new(21), 0, 0);
     for _ in 0..20_000 {
         let machine = draw.any_machine();
         let rho = draw.rho(&machine);
@@ -43,7 +43,7 @@ fn forward_working_returns_the_working_assembly_mode() {
 
 #[test]
 fn platform_working_returns_the_working_posture() {
-    let (mut draw, mut counts) = (Draw::seeded(22), [0; 2]);
+    let (mut draw, mut counts) = (Random::new(22), [0; 2]);
     for _ in 0..20_000 {
         let machine = draw.any_machine();
         let p = draw.point(&machine);
@@ -56,7 +56,7 @@ fn platform_working_returns_the_working_posture() {
 
 #[test]
 fn tool_working_returns_a_working_posture() {
-    let (mut draw, mut found, mut none) = (Draw::seeded(23), 0, 0);
+    let (mut draw, mut found, mut none) = (Random::new(23), 0, 0);
     for _ in 0..20_000 {
         let machine = draw.any_machine();
         let (u, length) = (draw.point(&machine), draw.tool_length(&machine));
@@ -69,7 +69,7 @@ fn tool_working_returns_a_working_posture() {
 
 #[test]
 fn part_working_returns_a_working_posture() {
-    let (mut draw, mut found, mut none) = (Draw::seeded(24), 0, 0);
+    let (mut draw, mut found, mut none) = (Random::new(24), 0, 0);
     for _ in 0..20_000 {
         let machine = draw.any_machine();
         let length = draw.tool_length(&machine);

@@ -6,11 +6,12 @@ use verne_solver::{
     platform, platform_working, tool, tool_working,
 };
 
+use crate::lengths::scale;
 use crate::oracle::Legs;
-use crate::random_machines::{Draw, scale};
+use crate::random::Random;
 
 /// Any double: a random bit pattern, a special value, or a number of the machine's own size.
-fn number(draw: &mut Draw, unit: f64) -> f64 {
+fn number(draw: &mut Random, unit: f64) -> f64 {
     const SPECIAL: [f64; 16] = [
         0.0,
         -0.0,
@@ -103,7 +104,7 @@ fn one(answer: Result<Posture, KinematicsError>) -> Result<Vec<Posture>, Kinemat
 
 #[test]
 fn arbitrary_numbers_in_forward_and_platform_give_valid_postures() {
-    let (mut draw, mut findings) = (Draw::seeded(151), Findings::default());
+    let (mut draw, mut findings) = (Random::new(151), Findings::default());
     for _ in 0..10_000 {
         let machine = draw.any_machine();
         let n = [0, 1, 2].map(|_| number(&mut draw, scale(&machine)));
@@ -117,7 +118,7 @@ fn arbitrary_numbers_in_forward_and_platform_give_valid_postures() {
 
 #[test]
 fn arbitrary_numbers_in_tool_and_part_give_valid_postures() {
-    let (mut draw, mut findings) = (Draw::seeded(152), Findings::default());
+    let (mut draw, mut findings) = (Random::new(152), Findings::default());
     for _ in 0..10_000 {
         let machine = draw.any_machine();
         let n = [0; 4].map(|_| number(&mut draw, scale(&machine)));

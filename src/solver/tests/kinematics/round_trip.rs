@@ -8,8 +8,9 @@ use verne_solver::{
     tool_point,
 };
 
+use crate::lengths::scale;
 use crate::oracle::{Legs, listed};
-use crate::random_machines::{Draw, scale};
+use crate::random::Random;
 
 /// The posture is among the answers, as exactly as its distance from singularities lets double
 /// precision tell.
@@ -48,7 +49,7 @@ fn distance(machine: &Machine, a: &Posture, b: &Posture) -> f64 {
 
 #[test]
 fn forward_finds_every_posture_of_a_platform_position() {
-    let (mut draw, mut postures) = (Draw::seeded(31), 0);
+    let (mut draw, mut postures) = (Random::new(31), 0);
     for _ in 0..2000 {
         let machine = draw.any_machine();
         let p = draw.point(&machine);
@@ -64,7 +65,7 @@ fn forward_finds_every_posture_of_a_platform_position() {
 
 #[test]
 fn inverse_problems_find_every_assembly_mode() {
-    let (mut draw, mut postures) = (Draw::seeded(32), 0);
+    let (mut draw, mut postures) = (Random::new(32), 0);
     for _ in 0..3000 {
         let machine = draw.any_machine();
         let rho = draw.rho(&machine);
@@ -91,7 +92,7 @@ fn inverse_problems_find_every_assembly_mode() {
 
 #[test]
 fn every_posture_of_a_tool_position_has_its_tool_end_there() {
-    let (mut draw, mut postures) = (Draw::seeded(33), 0);
+    let (mut draw, mut postures) = (Random::new(33), 0);
     for _ in 0..3000 {
         let machine = draw.any_machine();
         let (u, length) = (draw.point(&machine), draw.tool_length(&machine));
@@ -110,7 +111,7 @@ fn every_posture_of_a_tool_position_has_its_tool_end_there() {
 
 #[test]
 fn every_posture_of_a_part_pose_has_its_tool_end_there() {
-    let (mut draw, mut postures) = (Draw::seeded(34), 0);
+    let (mut draw, mut postures) = (Random::new(34), 0);
     for _ in 0..3000 {
         let machine = draw.any_machine();
         let length = draw.tool_length(&machine);

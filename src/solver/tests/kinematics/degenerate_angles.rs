@@ -7,8 +7,8 @@ use verne_solver::{KinematicsError, Machine, Postures, forward, platform, tool, 
 
 use crate::oracle::constructed_postures::{hung, leaning, upright};
 use crate::oracle::{self, Answer, Comparison, Found, Legs, Path, distance};
-use crate::random_machines::Draw;
-use crate::reference_sets;
+use crate::random::Random;
+use crate::reference_cases;
 
 const SIDES: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
 
@@ -30,8 +30,8 @@ fn check(machine: &Machine, found: &Found, comparison: &mut Comparison) {
 
 #[test]
 fn solutions_at_alpha_180_are_found() {
-    for machine in [reference_sets::verne(), reference_sets::asymmetric()] {
-        let (legs, mut comparison, mut draw) = (Legs::of(&machine), Comparison::default(), Draw::seeded(61));
+    for machine in [reference_cases::verne(), reference_cases::asymmetric()] {
+        let (legs, mut comparison, mut draw) = (Legs::of(&machine), Comparison::default(), Random::new(61));
         for (x, sides) in (0..40).map(|i| (draw.between(-250.0, 250.0), SIDES[i % 4])) {
             for s1 in [1.0, -1.0] {
                 let found = hung(&legs, upright(&legs, PI, x, 1200.0, s1).unwrap(), sides).unwrap();
@@ -44,7 +44,7 @@ fn solutions_at_alpha_180_are_found() {
 
 #[test]
 fn solutions_near_alpha_180_are_found() {
-    for machine in [reference_sets::verne(), reference_sets::asymmetric()] {
+    for machine in [reference_cases::verne(), reference_cases::asymmetric()] {
         let (legs, mut comparison) = (Legs::of(&machine), Comparison::default());
         for (exponent, sides) in (1..13).flat_map(|e| SIDES.map(|sides| (e, sides))) {
             let alpha = PI - 10_f64.powi(-exponent);
@@ -62,8 +62,8 @@ fn solutions_near_alpha_180_are_found() {
 #[test]
 fn solutions_with_crossed_rods_of_leg_one_are_found() {
     // R1 cos alpha = r1, Eq (23): then y u + w1 v = 0 leaves w1 = 0.
-    for machine in [reference_sets::verne(), reference_sets::asymmetric()] {
-        let (legs, mut comparison, mut draw) = (Legs::of(&machine), Comparison::default(), Draw::seeded(62));
+    for machine in [reference_cases::verne(), reference_cases::asymmetric()] {
+        let (legs, mut comparison, mut draw) = (Legs::of(&machine), Comparison::default(), Random::new(62));
         let upright = (legs.g.r1 / legs.g.R1).acos();
         let mut checked = 0;
         for (y, sides) in (0..60).map(|i| (draw.between(-600.0, 600.0), SIDES[i % 4])) {
@@ -95,8 +95,8 @@ fn both_vanish(legs: &Legs, alpha: f64, level: f64) -> [f64; 3] {
 
 #[test]
 fn solutions_are_found_where_numerator_and_denominator_vanish() {
-    let (machine, mut comparison, mut pairs) = (reference_sets::asymmetric(), Comparison::default(), 0);
-    let (legs, mut draw) = (Legs::of(&machine), Draw::seeded(63));
+    let (machine, mut comparison, mut pairs) = (reference_cases::asymmetric(), Comparison::default(), 0);
+    let (legs, mut draw) = (Legs::of(&machine), Random::new(63));
     for _ in 0..300 {
         let (alpha, level) = (draw.between(-PI, PI), draw.between(0.0, 700.0));
         let rho = both_vanish(&legs, alpha, level);
@@ -116,8 +116,8 @@ fn solutions_are_found_where_numerator_and_denominator_vanish() {
 
 #[test]
 fn solutions_are_found_where_numerator_and_denominator_nearly_vanish() {
-    let (machine, mut comparison) = (reference_sets::asymmetric(), Comparison::default());
-    let (legs, mut draw) = (Legs::of(&machine), Draw::seeded(64));
+    let (machine, mut comparison) = (reference_cases::asymmetric(), Comparison::default());
+    let (legs, mut draw) = (Legs::of(&machine), Random::new(64));
     for _ in 0..300 {
         let mut rho = both_vanish(&legs, draw.between(-1.2, 1.2), draw.between(0.0, 700.0));
         if rho.iter().any(|r| r.abs() > 5000.0) {

@@ -35,22 +35,22 @@ pub(crate) struct Solution {
 
 /// All forward cases.
 pub(crate) fn forward() -> Vec<ForwardCase> {
-    cases(include_str!("../reference/forward.json")).iter().map(forward_case).collect()
+    cases(include_str!("../../../../tests/reference/forward.json")).iter().map(forward_case).collect()
 }
 
 /// All inverse cases.
 pub(crate) fn inverse() -> Vec<InverseCase> {
-    cases(include_str!("../reference/inverse.json")).iter().map(inverse_case).collect()
+    cases(include_str!("../../../../tests/reference/inverse.json")).iter().map(inverse_case).collect()
 }
 
 /// The published file of the built-in machine.
 pub(crate) fn verne() -> Machine {
-    machine(include_str!("../reference/machine-verne.json"))
+    machine(include_str!("../../../../tests/reference/machine-verne.json"))
 }
 
 /// The machine with legs II and III of different lengths.
 pub(crate) fn asymmetric() -> Machine {
-    machine(include_str!("../reference/machine-asymmetric.json"))
+    machine(include_str!("../../../../tests/reference/machine-asymmetric.json"))
 }
 
 fn cases(text: &str) -> Vec<Value> {

@@ -7,7 +7,7 @@ use verne_solver::{Constraint, Element, KinematicsError, Machine, Posture, platf
 
 use crate::oracle::Legs;
 use crate::oracle::constructed_postures::{drops_squared, hung, leaning};
-use crate::random_machines::Draw;
+use crate::random::Random;
 
 /// Distances from a limit, mm.
 const DISTANCES: [f64; 10] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
@@ -44,7 +44,7 @@ fn near(all: &[Posture], alpha: f64, within: f64) -> (usize, usize) {
 
 #[test]
 fn solutions_at_the_greatest_reach_of_leg_one_are_found() {
-    let (machine, mut draw) = (Machine::verne(), Draw::seeded(81));
+    let (machine, mut draw) = (Machine::verne(), Random::new(81));
     let legs = Legs::of(&machine);
     let offset = legs.g.D1 - legs.g.d1;
     for _ in 0..20 {

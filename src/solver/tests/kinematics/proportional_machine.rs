@@ -4,7 +4,7 @@
 use verne_solver::{KinematicsError, Machine, MachineData, forward, forward_working};
 
 use crate::oracle::{self, Comparison};
-use crate::random_machines::Draw;
+use crate::random::Random;
 
 fn data() -> MachineData {
     let mut data = Machine::verne().data().clone();
@@ -26,7 +26,7 @@ fn check(rho: [f64; 3], comparison: &mut Comparison) {
 
 #[test]
 fn all_assembly_modes_are_found_at_any_sliders() {
-    let (mut draw, mut comparison) = (Draw::seeded(71), Comparison::default());
+    let (mut draw, mut comparison) = (Random::new(71), Comparison::default());
     for _ in 0..300 {
         check([0, 1, 2].map(|_| draw.between(0.0, 800.0)), &mut comparison);
     }
@@ -35,7 +35,7 @@ fn all_assembly_modes_are_found_at_any_sliders() {
 
 #[test]
 fn all_assembly_modes_are_found_at_equal_rho2_and_rho3() {
-    let (mut draw, mut comparison) = (Draw::seeded(72), Comparison::default());
+    let (mut draw, mut comparison) = (Random::new(72), Comparison::default());
     for _ in 0..300 {
         let [rho1, rho2] = [draw.between(0.0, 800.0), draw.between(0.0, 800.0)];
         check([rho1, rho2, rho2], &mut comparison);
@@ -45,7 +45,7 @@ fn all_assembly_modes_are_found_at_equal_rho2_and_rho3() {
 
 #[test]
 fn all_assembly_modes_are_found_at_rho1_half_way() {
-    let (mut draw, mut comparison) = (Draw::seeded(73), Comparison::default());
+    let (mut draw, mut comparison) = (Random::new(73), Comparison::default());
     for _ in 0..300 {
         let (middle, apart) = (draw.between(0.0, 800.0).round(), draw.between(10.0, 500.0).round());
         check([middle, middle - apart, middle + apart], &mut comparison);

@@ -2,7 +2,7 @@
 
 use verne_solver::{Machine, Posture, forward, platform, tool};
 
-use crate::random_machines::Draw;
+use crate::random::Random;
 
 /// Levels that keep every sum below exact in double precision.
 const LEVELS: [f64; 5] = [1024.0, -4096.0, 65_536.0, -1_048_576.0, 0.5];
@@ -38,7 +38,7 @@ fn assert_same(question: &str, level: f64, low: &[Posture], high: &[Posture]) {
 
 #[test]
 fn a_common_lift_does_not_change_assembly_modes() {
-    let (machine, mut draw) = (Machine::verne(), Draw::seeded(171));
+    let (machine, mut draw) = (Machine::verne(), Random::new(171));
     for _ in 0..200 {
         let rho = [0; 3].map(|_| short(draw.between(0.0, 750.0)));
         let low = forward(&machine, rho).unwrap();
@@ -51,7 +51,7 @@ fn a_common_lift_does_not_change_assembly_modes() {
 
 #[test]
 fn a_common_lift_does_not_change_postures() {
-    let (machine, mut draw) = (Machine::verne(), Draw::seeded(172));
+    let (machine, mut draw) = (Machine::verne(), Random::new(172));
     for _ in 0..200 {
         let [x, y, z] =
             [draw.between(-300.0, 300.0), draw.between(-300.0, 300.0), short(draw.between(800.0, 1500.0))];

@@ -5,9 +5,9 @@ use nalgebra::{Matrix4, Vector4};
 use verne_solver::jacobian::{conditioning, parallel_matrix, velocities};
 use verne_solver::{Machine, MachineData, PlatformPose, Posture};
 
+use crate::lengths::scale;
 use crate::oracle::constructed_postures::{hung, postures, upright};
 use crate::oracle::{Found, Legs};
-use crate::random_machines::scale;
 
 /// Rates of the four rods' lengths with x, y, z, R1 alpha by central differences.
 fn differences(legs: &Legs, found: &Found) -> Matrix4<f64> {

@@ -3,9 +3,10 @@
 use nalgebra::Vector3;
 use verne_solver::{Machine, Margins, TableAngles};
 
+use crate::lengths::scale;
 use crate::oracle::constructed_postures::{hung, postures, upright};
 use crate::oracle::{Found, Legs};
-use crate::random_machines::{Draw, scale};
+use crate::random::Random;
 
 /// The rods that the arrays of four stand for.
 const RODS: [u8; 4] = [11, 12, 21, 31];
@@ -26,7 +27,7 @@ fn home(legs: &Legs) -> Found {
 }
 
 /// A machine with cone axes of its own for one or both ends of the rods.
-fn with_axes(machine: &Machine, draw: &mut Draw) -> Machine {
+fn with_axes(machine: &Machine, draw: &mut Random) -> Machine {
     let mut data = machine.data().clone();
     let mut axes = || [0; 4].map(|_| [0; 3].map(|_| draw.between(-1.0, 1.0) * 5.0));
     (data.limits.slider_axes, data.limits.platform_axes) = (Some(axes()), Some(axes()));
@@ -100,7 +101,7 @@ fn the_parallel_singularity_margin_is_positive_at_home() {
 
 #[test]
 fn the_slider_joint_margin_uses_the_base_frame() {
-    let mut draw = Draw::seeded(1);
+    let mut draw = Random::new(1);
     for (machine, found) in postures(135, 1000) {
         let legs = Legs::of(&machine);
         let rods = RODS.map(|rod| legs.rod(rod, &found.q, &found.rho));
@@ -120,7 +121,7 @@ fn the_slider_joint_margin_uses_the_base_frame() {
 
 #[test]
 fn the_platform_joint_margin_uses_the_platform_frame() {
-    let mut draw = Draw::seeded(2);
+    let mut draw = Random::new(2);
     for (machine, found) in postures(136, 1000) {
         let legs = Legs::of(&machine);
         let back = nalgebra::Rotation3::from_axis_angle(&Vector3::x_axis(), -found.q[3]);

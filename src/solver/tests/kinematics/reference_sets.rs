@@ -5,7 +5,7 @@ use verne_solver::{
     part_working, platform, platform_working, table_angles,
 };
 
-use crate::reference_sets::{self, InverseCase, Solution};
+use crate::reference_cases::{self, InverseCase, Solution};
 
 /// Accuracy of a coordinate, mm.
 const LENGTH: f64 = 1e-9;
@@ -66,7 +66,7 @@ fn target(case: &InverseCase) -> PartPose {
 
 #[test]
 fn forward_solutions_equal_the_reference() {
-    for case in reference_sets::forward() {
+    for case in reference_cases::forward() {
         check(&case.tag, forward(&case.machine, case.rho), &case.solutions);
         check_working(&case.tag, forward_working(&case.machine, case.rho), &case.solutions);
     }
@@ -74,7 +74,7 @@ fn forward_solutions_equal_the_reference() {
 
 #[test]
 fn inverse_solutions_equal_the_reference() {
-    for case in reference_sets::inverse() {
+    for case in reference_cases::inverse() {
         let (all, working) = if let Some(tool_length) = case.tool_length {
             let target = target(&case);
             (part(&case.machine, &target, tool_length), part_working(&case.machine, &target, tool_length))
@@ -89,7 +89,7 @@ fn inverse_solutions_equal_the_reference() {
 
 #[test]
 fn forward_of_a_reference_posture_returns_it() {
-    for case in reference_sets::inverse() {
+    for case in reference_cases::inverse() {
         for truth in &case.solutions {
             let modes = forward(&case.machine, truth.rho).expect("the reference posture is an assembly mode");
             assert_eq!(
@@ -104,7 +104,7 @@ fn forward_of_a_reference_posture_returns_it() {
 
 #[test]
 fn the_table_moves_the_reference_platform_to_the_target() {
-    for case in reference_sets::inverse().iter().filter(|case| case.tool_length.is_some()) {
+    for case in reference_cases::inverse().iter().filter(|case| case.tool_length.is_some()) {
         let (target, tool_length) = (target(case), case.tool_length.unwrap());
         for posture in part(&case.machine, &target, tool_length).unwrap() {
             let truth =
@@ -126,6 +126,6 @@ fn the_table_moves_the_reference_platform_to_the_target() {
 
 #[test]
 fn the_built_in_machine_equals_the_published_one() {
-    assert_eq!(Machine::verne().data(), reference_sets::verne().data());
+    assert_eq!(Machine::verne().data(), reference_cases::verne().data());
     assert_eq!(Machine::verne(), Machine::new(Machine::verne().data().clone()).unwrap());
 }

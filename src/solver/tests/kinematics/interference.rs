@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use verne_solver::{Machine, Margins};
 
+use crate::lengths::scale;
 use crate::oracle::constructed_postures::{hung, postures, upright};
 use crate::oracle::{Found, Legs};
-use crate::random_machines::scale;
 
 const RODS: [u8; 6] = [11, 12, 21, 22, 31, 32];
 

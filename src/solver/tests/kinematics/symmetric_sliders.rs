@@ -4,8 +4,9 @@
 
 use verne_solver::{Machine, MachineData, Posture, forward, forward_working};
 
+use crate::lengths::scale;
 use crate::oracle::{self, Comparison};
-use crate::random_machines::{Draw, scale};
+use crate::random::Random;
 
 /// Distances from exact symmetry, mm on a metre.
 const OFFSETS: [f64; 13] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
@@ -26,7 +27,7 @@ fn check(machine: &Machine, rho: [f64; 3], comparison: &mut Comparison) -> Vec<P
 
 #[test]
 fn all_modes_are_found_at_rho2_near_rho3() {
-    let (machine, mut draw, mut comparison) = (Machine::verne(), Draw::seeded(51), Comparison::default());
+    let (machine, mut draw, mut comparison) = (Machine::verne(), Random::new(51), Comparison::default());
     for _ in 0..40 {
         let [rho1, rho2] = [draw.between(0.0, 750.0), draw.between(0.0, 750.0)];
         for offset in OFFSETS.into_iter().flat_map(|offset| [offset, -offset]) {
@@ -69,7 +70,7 @@ fn all_modes_are_found_at_level_sliders() {
 
 #[test]
 fn all_modes_are_found_at_rho1_half_way_between_rho2_and_rho3() {
-    let (machine, mut draw, mut comparison) = (Machine::verne(), Draw::seeded(52), Comparison::default());
+    let (machine, mut draw, mut comparison) = (Machine::verne(), Random::new(52), Comparison::default());
     let random =
         (0..60).map(|_| [draw.between(-200.0, 900.0), draw.between(-900.0, 900.0)]).collect::<Vec<_>>();
     for [middle, apart] in
@@ -94,7 +95,7 @@ fn the_exact_middle_has_two_modes_with_parallel_rods() {
 
 #[test]
 fn all_modes_of_random_machines_are_found_near_either_symmetry() {
-    let (mut draw, mut comparison) = (Draw::seeded(53), Comparison::default());
+    let (mut draw, mut comparison) = (Random::new(53), Comparison::default());
     for _ in 0..3000 {
         let machine = with_legs_alike(&draw.machine());
         let [rho1, rho2, rho3] = draw.rho(&machine);
@@ -108,7 +109,7 @@ fn all_modes_of_random_machines_are_found_near_either_symmetry() {
 
 #[test]
 fn all_modes_are_found_at_any_distance_from_either_symmetry() {
-    let (machine, mut draw, mut comparison) = (Machine::verne(), Draw::seeded(54), Comparison::default());
+    let (machine, mut draw, mut comparison) = (Machine::verne(), Random::new(54), Comparison::default());
     for _ in 0..4000 {
         let [rho1, rho2, rho3] = [0; 3].map(|_| draw.between(0.0, 750.0));
         let offset = draw.magnitude(1e-6, 10.0) * draw.pick(&[1.0, -1.0]);

@@ -9,7 +9,7 @@ use super::constructed_postures::postures;
 use super::inverse::{Path, inverse};
 use super::solution::{Answer, Found, wrapped};
 use super::{Legs, forward};
-use crate::reference_sets::{self, Solution};
+use crate::reference_cases::{self, Solution};
 
 fn check(legs: &Legs, tag: &str, answer: &Answer, solutions: &[Solution]) {
     assert!(!answer.continuum && answer.touches.is_empty(), "{tag}: {answer:?}");
@@ -31,14 +31,14 @@ fn check(legs: &Legs, tag: &str, answer: &Answer, solutions: &[Solution]) {
 
 #[test]
 fn the_oracle_finds_the_reference_forward_solutions() {
-    for case in reference_sets::forward() {
+    for case in reference_cases::forward() {
         check(&Legs::of(&case.machine), &case.tag, &forward(&case.machine, case.rho), &case.solutions);
     }
 }
 
 #[test]
 fn the_oracle_finds_the_reference_inverse_solutions() {
-    for case in reference_sets::inverse() {
+    for case in reference_cases::inverse() {
         let path = if let Some(tool_length) = case.tool_length {
             let [x, y, z, phi1, phi2] = case.pose[..] else { panic!("{}", case.tag) };
             Path::part(&case.machine, &PartPose { x, y, z, phi1, phi2 }, tool_length)

@@ -5,7 +5,8 @@ use verne_solver::Machine;
 
 use super::legs::Legs;
 use super::solution::Found;
-use crate::random_machines::{Draw, scale};
+use crate::lengths::scale;
+use crate::random::Random;
 
 /// Leg I at a chosen alpha (not 0 or π) and y: x and rho1 follow, x on the chosen side of leg I's
 /// guideway. `None` out of reach.
@@ -46,7 +47,7 @@ pub(crate) fn hung(legs: &Legs, (q, rho1): (Vector4<f64>, f64), sides: [f64; 2])
 
 /// Random postures of random machines.
 pub(crate) fn postures(seed: u64, wanted: usize) -> Vec<(Machine, Found)> {
-    let mut draw = Draw::seeded(seed);
+    let mut draw = Random::new(seed);
     let mut found = Vec::new();
     while found.len() < wanted {
         let machine = draw.any_machine();

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use verne_solver::{Machine, SplitAngle, table_windings};
 
-use crate::random_machines::Draw;
+use crate::random::Random;
 
 /// A machine with these ranges of tilt and rotary angle.
 fn machine(tilt: [f64; 2], rotary: [f64; 2]) -> Machine {
@@ -20,7 +20,7 @@ fn admissible([low, high]: [f64; 2], angle: f64) -> Vec<f64> {
 
 #[test]
 fn the_nearest_winding_within_the_range_is_chosen() {
-    let mut draw = Draw::seeded(191);
+    let mut draw = Random::new(191);
     for _ in 0..20_000 {
         let ranges = [0; 2].map(|_| {
             let low = draw.between(-30.0, 20.0);

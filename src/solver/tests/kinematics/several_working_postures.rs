@@ -9,11 +9,12 @@ use verne_solver::{
     part_pose, part_working, platform_working, table_angles, tool, tool_every_working, tool_working,
 };
 
-use crate::random_machines::{Draw, scale};
+use crate::lengths::scale;
+use crate::random::Random;
 
 /// A machine whose table is above the platform, of any size and slightly varied. Its cones exclude
 /// the middle of the platform's domain.
-fn machine(draw: &mut Draw) -> Machine {
+fn machine(draw: &mut Random) -> Machine {
     let mut data = Machine::verne().data().clone();
     let size = draw.magnitude(0.01, 10.0);
     let mut length = |length: f64| length * size * draw.between(0.995, 1.005);
@@ -63,7 +64,7 @@ fn check(
 }
 
 /// The pose that the tool has at a platform position of the working mode.
-fn target(draw: &mut Draw, machine: &Machine, tool_length: f64) -> Option<PartPose> {
+fn target(draw: &mut Random, machine: &Machine, tool_length: f64) -> Option<PartPose> {
     let size = machine.data().geometry.d1;
     let p = [-0.8, -0.5, 0.0].map(|least| size * draw.between(least, 0.5 - least.abs() + 1.0));
     let pose = platform_working(machine, p).ok()?.pose;
@@ -73,7 +74,7 @@ fn target(draw: &mut Draw, machine: &Machine, tool_length: f64) -> Option<PartPo
 
 #[test]
 fn a_point_is_inside_if_any_working_posture_is_feasible() {
-    let (mut draw, mut several, mut not_the_first) = (Draw::seeded(181), 0, 0);
+    let (mut draw, mut several, mut not_the_first) = (Random::new(181), 0, 0);
     for _ in 0..20_000 {
         let machine = machine(&mut draw);
         let tool_length = draw.tool_length(&machine);
@@ -110,7 +111,7 @@ fn a_point_is_inside_if_any_working_posture_is_feasible() {
 
 #[test]
 fn every_working_posture_of_a_long_tool_is_found() {
-    let mut draw = Draw::seeded(182);
+    let mut draw = Random::new(182);
     for _ in 0..5000 {
         let machine = draw.any_machine();
         let (u, length) = (draw.point(&machine), -scale(&machine) * draw.magnitude(0.1, 5.0));

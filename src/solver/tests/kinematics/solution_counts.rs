@@ -3,7 +3,7 @@
 use verne_solver::{Machine, forward, part, platform, tool};
 
 use crate::oracle::{self, Comparison, Path};
-use crate::random_machines::Draw;
+use crate::random::Random;
 
 /// Few comparisons are lenient, and the questions reach from none to the most solutions there are.
 fn conclude(comparison: &Comparison, most: usize) {
@@ -14,7 +14,7 @@ fn conclude(comparison: &Comparison, most: usize) {
 
 #[test]
 fn assembly_modes_of_the_reference_machine_agree_with_the_oracle() {
-    let (machine, mut draw, mut comparison) = (Machine::verne(), Draw::seeded(11), Comparison::default());
+    let (machine, mut draw, mut comparison) = (Machine::verne(), Random::new(11), Comparison::default());
     for _ in 0..3000 {
         let rho = draw.rho(&machine);
         let question = format!("rho {rho:?}");
@@ -25,7 +25,7 @@ fn assembly_modes_of_the_reference_machine_agree_with_the_oracle() {
 
 #[test]
 fn assembly_modes_within_the_strokes_agree_with_the_oracle() {
-    let (machine, mut draw, mut comparison) = (Machine::verne(), Draw::seeded(12), Comparison::default());
+    let (machine, mut draw, mut comparison) = (Machine::verne(), Random::new(12), Comparison::default());
     for _ in 0..2000 {
         let rho = [0, 1, 2].map(|i| {
             let [low, high] = machine.data().limits.stroke[i];
@@ -40,7 +40,7 @@ fn assembly_modes_within_the_strokes_agree_with_the_oracle() {
 
 #[test]
 fn assembly_modes_of_random_machines_agree_with_the_oracle() {
-    let (mut draw, mut comparison) = (Draw::seeded(13), Comparison::default());
+    let (mut draw, mut comparison) = (Random::new(13), Comparison::default());
     for _ in 0..5000 {
         let machine = draw.machine();
         let rho = draw.rho(&machine);
@@ -52,7 +52,7 @@ fn assembly_modes_of_random_machines_agree_with_the_oracle() {
 
 #[test]
 fn postures_at_platform_positions_agree_with_the_oracle() {
-    let (mut draw, mut comparison) = (Draw::seeded(14), Comparison::default());
+    let (mut draw, mut comparison) = (Random::new(14), Comparison::default());
     for _ in 0..5000 {
         let machine = draw.any_machine();
         let p = draw.point(&machine);
@@ -64,7 +64,7 @@ fn postures_at_platform_positions_agree_with_the_oracle() {
 
 #[test]
 fn postures_at_tool_positions_agree_with_the_oracle() {
-    let (mut draw, mut comparison) = (Draw::seeded(15), Comparison::default());
+    let (mut draw, mut comparison) = (Random::new(15), Comparison::default());
     for _ in 0..5000 {
         let machine = draw.any_machine();
         let (u, tool_length) = (draw.point(&machine), draw.tool_length(&machine));
@@ -77,7 +77,7 @@ fn postures_at_tool_positions_agree_with_the_oracle() {
 
 #[test]
 fn postures_at_part_poses_agree_with_the_oracle() {
-    let (mut draw, mut comparison) = (Draw::seeded(16), Comparison::default());
+    let (mut draw, mut comparison) = (Random::new(16), Comparison::default());
     for _ in 0..5000 {
         let machine = draw.any_machine();
         let tool_length = draw.tool_length(&machine);
