@@ -96,14 +96,7 @@ impl PathBuilder {
     /// ```
     pub fn new(expected: u64, most: u64) -> Self {
         let every = expected.div_ceil(most.max(1)).max(1);
-        Self {
-            every,
-            count: 0,
-            points: Vec::new(),
-            values: Vec::new(),
-            strokes: Vec::new(),
-            pending: None,
-        }
+        Self { every, count: 0, points: Vec::new(), values: Vec::new(), strokes: Vec::new(), pending: None }
     }
 
     /// Adds a point with its value, and how the segment that leads to it is drawn.
@@ -120,7 +113,7 @@ impl PathBuilder {
             None => (value, stroke),
         };
         self.pending = Some((point, value, stroke));
-        if self.count % self.every == 0 {
+        if self.count.is_multiple_of(self.every) {
             self.keep();
         }
         self.count += 1;

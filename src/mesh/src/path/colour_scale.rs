@@ -41,12 +41,12 @@ impl ColourScale {
         // A scale without extent has two colours.
         let fraction =
             if fraction.is_finite() { fraction.clamp(0.0, 1.0) } else { f64::from(value <= self.least) };
-        let last = CIVIDIS.len() - 2;
-        let place = fraction * (CIVIDIS.len() - 1) as f64;
-        let index = (0..last).find(|index| place < (index + 1) as f64).unwrap_or(last);
-        let within = place - index as f64;
+        let place = 9.0 * fraction;
+        let index = (0..8_u8).find(|index| place < f64::from(index + 1)).unwrap_or(8);
+        let within = place - f64::from(index);
+        let ends = [CIVIDIS[usize::from(index)], CIVIDIS[usize::from(index) + 1]];
         std::array::from_fn(|channel| {
-            let [low, high] = [CIVIDIS[index], CIVIDIS[index + 1]].map(|rgb| f64::from(rgb[channel]));
+            let [low, high] = ends.map(|rgb| f64::from(rgb[channel]));
             (low + within * (high - low)) / 255.0
         })
     }

@@ -1,6 +1,7 @@
 //! Machines: the built-in one with changes, similar ones, and random ones.
 
 #![allow(dead_code, reason = "each test takes the machines that it wants")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test ends without a machine")]
 
 use std::f64::consts::PI;
 

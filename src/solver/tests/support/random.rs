@@ -42,7 +42,7 @@ impl Random {
 
     /// True in one of `n` draws.
     pub(crate) fn one_in(&mut self, n: u64) -> bool {
-        self.bits() % n == 0
+        self.bits().is_multiple_of(n)
     }
 
     /// One of the values.
