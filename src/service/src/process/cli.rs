@@ -59,8 +59,8 @@ enum Command {
     Store(StoreCommand),
     /// Compute a workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
     Workspace(WorkspaceCommand),
-    /// Plan the joint motion of a program: its rows (-o FILE), and a report on the limits that it breaks. The exit status
-    /// is 3 if the machine cannot run the program.
+    /// Plan the joint motion of a program: its rows (-o FILE), and a report on the limits that it breaks. The exit
+    /// status is 3 if the machine cannot run the program.
     Toolpath(Box<ToolpathCommand>),
     #[command(flatten)]
     Kinematics(KinematicsCommand),
