@@ -50,6 +50,7 @@ mod diagnostics;
 mod error;
 mod event;
 mod format;
+pub mod joint_program;
 mod lines;
 mod moves;
 mod options;

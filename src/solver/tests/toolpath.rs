@@ -20,5 +20,7 @@ mod choices;
 mod lines;
 #[path = "toolpath/pole.rs"]
 mod pole;
+#[path = "support/random.rs"]
+mod random;
 #[path = "toolpath/support.rs"]
 mod support;

@@ -3,6 +3,7 @@
 pub(crate) mod batch;
 pub(crate) mod dexterity;
 pub(crate) mod jobs;
+pub(crate) mod joint_program;
 pub(crate) mod kinematics;
 pub(crate) mod machines;
 pub(crate) mod programs;

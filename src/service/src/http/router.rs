@@ -16,8 +16,8 @@ use utoipa_axum::routes;
 
 use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
 use crate::http::handlers::{
-    batch, dexterity, jobs, kinematics, machines, programs, results, service, toolpath, toolpath_rows,
-    workspace,
+    batch, dexterity, jobs, joint_program, kinematics, machines, programs, results, service, toolpath,
+    toolpath_rows, workspace,
 };
 use crate::http::openapi::{self, Document, problem_responses, security};
 use crate::http::state::SharedState;
@@ -33,7 +33,7 @@ pub fn document() -> Value {
 }
 
 /// Each route with its access.
-fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 28] {
+fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 30] {
     [
         (Key(Read, Fast), routes!(kinematics::get_fk, kinematics::post_fk)),
         (Key(Read, Fast), routes!(kinematics::get_ik, kinematics::post_ik)),
@@ -52,6 +52,8 @@ fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 28] {
         (Key(Compute, Other), routes!(toolpath::post_toolpath)),
         (Key(Read, Other), routes!(toolpath::get_report)),
         (Key(Read, Other), routes!(toolpath_rows::get_rows)),
+        (Key(Read, Other), routes!(joint_program::get_joint_program)),
+        (Key(Read, Other), routes!(joint_program::get_path)),
         (Key(Read, Other), routes!(jobs::get_jobs)),
         (Key(Read, Other), routes!(jobs::get_job)),
         (Key(Compute, Other), routes!(jobs::delete_job)),

@@ -12,10 +12,24 @@ use crate::wire::toolpath_row::{COLUMNS, RowFormat, RowObject};
 /// About the bytes of a row as JSON.
 const ROW_TEXT_BYTES: usize = 320;
 
+/// Stored rows in their order, or why the next one cannot be read.
+pub(crate) type StoredRows<'a> = dyn Iterator<Item = Result<StoredRow, OperationError>> + 'a;
+
+/// Writes rows as text, piece by piece.
+pub(crate) trait RowText: Send {
+    /// The next rows. The first ones have what stands before all rows.
+    fn rows(&mut self, rows: &mut StoredRows<'_>) -> Result<Vec<u8>, OperationError>;
+
+    /// What is left after the last row.
+    fn tail(self: Box<Self>) -> Result<Vec<u8>, OperationError>;
+}
+
 /// Writes rows in a format.
 #[derive(Debug)]
 pub(crate) struct RowTextWriter {
     format: RowFormat,
+    /// What stands before the rows, until it is written.
+    head: String,
     /// The number of the first row.
     first: u64,
     /// The number of the next row.
@@ -24,25 +38,20 @@ pub(crate) struct RowTextWriter {
 
 impl RowTextWriter {
     /// A writer of the rows from this one on.
-    pub(crate) fn new(format: RowFormat, first: u64) -> Self {
-        Self { format, first, next: first }
-    }
-
-    /// What stands before the rows.
-    pub(crate) fn head(&self, id: ResultId) -> String {
-        match self.format {
+    pub(crate) fn new(id: ResultId, format: RowFormat, first: u64) -> Self {
+        let head = match format {
             RowFormat::Csv => format!("{COLUMNS}\n"),
             RowFormat::Ndjson => String::new(),
             RowFormat::Json => format!("{{\"id\":\"{id}\",\"rows\":["),
-        }
+        };
+        Self { format, head, first, next: first }
     }
+}
 
-    /// The next rows.
-    pub(crate) fn rows(
-        &mut self,
-        rows: impl Iterator<Item = Result<StoredRow, OperationError>>,
-    ) -> Result<String, OperationError> {
-        let mut text = String::with_capacity(rows.size_hint().0 * ROW_TEXT_BYTES);
+impl RowText for RowTextWriter {
+    fn rows(&mut self, rows: &mut StoredRows<'_>) -> Result<Vec<u8>, OperationError> {
+        let mut text = std::mem::take(&mut self.head);
+        text.reserve(rows.size_hint().0 * ROW_TEXT_BYTES);
         for row in rows {
             let row = row_object(&row?);
             match self.format {
@@ -61,16 +70,16 @@ impl RowTextWriter {
             }
             self.next += 1;
         }
-        Ok(text)
+        Ok(text.into_bytes())
     }
 
-    /// What stands after the rows.
-    pub(crate) fn tail(&self) -> String {
-        let Self { format, first, next } = self;
-        match format {
+    fn tail(self: Box<Self>) -> Result<Vec<u8>, OperationError> {
+        let Self { format, head, first, next } = *self;
+        let tail = match format {
             RowFormat::Csv | RowFormat::Ndjson => String::new(),
             RowFormat::Json => format!("\n],\"from\":{first},\"to\":{next}}}\n"),
-        }
+        };
+        Ok((head + &tail).into_bytes())
     }
 }
 

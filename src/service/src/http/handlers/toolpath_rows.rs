@@ -4,21 +4,17 @@ use axum::extract::State;
 use axum::response::Response;
 
 use crate::http::conditional_response::Conditions;
-use crate::http::error::{HttpError, LookupError};
+use crate::http::error::HttpError;
 use crate::http::extractors::{PathParameter, QueryString};
-use crate::http::handlers::results::record;
 use crate::http::job_document::{JobObject, accepted};
 use crate::http::negotiation::Accept;
 use crate::http::openapi::body_schemas::Text;
 use crate::http::openapi::problem_responses::RowsProblems;
 use crate::http::result_or_job::ResultOrJob;
 use crate::http::state::SharedState;
-use crate::http::toolpath_rows::RowsOf;
+use crate::http::toolpath_rows::{RowsResponse, rows_or_job, toolpath_record};
 use crate::http::wait_policy::WaitPolicy;
-use crate::operations::question_text::QuestionKind;
-use crate::operations::toolpath_report::row_count;
-use crate::operations::toolpath_rows::{ROWS_PER_CHUNK, chunk_name};
-use crate::wire::error::OperationError;
+use crate::operations::toolpath_row_text::RowTextWriter;
 use crate::wire::toolpath_row::{RowFormat, RowsQuery, ToolpathRows};
 
 /// The joint motion of a program
@@ -51,27 +47,16 @@ pub(crate) async fn get_rows(
         Some(format) => format,
         None => accept.choose(RowFormat::ALL.map(|format| (format.media(), format)))?,
     };
-    let record = record(&state, id).await?;
-    let id = record.id;
-    if record.kind != QuestionKind::Toolpath {
-        return Err(LookupError::Result(id.to_string()).into());
-    }
-    let count = row_count(&record.summary.bytes).ok_or(OperationError::Internal)?;
-    let range = query.from..query.to.unwrap_or(count);
+    let (record, count) = toolpath_record(&state, id).await?;
+    let (id, range) = (record.id, query.from..query.to.unwrap_or(count));
     check(query.from, query.to, count)?;
-    let question = state.results.questions.get_or_read(id, &record.question)?;
-    // The store evicts the least recently used first: if the ends are there, so is what is between them.
-    let ends = [range.start, range.end.saturating_sub(1).max(range.start)].map(|row| row / ROWS_PER_CHUNK);
-    let find = || async {
-        if !range.is_empty() {
-            for chunk in ends {
-                state.results.find_blob(id, &chunk_name(chunk)).await?;
-            }
+    let mut response = match rows_or_job(&state, &record, range.clone(), &wait_policy).await? {
+        ResultOrJob::Result(_) => {
+            let (tag, media, extension) = (format.name().to_owned(), format.media(), format.name());
+            let first = range.start;
+            RowsResponse { id, range, tag, media, extension }
+                .respond(&state, &conditions, || Ok(Box::new(RowTextWriter::new(id, format, first))))?
         }
-        Some(RowsOf { id, range: range.clone(), format })
-    };
-    let mut response = match state.blob_or_job(&question, &wait_policy, None, find).await? {
-        ResultOrJob::Result(rows) => rows.respond(&state, &conditions)?,
         ResultOrJob::Job(job) => accepted(&job, &state.base)?,
     };
     wait_policy.state_preference(&mut response);

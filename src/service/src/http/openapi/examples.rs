@@ -224,11 +224,15 @@ fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
                          "tolerance": {"tip": 0.05}});
     let report = json_of(toolpath_report(&request, machines));
     let of_report = json!({"id": report["id"]});
+    let of_path = json!({"id": report["id"], "least": 0, "greatest": 0.25});
+    let of_program = json!({"id": report["id"], "axes": "X,Y,Z,A,C", "feed_word": "inverse_time"});
     let some_rows = json!({"id": report["id"], "format": "csv", "from": 0, "to": 3});
     vec![
         post("/toolpath", request, |_| Ok(&report)),
         get("/toolpath/{id}", of_report, Some(report.clone())),
         get("/toolpath/{id}/rows", some_rows, None),
+        get("/toolpath/{id}/program", of_program, None),
+        get("/toolpath/{id}/path", of_path, None),
     ]
 }
 

@@ -102,6 +102,8 @@ problems! {
     /// Problems of the rows of a tool path. If the store evicted them, a job computes them again, which needs a role
     /// and the program.
     RowsProblems: RESULT, JOB, &[Code::Forbidden, Code::ProgramNotFound];
+    /// Problems of the joint program of a tool path.
+    JointProgramProblems: RESULT, JOB, &[Code::Forbidden, Code::ProgramNotFound, Code::NoJointProgram];
     /// Problems of a machine.
     MachineProblems: &[Code::NotFound, Code::MachineNotFound];
     /// Problems of the list of jobs.

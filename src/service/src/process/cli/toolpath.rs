@@ -10,17 +10,22 @@ use std::process::ExitCode;
 
 use clap::Args;
 use flate2::read::GzDecoder;
+use verne_program::joint_program::JointProgramOptions;
 use verne_program::{Format, line_texts};
 
+use crate::operations::joint_program::JointProgramText;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::programs::receiver::{ProgramReceiver, ReceivedProgram};
 use crate::operations::toolpath::compute_toolpath;
 use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
+use crate::operations::toolpath_report::is_feasible;
+use crate::operations::toolpath_row_text::{RowText, RowTextWriter};
 use crate::process::cli::answer::{flags_of_query, machine};
 use crate::process::cli::progress::TerminalProgress;
-use crate::process::cli::toolpath::output::{RowsOutput, is_standard};
+use crate::process::cli::toolpath::output::{OutputFormat, RowsOutput, is_standard};
 use crate::process::cli::toolpath::summary::Summary;
 use crate::wire::error::OperationError;
+use crate::wire::joint_program::JointProgramQuery;
 use crate::wire::program_query::ProgramQuery;
 use crate::wire::toolpath::ToolpathRequest;
 use crate::wire::toolpath_query::{ToolpathQuery, point_into_toolpath_query};
@@ -41,7 +46,10 @@ pub(crate) struct ToolpathCommand {
     reading: ProgramQuery,
     #[command(flatten)]
     query: ToolpathQuery,
-    /// Write the rows of the joint motion to this file: .csv, .ndjson or .json; `-` writes CSV to standard output.
+    #[command(flatten)]
+    program: JointProgramQuery,
+    /// Write the joint motion to this file: its rows as .csv, .ndjson or .json, or a joint program as .ngc or .nc; `-`
+    /// writes CSV to standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Write the report, which is the JSON that the HTTP service would answer, to this file. Default: standard output,
@@ -70,14 +78,25 @@ impl ToolpathCommand {
         let faults = |error| message(&file, error);
         let machine = machine(&self.query.machine)?;
         let request = ToolpathRequest { machine, ..self.query.into_request() };
+        let options = self.program.into_options().map_err(faults)?;
         let checked = CheckedToolpath::new(&request, &MachineRegistry::default()).map_err(faults)?;
         let received = receive(&self.file, &self.reading, faults)?;
         let question = checked.question(received.id).with_program(&received.program).map_err(faults)?;
         let rows = match (output, format) {
-            (Some(path), Some(format)) => Some(RowsOutput::new(path, format, &question, out)?),
+            (Some(path), Some(format)) => {
+                let writer = writer(format, options, &question, &received).map_err(faults)?;
+                Some(RowsOutput::new(path, writer, out)?)
+            }
             _ => None,
         };
-        let report = plan(&question, &received, rows, faults)?;
+        let joint_program = output.filter(|_| format == Some(OutputFormat::JointProgram));
+        let planned = plan(&question, &received, rows, faults);
+        if let Some(path) = joint_program
+            && !planned.as_ref().is_ok_and(|report| is_feasible(report))
+        {
+            output::remove(path);
+        }
+        let report = planned?;
         match self.report.as_deref() {
             None if rows_take_standard_output => {}
             path => output::write_report(&report, path, out, pretty)?,
@@ -87,6 +106,19 @@ impl ToolpathCommand {
         drop(summary.write(err));
         Ok(if summary.is_ok() { ExitCode::SUCCESS } else { ExitCode::from(FAILS) })
     }
+}
+
+/// The writer of the output.
+fn writer(
+    format: OutputFormat,
+    options: JointProgramOptions,
+    question: &ToolpathQuestion,
+    received: &ReceivedProgram,
+) -> Result<Box<dyn RowText>, OperationError> {
+    Ok(match format {
+        OutputFormat::Rows(format) => Box::new(RowTextWriter::new(question.id, format, 0)),
+        OutputFormat::JointProgram => Box::new(JointProgramText::new(options, question, &received.program)?),
+    })
 }
 
 /// Plans the program, and returns the report as JSON.

@@ -1,14 +1,13 @@
 //! The files of `verne toolpath`.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use clap::ValueEnum;
 use serde_json::Value;
 
-use crate::operations::toolpath_question::ToolpathQuestion;
-use crate::operations::toolpath_row_text::RowTextWriter;
+use crate::operations::toolpath_row_text::RowText;
 use crate::operations::toolpath_rows::read_chunk;
 use crate::process::cli::answer::to_json;
 use crate::wire::toolpath_row::RowFormat;
@@ -18,14 +17,35 @@ pub(super) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// The format that the extension of a file of rows names.
-pub(super) fn format(path: &Path) -> Result<RowFormat, String> {
+/// What is written to the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum OutputFormat {
+    /// The rows.
+    Rows(RowFormat),
+    /// The joint program.
+    JointProgram,
+}
+
+/// The format that the extension of the output names.
+pub(super) fn format(path: &Path) -> Result<OutputFormat, String> {
     if is_standard(path) {
-        return Ok(RowFormat::Csv);
+        return Ok(OutputFormat::Rows(RowFormat::Csv));
     }
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    if ["ngc", "nc"].iter().any(|known| extension.eq_ignore_ascii_case(known)) {
+        return Ok(OutputFormat::JointProgram);
+    }
     RowFormat::from_str(extension, true)
-        .map_err(|_| format!("--output {} must end in .csv, .ndjson or .json", path.display()))
+        .map(OutputFormat::Rows)
+        .map_err(|_| format!("--output {} must end in .csv, .ndjson, .json, .ngc or .nc", path.display()))
+}
+
+/// Removes a joint program that is not complete, or that the machine cannot run.
+pub(super) fn remove(path: &Path) {
+    if fs::remove_file(path).is_err() {
+        // Nobody should run what is left of it.
+        drop(File::create(path));
+    }
 }
 
 /// A file, or standard output for `-`.
@@ -41,39 +61,31 @@ fn destination<'a>(path: &Path, out: &'a mut dyn Write) -> Result<Box<dyn Write 
 pub(super) struct RowsOutput<'a> {
     name: String,
     destination: Box<dyn Write + 'a>,
-    writer: RowTextWriter,
+    writer: Box<dyn RowText>,
 }
 
 impl<'a> RowsOutput<'a> {
     /// Creates the file.
-    pub(super) fn new(
-        path: &Path,
-        format: RowFormat,
-        question: &ToolpathQuestion,
-        out: &'a mut dyn Write,
-    ) -> Result<Self, String> {
-        let (name, writer) = (path.display().to_string(), RowTextWriter::new(format, 0));
-        let mut output = Self { name, destination: destination(path, out)?, writer };
-        let head = output.writer.head(question.id);
-        output.write_text(&head)?;
-        Ok(output)
+    pub(super) fn new(path: &Path, writer: Box<dyn RowText>, out: &'a mut dyn Write) -> Result<Self, String> {
+        Ok(Self { name: path.display().to_string(), destination: destination(path, out)?, writer })
     }
 
     /// Writes a chunk of rows.
     pub(super) fn write(&mut self, chunk: &[u8]) -> Result<(), String> {
-        let text = self.writer.rows(read_chunk(chunk)).map_err(|error| error.to_string())?;
+        let text = self.writer.rows(&mut read_chunk(chunk)).map_err(|error| error.to_string())?;
         self.write_text(&text)
     }
 
     /// Writes the end of the file.
-    pub(super) fn finish(mut self) -> Result<(), String> {
-        let tail = self.writer.tail();
-        self.write_text(&tail)?;
-        self.destination.flush().map_err(|error| format!("{}: {error}", self.name))
+    pub(super) fn finish(self) -> Result<(), String> {
+        let Self { name, mut destination, writer } = self;
+        let tail = writer.tail().map_err(|error| error.to_string())?;
+        let written = destination.write_all(&tail).and_then(|()| destination.flush());
+        written.map_err(|error| format!("{name}: {error}"))
     }
 
-    fn write_text(&mut self, text: &str) -> Result<(), String> {
-        self.destination.write_all(text.as_bytes()).map_err(|error| format!("{}: {error}", self.name))
+    fn write_text(&mut self, text: &[u8]) -> Result<(), String> {
+        self.destination.write_all(text).map_err(|error| format!("{}: {error}", self.name))
     }
 }
 
