@@ -13,12 +13,13 @@ pub(crate) fn whole(text: &str) -> Option<u32> {
 pub(crate) fn tenths(text: &str) -> Option<u32> {
     let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
     let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-    let (first, rest) = fraction.split_at_checked(1).unwrap_or(("0", ""));
-    if whole.is_empty() || !digits(whole) || !digits(first) || rest.bytes().any(|byte| byte != b'0') {
+    if whole.is_empty() || !digits(whole) || !digits(fraction) {
         return None;
     }
+    let (first, rest) = fraction.split_at_checked(1).unwrap_or(("0", ""));
     let whole: u32 = whole.parse().ok().filter(|whole| *whole <= LARGEST_CODE)?;
-    Some(whole * 10 + first.parse::<u32>().ok()?)
+    let tenth: u32 = first.parse().ok().filter(|_| rest.bytes().all(|byte| byte == b'0'))?;
+    Some(whole * 10 + tenth)
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ pub(crate) fn arc(
         let detail = "the start of the arc is not known; accepted is a move with X, Y and Z before it";
         return Err(block.fault(detail.to_owned()));
     };
-    let axes = state.plane.axes();
+    let axes = state.modes.plane.axes();
     let turns = turns(block)?;
     let centre = match block.take(b'R') {
         Some(word) if block.has_any(&OFFSETS) => {
@@ -76,7 +76,7 @@ fn turns(block: &Block<'_>) -> Result<u16, ProgramError> {
 
 /// The centre that I, J and K state.
 fn centre(state: &mut State, block: &Block<'_>, start: [f64; 3]) -> Result<[f64; 3], ProgramError> {
-    let axes = state.plane.axes();
+    let axes = state.modes.plane.axes();
     let normal = OFFSETS[axes[2]];
     if let Some(word) = block.take(normal)
         && word.value != 0.0
@@ -91,12 +91,12 @@ fn centre(state: &mut State, block: &Block<'_>, start: [f64; 3]) -> Result<[f64;
         let offset = length_of(state, block, OFFSETS[axis])?;
         found += usize::from(offset.is_some());
         centre[axis] = match offset {
-            Some(offset) if state.centre_absolute => offset,
+            Some(offset) if state.modes.centre_absolute => offset,
             Some(offset) => start[axis] + offset,
             None => start[axis],
         };
     }
-    let needed = if state.centre_absolute { 2 } else { 1 };
+    let needed = if state.modes.centre_absolute { 2 } else { 1 };
     if found < needed {
         let detail = "the arc has no centre; accepted are I, J, K in its plane (both with G90.1), or R";
         return Err(block.fault(detail.to_owned()));
@@ -114,7 +114,7 @@ fn centre_of_radius(
     end: [f64; 3],
 ) -> Result<[f64; 3], ProgramError> {
     let stated = length(state, block, word)?;
-    let axes = state.plane.axes();
+    let axes = state.modes.plane.axes();
     let [from, to] = [start, end].map(|point| Vector2::new(point[axes[0]], point[axes[1]]));
     let half = (to - from) / 2.0;
     let radius = stated.abs();

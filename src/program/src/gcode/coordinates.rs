@@ -36,7 +36,7 @@ pub(crate) fn target(state: &mut State, block: &Block<'_>) -> Result<Position, P
     for (letter, coordinate) in AXES.into_iter().zip(&mut target.coordinates) {
         let Some(word) = block.take(letter) else { continue };
         let value = length(state, block, word)?;
-        *coordinate = Some(if state.incremental {
+        *coordinate = Some(if state.modes.incremental {
             let detail = "the position is not known; accepted is a move with X, Y and Z under G90 before G91";
             coordinate.ok_or_else(|| block.fault_at(word, detail.to_owned()))? + value
         } else {

@@ -58,16 +58,16 @@ fn modes(state: &mut State, block: &Block<'_>, codes: &Codes<'_, '_>) {
         state.units = Some(units);
     }
     if let Some(Meaning::Plane(plane)) = codes.get(Group::Plane) {
-        state.plane = plane;
+        state.modes.plane = plane;
     }
     if let Some(Meaning::Incremental(incremental)) = codes.get(Group::Distance) {
-        state.incremental = incremental;
+        state.modes.incremental = incremental;
     }
     if let Some(Meaning::CentreAbsolute(absolute)) = codes.get(Group::CentreDistance) {
-        state.centre_absolute = absolute;
+        state.modes.centre_absolute = absolute;
     }
     if let Some(Meaning::ReturnToInitial(initial)) = codes.get(Group::Return) {
-        state.return_to_initial = initial;
+        state.modes.return_to_initial = initial;
     }
 }
 

@@ -21,15 +21,15 @@ const UPRIGHT: f64 = 1e-9;
 
 /// G73, G81 to G83, G85 and G89.
 pub(crate) fn begin(state: &mut State, block: &Block<'_>, kind: CycleKind) -> Result<(), ProgramError> {
-    match &mut state.cycle {
-        Some(cycle) => cycle.kind = kind,
-        None => {
-            let Some([_, _, z]) = state.position.point() else {
-                let detail = "the position before the cycle is not known; accepted is a move with X, Y and Z before it";
-                return Err(block.fault(detail.to_owned()));
-            };
-            state.cycle = Some(Cycle::new(kind, z));
-        }
+    if let Some(cycle) = &mut state.cycle {
+        cycle.kind = kind;
+    } else {
+        let Some([_, _, z]) = state.position.point() else {
+            let detail =
+                "the position before the cycle is not known; accepted is a move with X, Y and Z before it";
+            return Err(block.fault(detail.to_owned()));
+        };
+        state.cycle = Some(Cycle::new(kind, z));
     }
     holes(state, block)
 }
@@ -54,7 +54,7 @@ pub(crate) fn holes(state: &mut State, block: &Block<'_>) -> Result<(), ProgramE
         let detail = "the position is not known; accepted is a move with X, Y and Z before the cycle";
         return Err(block.fault(detail.to_owned()));
     };
-    let step = if state.incremental { [end[0] - start[0], end[1] - start[1]] } else { [0.0; 2] };
+    let step = if state.modes.incremental { [end[0] - start[0], end[1] - start[1]] } else { [0.0; 2] };
     let first = [end[0], end[1]];
     for count in 0..repetitions {
         let place = [0, 1].map(|k| first[k] + step[k] * f64::from(count));
@@ -66,10 +66,10 @@ pub(crate) fn holes(state: &mut State, block: &Block<'_>) -> Result<(), ProgramE
 /// Takes Z, R, Q and P.
 fn parameters(state: &mut State, block: &Block<'_>, cycle: &mut Cycle) -> Result<(), ProgramError> {
     if let Some(start) = length_of(state, block, b'R')? {
-        cycle.start = Some(if state.incremental { cycle.initial + start } else { start });
+        cycle.start = Some(if state.modes.incremental { cycle.initial + start } else { start });
     }
     if let Some(bottom) = length_of(state, block, b'Z')? {
-        let base = if state.incremental { cycle.start.unwrap_or(cycle.initial) } else { 0.0 };
+        let base = if state.modes.incremental { cycle.start.unwrap_or(cycle.initial) } else { 0.0 };
         cycle.bottom = Some(base + bottom);
     }
     if let Some(word) = block.take(b'Q') {
@@ -101,7 +101,7 @@ fn check(state: &State, block: &Block<'_>) -> Result<(), ProgramError> {
     let turned = !state.centre_point.is_on() && !state.axis.is_upright();
     let detail = if state.tilt.is_some() || x.hypot(y) > UPRIGHT || z < 0.0 || turned {
         "a cycle with a tilted axis is not read; post the moves of the hole"
-    } else if state.plane != Plane::Xy {
+    } else if state.modes.plane != Plane::Xy {
         "a cycle along another axis than z is not read; accepted is G17 before it"
     } else if state.feed_mode == FeedMode::InverseTime {
         "a cycle with inverse time is not read; accepted is G94 or G95 before it"
@@ -129,7 +129,7 @@ impl Hole {
         if start < bottom {
             return Err(block.fault("the cycle begins below its end; R must be at least Z".to_owned()));
         }
-        let retract = if state.return_to_initial { cycle.initial.max(start) } else { start };
+        let retract = if state.modes.return_to_initial { cycle.initial.max(start) } else { start };
         let feed = feed::kind(state, block.line);
         Ok(Self { cycle, start, bottom, retract, feed })
     }

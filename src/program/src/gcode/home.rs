@@ -36,7 +36,7 @@ pub(crate) fn machine_coordinates(
             None => block.fault(detail),
         });
     }
-    let incremental = state.incremental;
+    let incremental = state.modes.incremental;
     leave(state, block, codes, |angle| angle.filter(|_| !incremental))
 }
 

@@ -5,7 +5,7 @@ use crate::event::EventKind;
 use crate::gcode::block::Block;
 use crate::gcode::codes::{Codes, Switch};
 use crate::gcode::position::Position;
-use crate::gcode::state::State;
+use crate::gcode::state::{AxisWords, State};
 use crate::gcode::vocabulary::{Group, Length, Meaning};
 
 /// Does what G43, G43.4, G43.5, G49, H and the codes of the request say.
@@ -20,9 +20,11 @@ pub(crate) fn apply(state: &mut State, block: &Block<'_>, codes: &Codes<'_, '_>)
     }
     if let (Some(Meaning::Length(length)), Some(word)) = (codes.get(Group::Length), codes.word(Group::Length))
     {
-        let control = &mut state.centre_point;
-        control.by_length = matches!(length, Length::Rotary | Length::Vector);
-        control.vector = length == Length::Vector;
+        state.centre_point.by_length = match length {
+            Length::Rotary => Some(AxisWords::Angles),
+            Length::Vector => Some(AxisWords::Vector),
+            Length::Along | Length::Off => None,
+        };
         if length == Length::Off {
             set_length(state, block, None, word.text)?;
         } else {
@@ -43,8 +45,7 @@ pub(crate) fn apply(state: &mut State, block: &Block<'_>, codes: &Codes<'_, '_>)
             Switch::Off => false,
             Switch::Toggle => !control.is_on(),
         };
-        control.by_length &= control.by_code;
-        control.vector &= control.by_length;
+        control.by_length = control.by_length.filter(|_| control.by_code);
         text = word.text;
     }
     let on = state.centre_point.is_on();

@@ -43,7 +43,7 @@ fn moves(state: &State, block: &Block<'_>) -> bool {
     let arc = matches!(state.motion, Some(Motion::Clockwise | Motion::CounterClockwise));
     block.has_any(&AXES)
         || block.has_any(&ANGLES)
-        || block.has_any(&VECTOR) && (arc || state.centre_point.vector)
+        || block.has_any(&VECTOR) && (arc || state.centre_point.has_vector())
         || arc && block.has_any(b"R")
 }
 

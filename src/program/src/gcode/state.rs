@@ -21,13 +21,7 @@ pub(crate) struct State {
     pub(crate) motion: Option<Motion>,
     /// The cycle in force.
     pub(crate) cycle: Option<Cycle>,
-    pub(crate) plane: Plane,
-    /// G91.
-    pub(crate) incremental: bool,
-    /// G90.1.
-    pub(crate) centre_absolute: bool,
-    /// G98.
-    pub(crate) return_to_initial: bool,
+    pub(crate) modes: Modes,
     pub(crate) feed_mode: FeedMode,
     pub(crate) feed: ProgrammedFeed,
     /// G41 or G42.
@@ -38,6 +32,24 @@ pub(crate) struct State {
     pub(crate) tilt: Option<TiltedPlane>,
     pub(crate) position: Position,
     pub(crate) axis: ToolAxis,
+}
+
+/// What coordinates mean.
+#[derive(Debug)]
+pub(crate) struct Modes {
+    pub(crate) plane: Plane,
+    /// G91.
+    pub(crate) incremental: bool,
+    /// G90.1.
+    pub(crate) centre_absolute: bool,
+    /// G98.
+    pub(crate) return_to_initial: bool,
+}
+
+impl Default for Modes {
+    fn default() -> Self {
+        Self { plane: Plane::default(), incremental: false, centre_absolute: false, return_to_initial: true }
+    }
 }
 
 /// How the program is framed.
@@ -75,16 +87,28 @@ pub(crate) struct CentrePoint {
     /// The request says that it is always on.
     pub(crate) always: bool,
     /// G43.4 or G43.5 is in force.
-    pub(crate) by_length: bool,
-    /// G43.5 is in force: I, J, K are the axis.
-    pub(crate) vector: bool,
+    pub(crate) by_length: Option<AxisWords>,
     /// A code of the request has begun it.
     pub(crate) by_code: bool,
 }
 
+/// How blocks state the axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum AxisWords {
+    /// G43.4: A or B, and C.
+    Angles,
+    /// G43.5: I, J, K.
+    Vector,
+}
+
 impl CentrePoint {
+    /// Whether I, J, K are the axis.
+    pub(crate) fn has_vector(&self) -> bool {
+        self.by_length == Some(AxisWords::Vector)
+    }
+
     pub(crate) fn is_on(&self) -> bool {
-        self.always || self.by_length || self.by_code
+        self.always || self.by_length.is_some() || self.by_code
     }
 }
 
@@ -98,10 +122,7 @@ impl State {
             units: options.units,
             motion: None,
             cycle: None,
-            plane: Plane::default(),
-            incremental: false,
-            centre_absolute: false,
-            return_to_initial: true,
+            modes: Modes::default(),
             feed_mode: FeedMode::default(),
             feed: ProgrammedFeed::default(),
             compensated: false,

@@ -22,7 +22,7 @@ pub(crate) fn turn(state: &mut State, block: &Block<'_>, arc: bool) -> Result<()
             // One such fault says it all: the rest of the program is checked as if the control were on.
             state.centre_point.always = true;
         }
-        let detail = if state.centre_point.vector {
+        let detail = if state.centre_point.has_vector() {
             "with G43.5 the axis is stated as I, J, K; accepted are words A, B and C with G43.4"
         } else if state.tilt.is_some() {
             "words A, B and C in a tilted plane are not read; accepted is G69 before them"
@@ -31,7 +31,7 @@ pub(crate) fn turn(state: &mut State, block: &Block<'_>, arc: bool) -> Result<()
         };
         return Err(block.fault_at(word, detail.to_owned()));
     }
-    if state.centre_point.vector
+    if state.centre_point.has_vector()
         && !arc
         && let Some(first) = block.first_of(&VECTOR)
     {
@@ -71,7 +71,7 @@ fn turn_by_words(state: &mut State, block: &Block<'_>) -> Result<(), ProgramErro
                           and C";
             return before.ok_or_else(|| block.fault(detail.to_owned()));
         };
-        let base = if state.incremental { before } else { Some(0.0) };
+        let base = if state.modes.incremental { before } else { Some(0.0) };
         let value = base.map(|base| base + word.value).filter(|value| value.abs() <= LARGEST);
         value.ok_or_else(|| {
             let detail =

@@ -248,12 +248,12 @@ pub(crate) fn miscellaneous(tenths: u32) -> Miscellaneous {
 impl Miscellaneous {
     /// Whether two codes in one block exclude each other.
     pub(crate) fn excludes(self, other: Self) -> bool {
-        use Miscellaneous::{Coolant as C, End, OptionalStop, Spindle, Stop, ToolChange, Unknown};
+        use Miscellaneous::{Coolant as C, End, OptionalStop, Spindle, Stop, ToolChange};
         match (self, other) {
-            (Unknown, _) | (_, Unknown) => false,
             (C(first), C(second)) => first == second || first == Coolant::Off || second == Coolant::Off,
-            (Stop | OptionalStop | End, Stop | OptionalStop | End) => true,
-            (Spindle(_), Spindle(_)) | (ToolChange, ToolChange) => true,
+            (Stop | OptionalStop | End, Stop | OptionalStop | End)
+            | (Spindle(_), Spindle(_))
+            | (ToolChange, ToolChange) => true,
             _ => false,
         }
     }

@@ -8,8 +8,8 @@ fn feeds(text: &str) -> Vec<Option<Feed>> {
     nc(text).moves().iter().map(verne_program::Move::feed).collect()
 }
 
-fn feed(value: f64, unit: FeedUnit) -> Option<Feed> {
-    Some(Feed { value, unit })
+fn feed(value: f64, unit: FeedUnit) -> Feed {
+    Feed { value, unit }
 }
 
 #[test]
@@ -42,15 +42,16 @@ fn rapids_before_the_position_is_known_are_left_out_and_cuts_are_faults() {
 
 #[test]
 fn incremental_coordinates_give_the_same_path() {
-    let (mut absolute, mut incremental) =
-        (String::from("G0 X1 Y2 Z3\nG1 F100"), String::from("G0 X1 Y2 Z3\nG91 G1 F100"));
+    let (mut absolute, mut incremental) = (Vec::new(), Vec::new());
     let (mut x, mut z) = (1.0, 3.0);
     for n in 1..50 {
         let (dx, dz) = (evenly(n, 0.1) * 20.0 - 10.0, evenly(n, 0.7) * 4.0 - 2.0);
         (x, z) = (x + dx, z + dz);
-        absolute += &format!("\nX{x:.17} Z{z:.17}");
-        incremental += &format!("\nX{dx:.17} Z{dz:.17}");
+        absolute.push(format!("X{x:.17} Z{z:.17}"));
+        incremental.push(format!("X{dx:.17} Z{dz:.17}"));
     }
+    let absolute = format!("G0 X1 Y2 Z3\nG1 F100\n{}", absolute.join("\n"));
+    let incremental = format!("G0 X1 Y2 Z3\nG91 G1 F100\n{}", incremental.join("\n"));
     let (absolute, incremental) = (nc(&absolute), nc(&incremental));
     for (one, other) in tips(&absolute).into_iter().zip(tips(&incremental)) {
         assert_near(one, other);
@@ -94,7 +95,7 @@ fn angles_and_their_feeds_are_degrees_in_inch_programs_too() {
     let [first, second] = program.moves() else { panic!() };
     assert_near(first.tip(), [25.4, 0.0, 50.8]);
     assert_near(first.axis(), [0.5, 0.0, 0.75_f64.sqrt()]);
-    assert_eq!(second.feed(), feed(500.0, FeedUnit::DegreesPerMinute));
+    assert_eq!(second.feed(), Some(feed(500.0, FeedUnit::DegreesPerMinute)));
 }
 
 #[test]
@@ -116,17 +117,22 @@ fn a_feed_is_per_minute_inverse_time_or_per_turn() {
         feeds(&format!("{start}G1 X1 F100\nX2\nC5\nX3 C6")),
         [
             None,
-            feed(100.0, MillimetresPerMinute),
-            feed(100.0, MillimetresPerMinute),
-            feed(100.0, DegreesPerMinute),
-            feed(100.0, MillimetresPerMinute)
+            Some(feed(100.0, MillimetresPerMinute)),
+            Some(feed(100.0, MillimetresPerMinute)),
+            Some(feed(100.0, DegreesPerMinute)),
+            Some(feed(100.0, MillimetresPerMinute))
         ]
     );
     assert_eq!(
         feeds(&format!("{start}G93 G1 X1 F4\nC5 F6\nG94 X2 F7")),
-        [None, feed(4.0, InverseMinutes), feed(6.0, InverseMinutes), feed(7.0, MillimetresPerMinute)]
+        [
+            None,
+            Some(feed(4.0, InverseMinutes)),
+            Some(feed(6.0, InverseMinutes)),
+            Some(feed(7.0, MillimetresPerMinute))
+        ]
     );
-    assert_eq!(feeds(&format!("{start}G95 G1 X1 F.2")), [None, feed(0.2, MillimetresPerRevolution)]);
+    assert_eq!(feeds(&format!("{start}G95 G1 X1 F.2")), [None, Some(feed(0.2, MillimetresPerRevolution))]);
     for (text, word) in [("G1 X1 F0", "F0"), ("G1 X1 F-5", "F-5"), ("G1 X1 F9999999999", "F9999999999")] {
         assert_eq!(nc_fault(&format!("G0 X0 Y0 Z0\n{text}")).word, word);
     }
