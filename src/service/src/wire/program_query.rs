@@ -1,10 +1,12 @@
 //! Parameters of /programs in query strings.
 
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
 use utoipa::IntoParams;
 use utoipa::openapi::schema::{Object, ObjectBuilder, Type};
-use verne_program::{Compensation, Format, FormatError, ReadOptions, Units};
+use verne_program::{Compensation, Format, FormatError, ReadOptions, RotarySense, Units};
 
+use crate::wire::code_list::CodeList;
 use crate::wire::error::{FieldError, OperationError};
 
 /// Most moves of a program. They take 72 bytes each while the program is planned, and arcs 56 more.
@@ -15,18 +17,41 @@ const MOST_MOVES: usize = 2_000_000;
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct ProgramQuery {
-    /// Format of the program: `apt` (CL text), `csv` or `ndjson`. With it the service accepts any Content-Type. Without
+    /// Format of the program: `apt` (CL text), `gcode`, `csv` or `ndjson`. With it the service accepts any Content-Type. Without
     /// it Content-Type must tell the format.
     #[param(nullable = false)]
     pub format: Option<String>,
-    /// Unit of the lengths, if the program states none: CL text without a unit is refused, rows are then millimetres.
+    /// Unit of the lengths, if the program states none: CL text without a unit is refused, G-code and rows are then
+    /// millimetres.
     #[param(nullable = false, schema_with = units)]
     pub units: Option<Units>,
-    /// What to do with cutter radius compensation (CUTCOM): `accept` makes it a warning, because the points of a
+    /// What to do with cutter radius compensation (CUTCOM, G41): `accept` makes it a warning, because the points of a
     /// program are the tool's path; `refuse` makes it a fault.
     #[serde(default)]
     #[param(schema_with = compensation)]
     pub compensation: Compensation,
+    /// G-code: control of the tool centre point is always on. Otherwise G43.4 and G43.5 begin it and G43 and G49 end it.
+    #[serde(default)]
+    #[param(default = false)]
+    pub tcp: bool,
+    /// G-code: further codes that begin control of the tool centre point, such as `M428`, separated by commas. A code
+    /// that is in both lists begins and ends it in turn.
+    #[serde(default)]
+    #[param(inline, style = Form, explode = false)]
+    pub tcp_on: CodeList,
+    /// G-code: further codes that end control of the tool centre point, such as `M429`, separated by commas.
+    #[serde(default)]
+    #[param(inline, style = Form, explode = false)]
+    pub tcp_off: CodeList,
+    /// G-code: moves with this feed or a greater one are rapids, mm/min. Some programs write rapids as G1 F9999.
+    #[serde(default, deserialize_with = "rapid_feed")]
+    #[param(exclusive_minimum = 0, maximum = 1e9, nullable = false)]
+    pub rapid_feed: Option<f64>,
+    /// G-code: the sense of A, B and C. `tool`: they turn the tool relative to the work (ISO 841). `table`: they turn
+    /// the table, the other way.
+    #[serde(default)]
+    #[param(schema_with = rotary_sense)]
+    pub rotary_sense: RotarySense,
 }
 
 impl ProgramQuery {
@@ -35,8 +60,12 @@ impl ProgramQuery {
         ReadOptions {
             units: self.units,
             compensation: self.compensation,
+            tcp: self.tcp,
+            tcp_on: self.tcp_on.0.clone(),
+            tcp_off: self.tcp_off.0.clone(),
+            rapid_feed: self.rapid_feed,
+            rotary_sense: self.rotary_sense,
             most_moves: MOST_MOVES,
-            ..ReadOptions::default()
         }
     }
 
@@ -50,7 +79,7 @@ impl ProgramQuery {
 fn format_fault(error: &FormatError) -> OperationError {
     let detail = match error {
         FormatError::Undetermined => {
-            let names = "apt, csv or ndjson";
+            let names = "apt, gcode, csv or ndjson";
             format!("Content-Type does not tell the format of the program; state format=, which is {names}")
         }
         stated => stated.to_string(),
@@ -69,4 +98,18 @@ pub(crate) fn units() -> Object {
 
 fn compensation() -> Object {
     names(["accept", "refuse"]).default(Some("accept".into())).build()
+}
+
+fn rotary_sense() -> Object {
+    names(["tool", "table"]).default(Some("tool".into())).build()
+}
+
+/// A feed that bounds those of cuts.
+fn rapid_feed<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    let feed = f64::deserialize(deserializer)?;
+    if feed > 0.0 && feed <= 1e9 {
+        Ok(Some(feed))
+    } else {
+        Err(D::Error::custom("must be greater than 0 and at most 1000000000"))
+    }
 }
