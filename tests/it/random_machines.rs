@@ -93,6 +93,7 @@ impl Draw {
                 slider_axes: None,
                 platform_axes: None,
             },
+            drives: None,
         }
     }
 
