@@ -11,7 +11,7 @@ use crate::event::{Event, EventKind};
 use crate::moves::{Feed, Move, MoveKind};
 use crate::options::{ReadOptions, Units};
 use crate::orientation::Orientation;
-use crate::program::Program;
+use crate::program::{LengthSource, Program};
 
 /// The largest coordinate in mm: beyond it, squares and differences lose what they mean.
 const LARGEST: f64 = 1e7;
@@ -63,13 +63,14 @@ impl Builder {
     pub(crate) fn new(options: &ReadOptions) -> Self {
         let program = Program {
             units: options.units.unwrap_or(Units::Millimetres),
+            length_source: LengthSource::Tool,
             moves: Vec::new(),
             arcs: Vec::new(),
             events: Vec::new(),
             warnings: Warnings::default(),
         };
         let (diagnostics, known, event_bytes) = (Diagnostics::default(), false, 0);
-        Self { diagnostics, options: *options, program, known, event_bytes }
+        Self { diagnostics, options: options.clone(), program, known, event_bytes }
     }
 
     pub(crate) fn set_units(&mut self, units: Units) {
@@ -78,6 +79,12 @@ impl Builder {
 
     pub(crate) fn move_count(&self) -> usize {
         self.program.moves.len()
+    }
+
+    /// About the bytes of the program so far.
+    pub(crate) fn memory(&self) -> usize {
+        let Program { moves, arcs, .. } = &self.program;
+        size_of_val(moves.as_slice()) + size_of_val(arcs.as_slice()) + self.event_bytes
     }
 
     /// The last move, if the tool is at its end.

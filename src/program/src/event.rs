@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::work_offset::WorkOffset;
+
 /// An event without motion, in its place among the moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
@@ -18,7 +20,8 @@ pub struct Event {
 /// What an event is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum EventKind {
-    /// Another tool is loaded.
+    /// Another tool is loaded. Whether its length counts from here is what
+    /// [`Program::length_source`](crate::Program::length_source) says.
     Tool {
         /// Its number, if the program states one.
         number: Option<u32>,
@@ -52,6 +55,25 @@ pub enum EventKind {
     Insert,
     /// A statement without motion that the reader passes on.
     Other,
+    /// Tool length compensation: the moves that follow have the length of an entry of the table of lengths (H of G43,
+    /// G43.4 and G43.5), or no length (G49). Before the first such event there is no length either.
+    LengthOffset {
+        /// The entry of the table; none after G49.
+        number: Option<u32>,
+    },
+    /// The origin of the points that follow is that of a work offset. Before the first one, it is that of G54.
+    WorkOffset(WorkOffset),
+    /// Control of the tool centre point begins or ends; its end ends a cut.
+    CentrePointControl {
+        /// Whether it is on.
+        on: bool,
+    },
+    /// A tilted plane begins (G68.2) or ends (G69), which ends a cut. The points of the moves are in the program's
+    /// frame all the same.
+    TiltedPlane {
+        /// Whether it is on.
+        on: bool,
+    },
 }
 
 /// What the spindle does.
@@ -103,6 +125,7 @@ impl EventKind {
             Self::Tool { length, .. } => length,
             Self::Spindle(Spindle { speed, .. }) => speed,
             Self::Dwell(Dwell::Seconds(value) | Dwell::Revolutions(value)) => Some(value),
+            Self::WorkOffset(offset) => return offset.is_valid(),
             _ => None,
         };
         number.is_none_or(|value| value.is_finite() && value >= 0.0)

@@ -18,6 +18,17 @@
 //! # Ok::<(), verne_program::ReadError>(())
 //! ```
 //!
+//! A program says what a planner needs about lengths and origins by its events, in their places:
+//!
+//! - [`LengthSource::Tool`] (CL text): [`EventKind::Tool`] loads a tool, and its length counts from there.
+//!   [`LengthSource::Offset`] (G-code): a tool that is loaded changes no length; [`EventKind::LengthOffset`] does. Its
+//!   `number` is the entry of the table of lengths. Without a number, and before the first such event, no length is in
+//!   force.
+//! - [`EventKind::WorkOffset`] names the origin of the points that follow. Before the first one it is that of G54.
+//! - [`EventKind::CentrePointControl`] and [`EventKind::TiltedPlane`] change nothing about the points of moves. They
+//!   interrupt a cut.
+//! - After [`EventKind::Home`] the next move has no start.
+//!
 //! A fault names its line, column and word, and what would be accepted:
 //!
 //! ```
@@ -34,6 +45,7 @@
 mod apt;
 mod arc;
 mod builder;
+mod code;
 mod diagnostics;
 mod error;
 mod event;
@@ -46,16 +58,19 @@ pub mod packed;
 mod program;
 mod reader;
 mod rows;
+mod work_offset;
 
 pub use arc::Arc;
+pub use code::Code;
 pub use error::{ProgramError, ProgramErrors, ReadError, Warning, Warnings};
 pub use event::{Coolant, Dwell, Event, EventKind, Rotation, Spindle};
 pub use format::{Format, FormatError};
 pub use lines::{LONGEST_LINE, line_texts};
 pub use moves::{Feed, FeedUnit, Move, MoveKind};
-pub use options::{Compensation, ReadOptions, Units};
+pub use options::{Compensation, ReadOptions, RotarySense, Units};
 pub use orientation::Orientation;
-pub use program::{Bounds, Program, Segment, Step, Steps, Tool};
+pub use program::{Bounds, LengthSource, Program, Segment, Step, Steps, Tool};
 pub use reader::{Reader, read};
 pub use rows::points::read_points;
 pub use rows::row::{Row, RowOrientation};
+pub use work_offset::WorkOffset;

@@ -5,6 +5,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+use crate::code::Code;
+
 /// The unit of lengths in a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Units {
@@ -74,26 +76,65 @@ pub enum Compensation {
     Refuse,
 }
 
-/// How a program is read.
+/// The sense in which a program counts the words A, B and C.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RotarySense {
+    /// The words turn the tool relative to the work (ISO 841).
+    #[default]
+    Tool,
+    /// The words turn the table, the other way.
+    Table,
+}
+
+/// How a program is read. Its serialised form, which is part of the ids of programs, is what a client can choose: it
+/// leaves out the limit.
 ///
 /// ```
 /// use verne_program::{ReadOptions, Units};
 ///
 /// let options = ReadOptions { units: Some(Units::Inches), ..ReadOptions::default() };
 /// assert_eq!(options.most_moves, 10_000_000);
+/// let text = r#"{"units": "inch", "tcp_on": ["M428"], "tcp_off": ["M429"], "rotary_sense": "table"}"#;
+/// let options: ReadOptions = serde_json::from_str(text)?;
+/// assert_eq!(options.tcp_on[0].to_string(), "M428");
+/// # Ok::<(), serde_json::Error>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct ReadOptions {
-    /// The unit of lengths if the program states none. CL text without either is refused; rows are then millimetres.
+    /// The unit of lengths if the program states none. CL text without either is refused; G-code and rows are then
+    /// millimetres.
     pub units: Option<Units>,
     /// What to do with cutter radius compensation.
     pub compensation: Compensation,
+    /// G-code: the tool centre point is controlled throughout, whatever the program states.
+    pub tcp: bool,
+    /// G-code: further codes that begin control of the tool centre point. A code that is also in `tcp_off` ends the
+    /// control if it is on, and begins it otherwise.
+    pub tcp_on: Vec<Code>,
+    /// G-code: further codes that end control of the tool centre point.
+    pub tcp_off: Vec<Code>,
+    /// G-code: moves with at least this feed in mm/min are rapids.
+    pub rapid_feed: Option<f64>,
+    /// G-code: the sense of the words A, B and C.
+    pub rotary_sense: RotarySense,
     /// The most moves that a program may have. A move takes 72 bytes of memory, an arc 56 more.
+    #[serde(skip)]
     pub most_moves: usize,
 }
 
 impl Default for ReadOptions {
     fn default() -> Self {
-        Self { units: None, compensation: Compensation::default(), most_moves: 10_000_000 }
+        Self {
+            units: None,
+            compensation: Compensation::default(),
+            tcp: false,
+            tcp_on: Vec::new(),
+            tcp_off: Vec::new(),
+            rapid_feed: None,
+            rotary_sense: RotarySense::default(),
+            most_moves: 10_000_000,
+        }
     }
 }

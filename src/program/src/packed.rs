@@ -1,7 +1,7 @@
 //! The canonical bytes of a program, for storage and for content ids: equal programs have equal bytes.
 //!
-//! The bytes are those of [postcard](https://postcard.jamesmunns.com) for a layout mark, the unit, moves, arcs, events
-//! and warnings. They are written and read as a stream.
+//! The bytes are those of [postcard](https://postcard.jamesmunns.com) for a layout mark, the unit, the source of
+//! lengths, moves, arcs, events and warnings. They are written and read as a stream.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -14,10 +14,10 @@ use crate::error::Warnings;
 use crate::event::Event;
 use crate::moves::Move;
 use crate::options::Units;
-use crate::program::Program;
+use crate::program::{LengthSource, Program};
 
 /// Identifies the format and its layout.
-const LAYOUT: [u8; 8] = *b"verneP01";
+const LAYOUT: [u8; 8] = *b"verneP02";
 
 /// The longest text, in bytes.
 const SCRATCH: usize = 256 << 10;
@@ -46,6 +46,7 @@ impl std::error::Error for UnpackError {}
 struct Packed<'a> {
     layout: [u8; 8],
     units: Units,
+    length_source: LengthSource,
     moves: Cow<'a, [Move]>,
     arcs: Cow<'a, [Arc]>,
     events: Cow<'a, [Event]>,
@@ -71,6 +72,7 @@ pub fn write(program: &Program, writer: impl Write) -> Result<(), postcard::Erro
     let packed = Packed {
         layout: LAYOUT,
         units: program.units,
+        length_source: program.length_source,
         moves: (&program.moves).into(),
         arcs: (&program.arcs).into(),
         events: (&program.events).into(),
@@ -89,12 +91,13 @@ pub fn unpack(reader: impl BufRead) -> Result<Program, UnpackError> {
     let mut scratch = vec![0; SCRATCH];
     let (packed, _): (Packed<'_>, _) =
         postcard::from_io((reader, scratch.as_mut_slice())).map_err(UnpackError::Bytes)?;
-    let Packed { layout, units, moves, arcs, events, warnings } = packed;
+    let Packed { layout, units, length_source, moves, arcs, events, warnings } = packed;
     if layout != LAYOUT {
         return Err(UnpackError::Bytes(postcard::Error::DeserializeBadEncoding));
     }
     let program = Program {
         units,
+        length_source,
         moves: moves.into_owned(),
         arcs: arcs.into_owned(),
         events: events.into_owned(),

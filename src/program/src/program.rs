@@ -1,6 +1,7 @@
 //! A program that was read.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::arc::Arc;
 use crate::error::Warnings;
@@ -12,10 +13,20 @@ use crate::options::Units;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     pub(crate) units: Units,
+    pub(crate) length_source: LengthSource,
     pub(crate) moves: Vec<Move>,
     pub(crate) arcs: Vec<Arc>,
     pub(crate) events: Vec<Event>,
     pub(crate) warnings: Warnings,
+}
+
+/// What decides the length of the tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LengthSource {
+    /// The tool that is loaded: [`EventKind::Tool`] names the entry of the table of lengths. CL text and rows.
+    Tool,
+    /// The length offset in force: [`EventKind::LengthOffset`] names the entry, whatever tool is loaded. G-code.
+    Offset,
 }
 
 /// The smallest box, parallel to the axes, around the tip's path. Helices are taken without their pitch.
@@ -74,6 +85,11 @@ impl Program {
     /// The unit that the file states. All numbers of the program are in mm.
     pub fn units(&self) -> Units {
         self.units
+    }
+
+    /// Whether the tool or the length offset decides the length.
+    pub fn length_source(&self) -> LengthSource {
+        self.length_source
     }
 
     /// The moves, without the events.

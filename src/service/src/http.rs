@@ -24,6 +24,8 @@ pub(crate) mod negotiation;
 pub(crate) mod openapi;
 pub(crate) mod origin;
 pub(crate) mod problem;
+pub(crate) mod program_body;
+pub(crate) mod program_source;
 pub(crate) mod proxy;
 pub(crate) mod readiness;
 pub(crate) mod request_head;

@@ -6,6 +6,7 @@
 //!   into answers.
 //! - Workspaces: [`workspace_question`], [`family_question`] and [`dexterity_question`] check requests; [`workspace`]
 //!   and [`dexterity_map`] compute answers; [`mesh_files`], [`slice`] and [`drawing`] write files.
+//! - Programs: a client's file is read while it arrives and kept in the result store ([`programs`]).
 //! - Jobs: a [`question`] is submitted as text ([`question_text`]); [`job_executor`] answers it, large ones in
 //!   [`subtask`]s, and stores the [`results`].
 //!
@@ -32,6 +33,7 @@ pub(crate) mod machine_registry;
 pub(crate) mod mesh_files;
 pub(crate) mod nearest;
 pub(crate) mod observers;
+pub(crate) mod programs;
 pub(crate) mod question;
 pub(crate) mod question_cache;
 pub(crate) mod question_text;

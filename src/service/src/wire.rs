@@ -26,6 +26,8 @@ pub(crate) mod machine_ref;
 pub(crate) mod margins;
 pub(crate) mod missing;
 pub(crate) mod parse;
+pub(crate) mod program;
+pub(crate) mod program_query;
 pub(crate) mod query;
 pub(crate) mod query_string;
 pub(crate) mod request;

@@ -1,5 +1,6 @@
 //! Extracts path parameters, query strings and bodies from requests. Each failure is an [`HttpError`].
 
+use axum::BoxError;
 use axum::body::{Body, Bytes, HttpBody};
 use axum::extract::{FromRequest, FromRequestParts, Path, Request};
 use axum::http::request::Parts;
@@ -134,18 +135,21 @@ async fn read(
     let mut body = Limited::new(body, limit);
     let mut bytes = Vec::new();
     while let Some(frame) = body.frame().await {
-        let frame = frame.map_err(|error| {
-            let is_too_large = error.is::<LengthLimitError>();
-            if is_too_large {
-                RequestError::BodyTooLarge(limit)
-            } else {
-                RequestError::UnreadableBody(error.to_string())
-            }
-        })?;
+        let frame = frame.map_err(|error| unreadable(&error, limit))?;
         if let Ok(data) = frame.into_data() {
             reserve(bytes.len() + data.len())?;
             bytes.extend_from_slice(&data);
         }
     }
     Ok(bytes)
+}
+
+/// Why a body of at most `limit` bytes cannot be read.
+pub(crate) fn unreadable(error: &BoxError, limit: usize) -> RequestError {
+    let is_too_large = error.is::<LengthLimitError>();
+    if is_too_large {
+        RequestError::BodyTooLarge(limit)
+    } else {
+        RequestError::UnreadableBody(error.to_string())
+    }
 }

@@ -22,7 +22,7 @@ use crate::wire::result_id::ResultId;
 
 /// The summary of a record.
 pub(crate) fn summary(state: &AppState, record: Record) -> Representation {
-    let below = summary_below(&state.base, &record.summary.bytes, record.id);
+    let below = summary_below(&state.base, &record.summary.bytes, &record.id.path());
     Representation::json(below.map_or(record.summary, hashed), record.id.path())
 }
 

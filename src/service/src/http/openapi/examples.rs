@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use serde::Serialize;
 use serde_json::{Value, json};
+use verne_program::Format;
 use verne_solver::workspace::Unobserved;
 
 use crate::http::machine_documents::{machine_answer, machine_list};
@@ -14,6 +15,7 @@ use crate::operations::forward_batch::answer_fk_batch;
 use crate::operations::inverse::answer_ik;
 use crate::operations::inverse_batch::answer_ik_batch;
 use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::programs::receiver::ProgramReceiver;
 use crate::operations::slice::answer_slice;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
@@ -22,11 +24,16 @@ use crate::wire::error::OperationError;
 use crate::wire::format::SliceFormat;
 use crate::wire::health::{Health, HealthStatus};
 use crate::wire::parse::parse_body;
+use crate::wire::program_query::ProgramQuery;
 use crate::wire::query::{FkQuery, IkQuery};
 use crate::wire::query_string::parse_query;
 
 /// Most rows of an example.
 const ROWS: usize = 100;
+
+/// The program of the examples.
+const PROGRAM: &str = "PARTNO/COVER\nUNITS/MM\nLOADTL/3,LENGTH,120\nSPINDL/RPM,6000,CLW\nRAPID\n\
+    GOTO/0,0,350,0,0,1\nFEDRAT/800,MMPM\nGOTO/0,0,300\nGOTO/80,0,300,0,0.6,0.8\nFINI\n";
 
 /// A request that the tests send, and its answer.
 pub(crate) struct Example {
@@ -34,6 +41,8 @@ pub(crate) struct Example {
     path: &'static str,
     /// The body of POST, or the values of path and query parameters.
     request: Value,
+    /// The file that a POST sends; `request` are its parameters then.
+    file: Option<&'static str>,
     /// `None` for answers that are long or not JSON.
     answer: Option<Value>,
 }
@@ -42,9 +51,12 @@ impl Example {
     /// Writes request and answer into the operation.
     pub(crate) fn write_into(self, document: &mut Value) {
         let Some(operation) = document["paths"][self.path].get_mut(self.method) else { return };
-        if self.method == "post" {
+        if self.method == "post" && self.file.is_none() {
             operation["requestBody"]["content"]["application/json"]["example"] = self.request;
         } else {
+            if let Some(file) = self.file {
+                operation["requestBody"]["content"]["text/plain"]["example"] = json!(file);
+            }
             let parameters = operation.get_mut("parameters").and_then(Value::as_array_mut);
             for parameter in parameters.into_iter().flatten() {
                 if let Some(value) = parameter["name"].as_str().and_then(|name| self.request.get(name)) {
@@ -52,14 +64,17 @@ impl Example {
                 }
             }
         }
-        if let Some(answer) = self.answer {
-            operation["responses"]["200"]["content"]["application/json"]["example"] = answer;
+        let Some(answer) = self.answer else { return };
+        for status in ["200", "201"] {
+            if let Some(response) = operation["responses"].get_mut(status) {
+                response["content"]["application/json"]["example"] = answer.clone();
+            }
         }
     }
 }
 
 fn get(path: &'static str, request: Value, answer: Option<Value>) -> Example {
-    Example { method: "get", path, request, answer }
+    Example { method: "get", path, request, file: None, answer }
 }
 
 fn post<T: Serialize>(
@@ -68,7 +83,7 @@ fn post<T: Serialize>(
     answer: impl Fn(&[u8]) -> Result<T, OperationError>,
 ) -> Example {
     let answer = Some(json_of(answer(request.to_string().as_bytes())));
-    Example { method: "post", path, request, answer }
+    Example { method: "post", path, request, file: None, answer }
 }
 
 /// The answer as JSON, or the error, which the tests report as an outdated example.
@@ -82,6 +97,7 @@ pub(crate) fn examples() -> Vec<Example> {
     let mut examples = of_service(&machines);
     examples.extend(of_kinematics(&machines));
     examples.extend(of_workspaces(&machines));
+    examples.extend(of_programs());
     examples
 }
 
@@ -152,11 +168,17 @@ fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {
         get("/workspace", request.clone(), Some(summary.clone())),
         post("/workspace", request, |_| Ok(&summary)),
         // The answer takes seconds.
-        Example { method: "post", path: "/workspace/dexterity", request: dexterity, answer: None },
+        Example {
+            method: "post",
+            path: "/workspace/dexterity",
+            request: dexterity,
+            file: None,
+            answer: None,
+        },
         get("/jobs", json!({"state": "failed", "limit": 10}), Some(json!({"jobs": [], "next": null}))),
         get("/jobs/{id}", of_job(), None),
         get("/jobs/{id}/events", of_job(), None),
-        Example { method: "delete", path: "/jobs/{id}", request: of_job(), answer: None },
+        Example { method: "delete", path: "/jobs/{id}", request: of_job(), file: None, answer: None },
         get("/workspace/{id}", of_job(), Some(summary.clone())),
         get("/workspace/{id}/mesh", json!({"id": id, "format": "glb"}), None),
         get("/workspace/{id}/slice", json!({"id": id, "z": 300, "alpha": "0"}), Some(slice)),
@@ -167,6 +189,30 @@ fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {
             |body| value_of(answer_contains(body, machines, ROWS, &Unobserved)),
         ),
     ]
+}
+
+fn of_programs() -> Vec<Example> {
+    let summary = program_summary();
+    let of_program = || json!({"id": summary["id"]});
+    vec![
+        Example {
+            method: "post",
+            path: "/programs",
+            request: json!({"format": "apt"}),
+            file: Some(PROGRAM),
+            answer: Some(summary.clone()),
+        },
+        get("/programs/{id}", of_program(), Some(summary.clone())),
+        get("/programs/{id}/source", of_program(), None),
+    ]
+}
+
+/// The summary of the program of the examples.
+fn program_summary() -> Value {
+    let mut receiver = ProgramReceiver::new(Format::Apt, &ProgramQuery::default().options());
+    // A refused program has its faults in the result.
+    let _ = receiver.push(PROGRAM.as_bytes());
+    json_of(receiver.finish().and_then(|received| received.summary().ok_or(OperationError::Internal)))
 }
 
 /// The id, the summary and a slice of the workspace for a request.

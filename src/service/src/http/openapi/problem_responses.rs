@@ -22,6 +22,16 @@ const BODY: &[Code] = &[
     Code::BodyTooLarge,
 ];
 
+/// Codes of requests with a program as their body.
+const PROGRAM_BODY: &[Code] = &[
+    Code::BadRequest,
+    Code::UnsupportedCoding,
+    Code::BodyTooLarge,
+    Code::ProgramFault,
+    Code::ProgramTooLarge,
+    Code::DiskFailing,
+];
+
 /// Codes of requests that wait for a job.
 const JOB: &[Code] = &[
     Code::QueueFull,
@@ -78,6 +88,10 @@ problems! {
     MeshProblems: RESULT, JOB, &[Code::NoMesh, Code::Forbidden];
     /// Problems of the points of a dexterity map.
     CellsProblems: RESULT, JOB, &[Code::NoCells, Code::Forbidden];
+    /// Problems of a program in the body.
+    ProgramBodyProblems: PROGRAM_BODY;
+    /// Problems of a stored program.
+    ProgramProblems: &[Code::NotFound, Code::ProgramNotFound];
     /// Problems of a machine.
     MachineProblems: &[Code::NotFound, Code::MachineNotFound];
     /// Problems of the list of jobs.
