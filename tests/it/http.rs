@@ -31,6 +31,7 @@ mod security_headers;
 mod shutdown;
 mod table;
 mod table_workspaces;
+mod toolpath;
 mod transport;
 mod viewer;
 mod workspace;

@@ -8,4 +8,5 @@ pub(crate) mod machines;
 pub(crate) mod programs;
 pub(crate) mod results;
 pub(crate) mod service;
+pub(crate) mod toolpath;
 pub(crate) mod workspace;

@@ -54,6 +54,7 @@ use crate::wire::workspace_summary::WorkspaceSummary;
         (name = "kinematics", description = "Forward and inverse kinematics."),
         (name = "workspace", description = "Positions that the machine can reach."),
         (name = "programs", description = "Files of tool paths."),
+        (name = "toolpath", description = "Joint motion of programs."),
         (name = "jobs", description = "Computations that take longer than a request."),
         (name = "machines", description = "Published machines."),
         (name = "service", description = "State and description of the service.")

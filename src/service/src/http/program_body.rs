@@ -40,7 +40,7 @@ pub(crate) struct ProgramInMemory {
     /// The program.
     pub program: ReceivedProgram,
     /// Keep it as long as the program.
-    pub _memory: ProgramMemory,
+    pub memory: ProgramMemory,
 }
 
 impl FromRequest<SharedState> for ProgramBody {
@@ -124,7 +124,7 @@ impl Reception {
 
     fn finish(self) -> Result<ProgramInMemory, HttpError> {
         let receiver = self.receiver.ok_or(OperationError::Internal)?;
-        Ok(ProgramInMemory { program: receiver.finish()?, _memory: self.memory })
+        Ok(ProgramInMemory { program: receiver.finish()?, memory: self.memory })
     }
 }
 

@@ -16,7 +16,7 @@ use utoipa_axum::routes;
 
 use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
 use crate::http::handlers::{
-    batch, dexterity, jobs, kinematics, machines, programs, results, service, workspace,
+    batch, dexterity, jobs, kinematics, machines, programs, results, service, toolpath, workspace,
 };
 use crate::http::openapi::{self, Document, problem_responses, security};
 use crate::http::state::SharedState;
@@ -32,7 +32,7 @@ pub fn document() -> Value {
 }
 
 /// Each route with its access.
-fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 25] {
+fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 27] {
     [
         (Key(Read, Fast), routes!(kinematics::get_fk, kinematics::post_fk)),
         (Key(Read, Fast), routes!(kinematics::get_ik, kinematics::post_ik)),
@@ -48,6 +48,8 @@ fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 25] {
         (Key(Compute, Other), routes!(programs::post_program)),
         (Key(Read, Other), routes!(programs::get_program)),
         (Key(Read, Other), routes!(programs::get_source)),
+        (Key(Compute, Other), routes!(toolpath::post_toolpath)),
+        (Key(Read, Other), routes!(toolpath::get_report)),
         (Key(Read, Other), routes!(jobs::get_jobs)),
         (Key(Read, Other), routes!(jobs::get_job)),
         (Key(Compute, Other), routes!(jobs::delete_job)),

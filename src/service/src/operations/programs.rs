@@ -107,14 +107,12 @@ struct FormatField<'a> {
 /// # Errors
 ///
 /// [`OperationError::ProgramNotFound`]
-#[allow(dead_code, reason = "tool paths will use it")]
 pub(crate) async fn load_program(results: &Results, id: ResultId) -> Result<Arc<Program>, OperationError> {
     let packed = results.blob(id, PROGRAM).await.ok_or_else(|| unknown(id))?;
     run_on_pool(move |_| unpack(id, &packed.bytes)).await
 }
 
 /// The same for the threads of the job queue.
-#[allow(dead_code, reason = "tool paths will use it")]
 pub(crate) fn load_program_in_job(
     results: &BlockingResults,
     id: ResultId,
@@ -122,19 +120,25 @@ pub(crate) fn load_program_in_job(
     unpack(id, &results.blob(id, PROGRAM).ok_or_else(|| unknown(id))?)
 }
 
-/// The texts of some lines of a stored program, for the threads of the job queue; nothing if the store has evicted the
-/// file. `numbers` are the lines from 1, in ascending order.
-#[allow(dead_code, reason = "tool paths will use it")]
+/// The texts of some lines of a stored program, for the threads of the job queue. `numbers` are the lines from 1, in
+/// ascending order. Rows have no texts: they may state the lines of another file.
+///
+/// # Errors
+///
+/// [`OperationError::ProgramNotFound`]
 pub(crate) fn program_lines_in_job(
     results: &BlockingResults,
     id: ResultId,
     numbers: &[u32],
-) -> Vec<(u32, String)> {
-    let Some(source) = results.blob(id, SOURCE) else { return Vec::new() };
-    let texts = line_texts(BufReader::new(GzDecoder::new(&*source)), numbers);
-    texts.unwrap_or_else(|error| {
+) -> Result<Vec<(u32, String)>, OperationError> {
+    let (_, format) = results.runtime.block_on(program_source(&results.results, id))?;
+    if matches!(format, Format::Csv | Format::Ndjson) {
+        return Ok(Vec::new());
+    }
+    let source = results.blob(id, SOURCE).ok_or_else(|| unknown(id))?;
+    line_texts(BufReader::new(GzDecoder::new(&*source)), numbers).map_err(|error| {
         tracing::warn!(%id, %error, "cannot read the file of a stored program");
-        Vec::new()
+        unknown(id)
     })
 }
 
@@ -153,7 +157,6 @@ fn pack(program: &Program) -> Result<Vec<u8>, OperationError> {
 }
 
 /// A blob that cannot be unpacked is damaged; the client replaces it when it sends the program again.
-#[allow(dead_code, reason = "tool paths will use it")]
 fn unpack(id: ResultId, blob: &[u8]) -> Result<Arc<Program>, OperationError> {
     match packed::unpack(blob) {
         Ok(program) => Ok(Arc::new(program)),
@@ -199,7 +202,7 @@ mod tests {
         let in_job = BlockingResults { results, runtime: Handle::current() };
         let work = move || {
             assert_eq!(load_program_in_job(&in_job, sent.id).unwrap(), sent.program);
-            assert_eq!(program_lines_in_job(&in_job, sent.id, &[3]), [(3, "STOP".to_owned())]);
+            assert_eq!(program_lines_in_job(&in_job, sent.id, &[3]).unwrap(), [(3, "STOP".to_owned())]);
         };
         tokio::task::spawn_blocking(work).await.unwrap();
     }

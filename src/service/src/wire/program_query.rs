@@ -62,7 +62,8 @@ fn names(names: [&str; 2]) -> ObjectBuilder {
     ObjectBuilder::new().schema_type(Type::String).enum_values(Some(names))
 }
 
-fn units() -> Object {
+/// The schema of a unit.
+pub(crate) fn units() -> Object {
     names(["mm", "inch"]).build()
 }
 

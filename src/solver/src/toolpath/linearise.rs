@@ -4,6 +4,7 @@ use super::bound::BoundEnd;
 use super::joint_segment::{Deviation, JointSegment, Stop, Track};
 use super::node::Node;
 use crate::error::KinematicsError;
+use crate::pose::PartPose;
 
 /// The fraction of the tolerance that is used: the greatest deviation may lie between the places that are examined.
 const USED: f64 = 0.97;
@@ -90,7 +91,11 @@ fn stop_at(track: &Track<'_>, s: f64, before: &Node) -> Result<Stop, LineariseEr
 impl Track<'_> {
     /// The joints at a parameter.
     pub(super) fn node(&self, s: f64, alpha: Option<f64>) -> Result<Node, KinematicsError> {
-        let target = self.setting.target(&self.span, s, &self.path.at(s), self.h);
-        self.setting.node(&target, self.tool_length, alpha)
+        self.setting.node(&self.target(s), self.tool_length, alpha)
+    }
+
+    /// The pose of the tool at a parameter.
+    pub(super) fn target(&self, s: f64) -> PartPose {
+        self.setting.target(&self.span, s, &self.path.at(s), self.h)
     }
 }

@@ -15,7 +15,7 @@ use super::path::{Path, places};
 use super::report::Report;
 use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
-use crate::pose::TableAngles;
+use crate::pose::{PartPose, TableAngles};
 
 /// The purpose of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,27 +120,32 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
             match track.node(s, None) {
                 Ok(node) => {
                     let margins = self.setting.margins(&node, track.tool_length);
-                    self.report.meet(self.setting.machine, index, s, &margins);
+                    self.report.meet(self.setting.machine, index, (&node, track.tool_length), &margins);
                 }
-                Err(refusal) => self.refuse(index, s, refusal),
+                Err(refusal) => self.refuse(index, track.target(s), refusal),
             }
         }
     }
 
-    pub(super) fn refuse(&mut self, index: usize, s: f64, refusal: KinematicsError) {
+    pub(super) fn refuse(&mut self, index: usize, pose: PartPose, refusal: KinematicsError) {
         let margin = match refusal {
             KinematicsError::Unreachable(margin) => margin,
-            KinematicsError::OutOfDomain | KinematicsError::OutOfProportion | KinematicsError::SelfMotion => {
+            KinematicsError::SelfMotion => Margin {
+                constraint: Constraint::ParallelSingularity,
+                element: Element::Platform,
+                value: -self.setting.machine.limits().parallel_margin,
+            },
+            KinematicsError::OutOfDomain | KinematicsError::OutOfProportion => {
                 Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value: f64::MIN }
             }
         };
-        self.report.fail(index, s, margin, margin.value);
+        self.report.fail(index, pose, margin, margin.value);
     }
 
     /// Examines the margins between the ends of a segment.
     pub(super) fn examine(&mut self, index: usize, segment: &JointSegment, tool_length: f64) {
-        if let Some(margins) = segment.worst(&self.setting, tool_length) {
-            self.report.meet(self.setting.machine, index, 1.0, &margins);
+        if let Some((node, margins)) = segment.worst(&self.setting, tool_length) {
+            self.report.meet(self.setting.machine, index, (&node, tool_length), &margins);
         }
     }
 
@@ -156,12 +161,11 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         index: usize,
         kind: RowKind,
         at: &ToolPosition,
-        s: f64,
         node: &Node,
         tool_length: f64,
     ) {
         let margins = self.setting.margins(node, tool_length);
-        let (margin, fraction) = self.report.meet(self.setting.machine, index, s, &margins);
+        let (margin, fraction) = self.report.meet(self.setting.machine, index, (node, tool_length), &margins);
         let phi = [node.pose.alpha - node.table.theta1, -node.table.theta2];
         let position = ToolPosition { tip: at.tip, axis: axis_of(phi) };
         let inclination = (phi[0] + PI).rem_euclid(2.0 * PI) - PI;

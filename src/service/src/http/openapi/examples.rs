@@ -17,6 +17,8 @@ use crate::operations::inverse_batch::answer_ik_batch;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::programs::receiver::ProgramReceiver;
 use crate::operations::slice::answer_slice;
+use crate::operations::toolpath::compute_toolpath;
+use crate::operations::toolpath_request::{ProgramSource, read_request};
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::alphas::Alphas;
@@ -98,6 +100,7 @@ pub(crate) fn examples() -> Vec<Example> {
     examples.extend(of_kinematics(&machines));
     examples.extend(of_workspaces(&machines));
     examples.extend(of_programs());
+    examples.extend(of_toolpaths(&machines));
     examples
 }
 
@@ -213,6 +216,23 @@ fn program_summary() -> Value {
     // A refused program has its faults in the result.
     let _ = receiver.push(PROGRAM.as_bytes());
     json_of(receiver.finish().and_then(|received| received.summary().ok_or(OperationError::Internal)))
+}
+
+fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
+    let points = json!([[0, 0, 350, 0, 0, 1], [0, 0, 300, 0, 0, 1], [20, 0, 300, 0, 0.28, 0.96]]);
+    let request = json!({"program": {"points": points}, "setup": {"x": 10}, "tool_length": 120,
+                         "tolerance": {"tip": 0.05}});
+    let report = json_of(toolpath_report(&request, machines));
+    let of_report = json!({"id": report["id"]});
+    vec![post("/toolpath", request, |_| Ok(&report)), get("/toolpath/{id}", of_report, Some(report.clone()))]
+}
+
+/// The report on a tool path whose request has points.
+fn toolpath_report(request: &Value, machines: &MachineRegistry) -> Result<Value, OperationError> {
+    let (checked, source) = read_request(request.to_string().as_bytes(), machines)?;
+    let ProgramSource::Received(program) = &source else { return Err(OperationError::Internal) };
+    let question = checked.question(source.id());
+    value_of(compute_toolpath(&question, &program.program, |_| Ok(Vec::new()), |_, _| Ok(()), &Unobserved))
 }
 
 /// The id, the summary and a slice of the workspace for a request.

@@ -47,6 +47,9 @@ const JOB: &[Code] = &[
 /// Codes of requests for a stored result.
 const RESULT: &[Code] = &[Code::NotFound, Code::WorkspaceNotFound, Code::RangeNotSatisfiable];
 
+/// Codes of requests with a program.
+const PROGRAM: &[Code] = &[Code::ProgramFault, Code::ProgramNotFound];
+
 type Responses = BTreeMap<String, RefOr<Response>>;
 
 macro_rules! problems {
@@ -92,6 +95,10 @@ problems! {
     ProgramBodyProblems: PROGRAM_BODY;
     /// Problems of a stored program.
     ProgramProblems: &[Code::NotFound, Code::ProgramNotFound];
+    /// Problems of a tool path.
+    ToolpathProblems: BODY, JOB, PROGRAM;
+    /// Problems of the report on a tool path.
+    ReportProblems: RESULT;
     /// Problems of a machine.
     MachineProblems: &[Code::NotFound, Code::MachineNotFound];
     /// Problems of the list of jobs.

@@ -82,7 +82,6 @@ impl ProgramReceiver {
 /// # Errors
 ///
 /// [`OperationError::ProgramFaults`]
-#[allow(dead_code, reason = "tool paths will use it")]
 pub(crate) fn receive_points(rows: &[Row], options: &ReadOptions) -> Result<ReceivedProgram, OperationError> {
     let program = read_points(rows.iter().copied(), options).map_err(OperationError::ProgramFaults)?;
     let mut file = ReceivedFile::new(Format::Ndjson, options);

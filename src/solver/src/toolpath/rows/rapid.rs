@@ -27,11 +27,11 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let target = self.setting.target(span, 1.0, &motion.end, chosen.h);
         match self.setting.node(&target, motion.tool_length, chosen.alpha) {
             Ok(node) => {
-                self.row(index, RowKind::Rapid, &motion.end, 1.0, &node, motion.tool_length);
+                self.row(index, RowKind::Rapid, &motion.end, &node, motion.tool_length);
                 Some(node)
             }
             Err(refusal) => {
-                self.refuse(index, 1.0, refusal);
+                self.refuse(index, target, refusal);
                 self.now = None;
                 None
             }
@@ -84,7 +84,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             rows.push((1.0, now));
         }
         for (s, node) in rows {
-            self.row(index, RowKind::Rapid, &path.at(s), s, &node, motion.tool_length);
+            self.row(index, RowKind::Rapid, &path.at(s), &node, motion.tool_length);
         }
         true
     }
