@@ -12,6 +12,7 @@ pub(crate) mod constraint;
 pub(crate) mod contains;
 pub(crate) mod degrees;
 pub(crate) mod dexterity;
+pub(crate) mod drives;
 pub(crate) mod error;
 pub(crate) mod family;
 pub(crate) mod field_errors;
