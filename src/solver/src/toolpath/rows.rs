@@ -7,14 +7,17 @@ use std::f64::consts::PI;
 
 use super::azimuth::axis_of;
 use super::choice::Chosen;
+use super::differential::Station;
 use super::joint_segment::{Deviation, JointSegment, Track};
+use super::linearise::Bend;
 use super::meridian::{Meridian, Span};
 use super::motion::{MotionKind, Motions, ToolPosition};
 use super::node::{Node, Setting};
 use super::path::{Path, places};
-use super::report::Report;
+use super::report::{LeastMargins, Report};
 use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
+use crate::margins::Margins;
 use crate::pose::TableAngles;
 
 /// The purpose of a row.
@@ -61,9 +64,14 @@ pub(super) struct Rower<'a, F> {
     choice: std::slice::Iter<'a, Chosen>,
     emit: F,
     report: Report,
-    now: Option<Node>,
+    least: LeastMargins,
+    /// Where the machine stands.
+    now: Option<Station>,
     h: [i32; 2],
+    /// The worst margin of the last row, as a fraction of its range.
     margin: Option<f64>,
+    /// Of the last segment of a feed motion, and of a rapid.
+    bends: [Bend; 2],
 }
 
 impl<'a, F: FnMut(&Row)> Rower<'a, F> {
@@ -73,8 +81,18 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         choice: &'a [Chosen],
         emit: F,
     ) -> Self {
-        let choice = choice.iter();
-        Self { setting, settings, choice, emit, report: Report::new(), now: None, h: [0; 2], margin: None }
+        Self {
+            setting,
+            settings,
+            choice: choice.iter(),
+            emit,
+            report: Report::new(),
+            least: LeastMargins::default(),
+            now: None,
+            h: [0; 2],
+            margin: None,
+            bends: Default::default(),
+        }
     }
 
     /// Makes the rows of all motions; `go_on` is asked before each and ends the work by `false`.
@@ -97,7 +115,12 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
                 None => self.arrive(index, &motion, &meridian.spans),
             }
         }
+        self.report.least = self.least.found();
         Some(self.report)
+    }
+
+    pub(super) fn station(&self, node: Node) -> Station {
+        Station::new(self.setting.machine, node)
     }
 
     pub(super) fn next_choice(&mut self) -> Chosen {
@@ -120,7 +143,7 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
             match track.node(s, None) {
                 Ok(node) => {
                     let margins = self.setting.margins(&node, track.tool_length);
-                    self.report.meet(self.setting.machine, index, s, &margins);
+                    self.meet(index, s, &margins);
                 }
                 Err(refusal) => self.refuse(index, s, refusal),
             }
@@ -138,10 +161,20 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
     }
 
     /// Examines the margins between the ends of a segment.
-    pub(super) fn examine(&mut self, index: usize, segment: &JointSegment, tool_length: f64) {
+    pub(super) fn examine(&mut self, index: usize, segment: &JointSegment<'_>, tool_length: f64) {
         if let Some(margins) = segment.worst(&self.setting, tool_length) {
-            self.report.meet(self.setting.machine, index, 1.0, &margins);
+            self.meet(index, 1.0, &margins);
         }
+    }
+
+    /// Notes the margins of a place; those of limits that are broken are failures. The answer is the worst margin and
+    /// its fraction of its constraint's range.
+    fn meet(&mut self, index: usize, s: f64, margins: &Margins) -> (Margin, f64) {
+        let (margin, fraction) = self.least.meet(self.setting.machine, index, margins);
+        if margin.value < 0.0 {
+            self.report.fail(index, s, margin, fraction);
+        }
+        (margin, fraction)
     }
 
     pub(super) fn track<'p>(&self, path: &'p Path, span: Span, tool_length: f64) -> Track<'p>
@@ -157,16 +190,17 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         kind: RowKind,
         at: &ToolPosition,
         s: f64,
-        node: &Node,
+        station: &Station,
         tool_length: f64,
     ) {
+        let node = &station.node;
         let margins = self.setting.margins(node, tool_length);
-        let (margin, fraction) = self.report.meet(self.setting.machine, index, s, &margins);
+        let (margin, fraction) = self.meet(index, s, &margins);
         let phi = [node.pose.alpha - node.table.theta1, -node.table.theta2];
         let position = ToolPosition { tip: at.tip, axis: axis_of(phi) };
         let inclination = (phi[0] + PI).rem_euclid(2.0 * PI) - PI;
-        self.report.add_row(node, self.now.as_ref(), inclination);
+        self.report.add_row(node, self.now.as_ref().map(|now| &now.node), inclination);
         (self.emit)(&Row { motion: index, kind, position, rho: node.rho, table: node.table, margin });
-        (self.now, self.margin) = (Some(*node), Some(fraction));
+        (self.now, self.margin) = (Some(*station), Some(fraction));
     }
 }
