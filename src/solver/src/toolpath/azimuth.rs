@@ -33,15 +33,30 @@ fn direction_azimuth(i: f64, j: f64) -> f64 {
     if azimuth <= SEAM - PI { azimuth + TAU } else { azimuth }
 }
 
-/// The azimuths at both ends of a part of a path outside the cap. At the pole itself it is that of the way from it.
-pub(super) fn azimuths(path: &Path, ends: [f64; 2]) -> [f64; 2] {
-    let at = |s: f64, sign: f64| {
-        azimuth(path.at(s).axis).unwrap_or_else(|| {
-            let (_, [_, rate]) = path.with_rates(s);
-            direction_azimuth(sign * rate.x, sign * rate.y)
-        })
-    };
-    [at(ends[0], 1.0), at(ends[1], -1.0)]
+/// The azimuths of the paths of a program, which begin where the ones before them end.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Azimuths {
+    /// The last axis at the end of a path, with its azimuth.
+    last: Option<([f64; 3], f64)>,
+}
+
+impl Azimuths {
+    /// The azimuths at both ends of a part of a path outside the cap. At the pole itself it is that of the way from it.
+    pub(super) fn of(&mut self, path: &Path, ends: [f64; 2]) -> [f64; 2] {
+        let start = path.at(ends[0]).axis;
+        let known = self.last.filter(|(axis, _)| *axis == start).map(|(_, azimuth)| azimuth);
+        let start = known.or_else(|| azimuth(start)).unwrap_or_else(|| way(path, ends[0], 1.0));
+        let end = path.at(ends[1]).axis;
+        let found = azimuth(end);
+        self.last = found.map(|azimuth| (end, azimuth));
+        [start, found.unwrap_or_else(|| way(path, ends[1], -1.0))]
+    }
+}
+
+/// The azimuth of the way from the pole.
+fn way(path: &Path, s: f64, sign: f64) -> f64 {
+    let (_, [_, rate]) = path.with_rates(s);
+    direction_azimuth(sign * rate.x, sign * rate.y)
 }
 
 /// The difference modulo `period` that is nearest to zero; of two, the positive one.

@@ -60,23 +60,24 @@ impl Cap {
 
     /// A parameter inside the cap between two outside, if the path passes through it.
     fn least(&self, path: &Path, low: f64, high: f64) -> Option<f64> {
-        let sine = |s: f64| {
+        let square = |s: f64| {
             let [i, j, k] = path.at(s).axis;
-            if k > 0.0 { (i * i + j * j).sqrt() } else { 1.0 }
+            if k > 0.0 { i * i + j * j } else { 1.0 }
         };
-        if sine(low).min(sine(high)) > self.sine + path.turn() * (high - low) {
+        let reach = self.sine + path.turn() * (high - low);
+        if square(low).min(square(high)) > reach * reach {
             return None;
         }
         let (mut a, mut b) = (low, high);
         for _ in 0..GOLDEN_STEPS {
             let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-            if sine(c) < sine(d) {
+            if square(c) < square(d) {
                 b = d;
             } else {
                 a = c;
             }
-            if sine(c).min(sine(d)) <= self.sine {
-                return Some(if sine(c) < sine(d) { c } else { d });
+            if square(c).min(square(d)) <= self.sine * self.sine {
+                return Some(if square(c) < square(d) { c } else { d });
             }
         }
         None

@@ -53,7 +53,7 @@ pub(super) struct Chooser<'a> {
 /// A place that has not been examined, with the length and the angles of the path to it.
 #[derive(Clone, Copy)]
 struct Skipped {
-    motion: Motion,
+    tool_length: f64,
     span: Span,
     at: ToolPosition,
     length: f64,
@@ -79,9 +79,10 @@ impl<'a> Chooser<'a> {
                 return None;
             }
             let motion = motions.motion(index);
-            match meridian.advance(&motion) {
+            meridian.advance(&motion);
+            match &meridian.path {
                 Some(path) if motion.kind == MotionKind::Feed => {
-                    self.feed(index, &motion, &path, &meridian.spans);
+                    self.feed(index, &motion, path, &meridian.spans);
                 }
                 _ => self.jump(&motion, meridian.spans.last()),
             }
@@ -167,7 +168,7 @@ impl<'a> Chooser<'a> {
             for place in 1..=count {
                 let part = f64::from(place) / f64::from(count);
                 let s = if place == count { span.to } else { span.from + (span.to - span.from) * part };
-                self.advance(motion, span, s, &path.at(s));
+                self.advance(motion.tool_length, span, s, &path.at(s));
             }
             if bounded.is_some_and(|stretch| stretch.end == Place { motion: index, s: span.to }) {
                 self.gather();
@@ -179,17 +180,22 @@ impl<'a> Chooser<'a> {
     fn skips(&mut self, motion: &Motion, span: &Span, path: &Path) -> bool {
         let part = span.to - span.from;
         let (length, angle) = (path.length() * part, (path.turn() + path.sweep()) * part);
-        let before = self.skipped.map_or((0.0, 0.0), |skipped| (skipped.length, skipped.angle));
+        let before = self.skipped.as_ref().map_or((0.0, 0.0), |skipped| (skipped.length, skipped.angle));
         let (length, angle) = (before.0 + length, before.1 + angle);
         let is_near = length < LEAST_LENGTH * self.setting.machine.longest() && angle < LEAST_ANGLE;
-        let at = path.at(span.to);
-        self.skipped = is_near.then_some(Skipped { motion: *motion, span: *span, at, length, angle });
+        self.skipped = is_near.then(|| Skipped {
+            tool_length: motion.tool_length,
+            span: *span,
+            at: path.at(span.to),
+            length,
+            angle,
+        });
         is_near
     }
 
     fn examine_skipped(&mut self) {
-        if let Some(Skipped { motion, span, at, .. }) = self.skipped.take() {
-            self.advance(&motion, &span, span.to, &at);
+        if let Some(Skipped { tool_length, span, at, .. }) = self.skipped.take() {
+            self.advance(tool_length, &span, span.to, &at);
         }
     }
 
@@ -233,8 +239,9 @@ impl<'a> Chooser<'a> {
     }
 
     /// Moves every state to a place.
-    fn advance(&mut self, motion: &Motion, span: &Span, s: f64, at: &ToolPosition) {
+    fn advance(&mut self, tool_length: f64, span: &Span, s: f64, at: &ToolPosition) {
         let before = std::mem::take(&mut self.states);
+        self.states.reserve(before.len());
         for (i, state) in before.iter().enumerate() {
             let target = self.setting.target(span, s, at, state.h);
             // Whole turns change theta2 alone.
@@ -244,11 +251,11 @@ impl<'a> Chooser<'a> {
                 None if twin.is_some() => None,
                 None => {
                     let alpha = state.node.map(|node| node.pose.alpha);
-                    self.setting.node(&target, motion.tool_length, alpha).ok()
+                    self.setting.node(&target, tool_length, alpha).ok()
                 }
             };
             let holds =
-                twin.map_or_else(|| self.holds(node.as_ref(), motion.tool_length), |j| self.states[j].holds);
+                twin.map_or_else(|| self.holds(node.as_ref(), tool_length), |j| self.states[j].holds);
             let own = self.place_cost(node.as_ref(), holds);
             let turning =
                 node.zip(state.node).map_or(0.0, |(node, from)| node.turning_from(&from, self.weights));

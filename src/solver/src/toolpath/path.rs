@@ -196,13 +196,11 @@ fn great_circle(start: [f64; 3], end: [f64; 3]) -> AxisPath {
     }
     let (a, b) = (Vector3::from(start), Vector3::from(end));
     let (cross, dot) = (a.cross(&b), a.dot(&b));
-    let angle = angle_of_vector(dot, cross.norm());
-    let across = b - a * dot;
-    let norm = across.norm();
-    if norm == 0.0 {
+    let sine = cross.norm();
+    if sine == 0.0 {
         return AxisPath::Fixed;
     }
-    AxisPath::GreatCircle { towards: across / norm, angle }
+    AxisPath::GreatCircle { towards: (b - a * dot) / sine, angle: angle_of_vector(dot, sine) }
 }
 
 fn rotated(frame: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {

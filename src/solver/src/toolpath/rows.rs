@@ -107,11 +107,12 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
                 return None;
             }
             let motion = motions.motion(index);
-            match meridian.advance(&motion) {
+            meridian.advance(&motion);
+            match &meridian.path {
                 Some(path) if motion.kind == MotionKind::Rapid => {
-                    self.rapid(index, &motion, &path, &meridian.spans);
+                    self.rapid(index, &motion, path, &meridian.spans);
                 }
-                Some(path) => self.feed(index, &motion, &path, &meridian.spans),
+                Some(path) => self.feed(index, &motion, path, &meridian.spans),
                 None => self.arrive(index, &motion, &meridian.spans),
             }
         }

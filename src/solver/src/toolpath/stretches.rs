@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::azimuth::{azimuths, continued, of_arrival, to_nearest};
+use super::azimuth::{Azimuths, continued, of_arrival, to_nearest};
 use super::cap::Cap;
 use super::motion::{Motion, MotionKind, Motions, ToolPosition};
 use super::path::Path;
@@ -48,7 +48,7 @@ struct Open {
 
 /// Finds the stretches of a program inside the cap. `fallback` is phi2 where nothing determines it.
 pub(super) fn stretches<M: Motions + ?Sized>(motions: &M, cap: &Cap, fallback: f64) -> Vec<Stretch> {
-    let mut survey = Survey { stretches: Vec::new(), phi2: None, open: None, fallback, scale: cap.scale };
+    let mut survey = Survey { stretches: Vec::new(), phi2: None, open: None, fallback, scale: cap.scale, azimuths: Azimuths::default() };
     let mut start: Option<ToolPosition> = None;
     for index in 0..motions.count() {
         let motion = motions.motion(index);
@@ -72,6 +72,7 @@ struct Survey {
     open: Option<Open>,
     fallback: f64,
     scale: f64,
+    azimuths: Azimuths,
 }
 
 impl Survey {
@@ -101,7 +102,7 @@ impl Survey {
                     open.rapid += measure;
                 }
             } else {
-                let [start, end] = azimuths(path, [from, to]);
+                let [start, end] = self.azimuths.of(path, [from, to]);
                 self.close(Place { motion: index, s: from }, Some(start));
                 let begun = continued(self.phi2, start);
                 self.phi2 = Some(begun + to_nearest(end - start, TAU));
