@@ -4,23 +4,24 @@ use std::f64::consts::{PI, TAU};
 
 use super::motion::Motion;
 use super::path::Path;
-use crate::fast_math::{angle_of_vector, sin_cos};
+use crate::fast_math::{angle_of, angle_of_vector};
 
 /// Width of the strip beside an azimuth of half a turn whose sign is rounding, rad.
 const SEAM: f64 = 1e-9;
 /// Sine of the inclination below which an axis has no azimuth.
 const LEAST_SINE: f64 = 1e-9;
 
-/// The axis of an orientation `[phi1, phi2]`.
-pub(super) fn axis_of([phi1, phi2]: [f64; 2]) -> [f64; 3] {
-    let ((s1, c1), (s2, c2)) = (sin_cos(phi1), sin_cos(phi2));
-    [s1 * s2, -s1 * c2, c1]
-}
-
-/// phi1 of an axis on the meridian phi2, rad: of its component there, if phi2 is not its own.
-pub(super) fn inclination([i, j, k]: [f64; 3], phi2: f64) -> f64 {
-    let (sin, cos) = sin_cos(phi2);
-    angle_of_vector(k, i * sin - j * cos)
+/// phi1 of an axis on the meridian of this sine and cosine, rad: of its component there, if phi2 is not its own. Also
+/// sine and cosine of phi1.
+pub(super) fn inclination([i, j, k]: [f64; 3], [sin, cos]: [f64; 2]) -> (f64, [f64; 2]) {
+    let across = i * sin - j * cos;
+    let length = (k * k + across * across).sqrt();
+    if length > 0.0 {
+        let direction = [across / length, k / length];
+        (angle_of(direction[1], direction[0]), direction)
+    } else {
+        (0.0, [0.0, 1.0])
+    }
 }
 
 /// phi2 of an axis with phi1 >= 0, rad, in (-π, π] but for rounding; `None` at the pole.

@@ -247,12 +247,12 @@ impl<'a> Chooser<'a> {
             // Whole turns change theta2 alone.
             let twin = (0..i).find(|&j| is_wound(&before[j], state));
             let node = match twin.and_then(|j| self.states[j].node) {
-                Some(node) => Some(node.wound_to(target.phi2)),
+                Some(node) => Some(node.wound_to(target.pose.phi2)),
                 None if twin.is_some() => None,
-                None => {
-                    let alpha = state.node.map(|node| node.pose.alpha);
-                    self.setting.node(&target, tool_length, alpha).ok()
-                }
+                None => match &state.node {
+                    Some(before) => self.setting.node_near(&target, tool_length, before).ok(),
+                    None => self.setting.node(&target, tool_length, None).ok(),
+                },
             };
             let holds =
                 twin.map_or_else(|| self.holds(node.as_ref(), tool_length), |j| self.states[j].holds);

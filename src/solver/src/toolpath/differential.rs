@@ -26,15 +26,14 @@ pub(super) struct Station {
 
 impl Station {
     pub(super) fn new(machine: &Machine, node: Node) -> Self {
-        Self { node, differential: Differential::of(machine, &node.pose, node.rho) }
+        Self { node, differential: Differential::of(machine, node.rods(machine)) }
     }
 }
 
 impl Differential {
     /// `None` at a parallel singularity.
-    pub(super) fn of(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> Option<Self> {
+    pub(super) fn of(machine: &Machine, rods: Rods) -> Option<Self> {
         let g = machine.geometry();
-        let rods = Rods::of(&machine.mechanism, pose, rho);
         let rows = matrix(g, &rods);
         let inverse = Matrix4::from_fn(|row, column| rows[row][column]).try_inverse()?;
         Some(Self { rods, inverse, radius: g.R1 })

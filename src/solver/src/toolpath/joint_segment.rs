@@ -73,7 +73,7 @@ impl<'a> JointSegment<'a> {
         let change = std::array::from_fn(|i| b.node.rho[i] - a.node.rho[i]);
         let rates = differentials.map(|differential| differential.pose_rates(change));
         let guess = hermite_middle(ends.map(|end| &end.pose), &rates);
-        let rho = between(ends, 0.5).rho;
+        let (rho, _) = between(ends, 0.5);
         let middle = solved(machine, rho, guess, differentials[0])?;
         Some(Self { ends, differentials, rates, middle })
     }
@@ -83,10 +83,10 @@ impl<'a> JointSegment<'a> {
     pub(super) fn places(&self, machine: &Machine) -> impl Iterator<Item = Option<(f64, Node)>> {
         (1..FINE_INTERVALS).map(move |i| {
             let t = f64::from(i) / f64::from(FINE_INTERVALS);
-            let joints = between(self.ends, t);
+            let (rho, table) = between(self.ends, t);
             let guess = parabola([&self.ends[0].pose, &self.middle, &self.ends[1].pose], t);
-            let pose = solved(machine, joints.rho, guess, self.differentials[usize::from(2 * i > FINE_INTERVALS)])?;
-            Some((t, Node { pose, ..joints }))
+            let pose = solved(machine, rho, guess, self.differentials[usize::from(2 * i > FINE_INTERVALS)])?;
+            Some((t, Node::new(pose, rho, table)))
         })
     }
 
@@ -107,7 +107,8 @@ impl<'a> JointSegment<'a> {
             let tool = ToolMotion::at(machine, node, track.tool_length).position();
             from_path(track.path, parameters, t, tool, tolerance)
         };
-        let middle = at(0.5, &Node { pose: self.middle, ..between(self.ends, 0.5) });
+        let (rho, table) = between(self.ends, 0.5);
+        let middle = at(0.5, &Node::new(self.middle, rho, table));
         // Inside a cap the axis is off its path at the ends, too.
         let held = if track.span.stretch().is_some() {
             [at(0.0, self.ends[0])[1], at(1.0, self.ends[1])[1]]
@@ -162,17 +163,14 @@ impl<'a> JointSegment<'a> {
     }
 }
 
-/// The joints between two nodes; the pose is the first one's.
-fn between([a, b]: [&Node; 2], t: f64) -> Node {
+/// The joints between two nodes.
+fn between([a, b]: [&Node; 2], t: f64) -> ([f64; 3], TableAngles) {
     let mix = |a: f64, b: f64| a + (b - a) * t;
-    Node {
-        pose: a.pose,
-        rho: std::array::from_fn(|i| mix(a.rho[i], b.rho[i])),
-        table: TableAngles {
-            theta1: mix(a.table.theta1, b.table.theta1),
-            theta2: mix(a.table.theta2, b.table.theta2),
-        },
-    }
+    let table = TableAngles {
+        theta1: mix(a.table.theta1, b.table.theta1),
+        theta2: mix(a.table.theta2, b.table.theta2),
+    };
+    (std::array::from_fn(|i| mix(a.rho[i], b.rho[i])), table)
 }
 
 /// A vector along a segment that vanishes at its ends.

@@ -102,15 +102,17 @@ fn bounded(track: &Track<'_>, start: &Stop, end: &Stop) -> Option<Deviation> {
 }
 
 fn stop_at(track: &Track<'_>, s: f64, before: &Node) -> Result<Stop, LineariseError> {
-    let node =
-        track.node(s, Some(before.pose.alpha)).map_err(|refusal| LineariseError::Refused(s, refusal))?;
+    let node = track.node(s, Some(before)).map_err(|refusal| LineariseError::Refused(s, refusal))?;
     Ok(Stop { s, station: Station::new(track.setting.machine, node) })
 }
 
 impl Track<'_> {
-    /// The joints at a parameter.
-    pub(super) fn node(&self, s: f64, alpha: Option<f64>) -> Result<Node, KinematicsError> {
+    /// The joints at a parameter, in the working solution that continues that of another place.
+    pub(super) fn node(&self, s: f64, before: Option<&Node>) -> Result<Node, KinematicsError> {
         let target = self.setting.target(&self.span, s, &self.path.at(s), self.h);
-        self.setting.node(&target, self.tool_length, alpha)
+        match before {
+            Some(before) => self.setting.node_near(&target, self.tool_length, before),
+            None => self.setting.node(&target, self.tool_length, None),
+        }
     }
 }

@@ -6,6 +6,7 @@ use super::differential::Differential;
 use crate::machine::Machine;
 use crate::pose::PlatformPose;
 use crate::residual::{errors, largest};
+use crate::rods::Rods;
 
 /// Newton steps at one place.
 const STEPS: u32 = 8;
@@ -45,7 +46,7 @@ pub(super) fn solved(
 fn newton(machine: &Machine, rho: [f64; 3], guess: PlatformPose) -> Option<PlatformPose> {
     let mut pose = guess;
     for _ in 0..STEPS {
-        let differential = Differential::of(machine, &pose, rho)?;
+        let differential = Differential::of(machine, Rods::of(&machine.mechanism, &pose, rho))?;
         if let Some(pose) = corrected(machine, rho, pose, &differential) {
             return Some(pose);
         }

@@ -3,9 +3,6 @@
 mod feed;
 mod rapid;
 
-use std::f64::consts::PI;
-
-use super::azimuth::axis_of;
 use super::choice::Chosen;
 use super::differential::Station;
 use super::joint_segment::{Deviation, JointSegment, Track};
@@ -16,6 +13,7 @@ use super::node::{Node, Setting};
 use super::path::{Path, places};
 use super::report::{LeastMargins, Report};
 use crate::error::KinematicsError;
+use crate::fast_math::angle_of;
 use crate::limit::{Constraint, Element, Margin};
 use crate::margins::Margins;
 use crate::pose::TableAngles;
@@ -197,9 +195,10 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         let node = &station.node;
         let margins = self.setting.margins(node, tool_length);
         let (margin, fraction) = self.meet(index, s, &margins);
-        let phi = [node.pose.alpha - node.table.theta1, -node.table.theta2];
-        let position = ToolPosition { tip: at.tip, axis: axis_of(phi) };
-        let inclination = (phi[0] + PI).rem_euclid(2.0 * PI) - PI;
+        let ([s1, c1], [s2, c2]) = (node.turns.inclination(), node.turns.rotary);
+        // phi2 = -theta2.
+        let position = ToolPosition { tip: at.tip, axis: [-s1 * s2, -s1 * c2, c1] };
+        let inclination = angle_of(c1, s1);
         self.report.add_row(node, self.now.as_ref().map(|now| &now.node), inclination);
         (self.emit)(&Row { motion: index, kind, position, rho: node.rho, table: node.table, margin });
         (self.now, self.margin) = (Some(*station), Some(fraction));

@@ -2,15 +2,15 @@
 
 use nalgebra::Vector3;
 
-use super::node::Node;
-use crate::fast_math::sin_cos;
+use super::node::{Node, Turns};
 use crate::machine::Machine;
 use crate::pose::PlatformPose;
 
-/// Sines and cosines of theta1, theta2 and phi1, and the lengths of Eq (26).
+/// The tool at one place: the terms of Eq (26).
+#[derive(Clone, Copy, Debug)]
 pub(super) struct ToolMotion {
-    tilt: [f64; 2],
-    rotary: [f64; 2],
+    turns: Turns,
+    /// Sine and cosine of phi1.
     inclination: [f64; 2],
     pose: PlatformPose,
     /// z less that of the tilting axis.
@@ -23,20 +23,16 @@ pub(super) struct ToolMotion {
 
 impl ToolMotion {
     pub(super) fn at(machine: &Machine, node: &Node, tool_length: f64) -> Self {
-        let pose = node.pose;
-        let [tilt, rotary, inclination] =
-            [node.table.theta1, node.table.theta2, pose.alpha - node.table.theta1].map(|angle| {
-                let (sine, cosine) = sin_cos(angle);
-                [sine, cosine]
-            });
+        let Node { pose, turns, .. } = *node;
+        let (inclination, [s1, c1]) = (turns.inclination(), turns.tilt);
         let height = pose.z - machine.table().da;
-        let across = tool_length * inclination[0] - pose.y * tilt[1] - height * tilt[0];
-        Self { tilt, rotary, inclination, pose, height, across, tool_length, offset: machine.table().dt }
+        let across = tool_length * inclination[0] - pose.y * c1 - height * s1;
+        Self { turns, inclination, pose, height, across, tool_length, offset: machine.table().dt }
     }
 
     /// The tool's end and axis: Eq (26).
     pub(super) fn position(&self) -> [Vector3<f64>; 2] {
-        let ([s1, c1], [s2, c2], [sp, cp]) = (self.tilt, self.rotary, self.inclination);
+        let ([s1, c1], [s2, c2], [sp, cp]) = (self.turns.tilt, self.turns.rotary, self.inclination);
         let tip = Vector3::new(
             self.pose.x * c2 + self.across * s2,
             self.across * c2 - self.pose.x * s2,
@@ -47,7 +43,7 @@ impl ToolMotion {
 
     /// Their derivatives for these rates of the platform's pose, theta1 and theta2.
     pub(super) fn rates(&self, pose: &PlatformPose, [tilt, rotary]: [f64; 2]) -> [Vector3<f64>; 2] {
-        let ([s1, c1], [s2, c2], [sp, cp]) = (self.tilt, self.rotary, self.inclination);
+        let ([s1, c1], [s2, c2], [sp, cp]) = (self.turns.tilt, self.turns.rotary, self.inclination);
         let inclination = pose.alpha - tilt;
         let (y, height) = (self.pose.y, self.height);
         let across = self.tool_length * cp * inclination - pose.y * c1 - pose.z * s1

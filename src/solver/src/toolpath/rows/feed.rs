@@ -44,15 +44,14 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let held = Path::new(position, &Motion { end: position, ..*motion });
         let turning = span.turning();
         let track = self.track(&held, turning, motion.tool_length);
-        let Ok(end) = track.node(1.0, Some(now.node.pose.alpha)) else { return };
+        let Ok(end) = track.node(1.0, Some(&now.node)) else { return };
         self.rows_between(index, motion, &track, [now, self.station(end)], RowKind::Turn);
     }
 
     /// Follows a feed motion on one span.
     fn follow(&mut self, index: usize, motion: &Motion, path: &Path, span: &Span) {
         let track = self.track(path, *span, motion.tool_length);
-        let alpha = self.now.as_ref().map(|now| now.node.pose.alpha);
-        let end = match track.node(span.to, alpha) {
+        let end = match track.node(span.to, self.now.as_ref().map(|now| &now.node)) {
             Ok(end) => self.station(end),
             Err(refusal) => {
                 self.survey(index, &track);

@@ -66,7 +66,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let (mut rows, mut bend): (Vec<(f64, Station)>, _) = (Vec::new(), self.bends[1]);
         for span in spans {
             let track = self.track(path, *span, motion.tool_length);
-            let Ok(end) = track.node(span.to, Some(now.node.pose.alpha)) else { return false };
+            let Ok(end) = track.node(span.to, Some(&now.node)) else { return false };
             let end = self.station(end);
             let stops = [Stop { s: span.from, station: now }, Stop { s: span.to, station: end }];
             let result = linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _| {
