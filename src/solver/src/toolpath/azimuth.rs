@@ -44,13 +44,16 @@ pub(super) struct Azimuths {
 impl Azimuths {
     /// The azimuths at both ends of a part of a path outside the cap. At the pole itself it is that of the way from it.
     pub(super) fn of(&mut self, path: &Path, ends: [f64; 2]) -> [f64; 2] {
-        let start = path.at(ends[0]).axis;
+        let [start, end] = self.between(ends.map(|s| path.at(s).axis));
+        [start.unwrap_or_else(|| way(path, ends[0], 1.0)), end.unwrap_or_else(|| way(path, ends[1], -1.0))]
+    }
+
+    /// The azimuths of two axes; `None` at the pole.
+    pub(super) fn between(&mut self, [start, end]: [[f64; 3]; 2]) -> [Option<f64>; 2] {
         let known = self.last.filter(|(axis, _)| *axis == start).map(|(_, azimuth)| azimuth);
-        let start = known.or_else(|| azimuth(start)).unwrap_or_else(|| way(path, ends[0], 1.0));
-        let end = path.at(ends[1]).axis;
         let found = azimuth(end);
         self.last = found.map(|azimuth| (end, azimuth));
-        [start, found.unwrap_or_else(|| way(path, ends[1], -1.0))]
+        [known.or_else(|| azimuth(start)), found]
     }
 }
 

@@ -28,12 +28,23 @@ impl Cap {
         axis[2] > 0.0 && axis[0] * axis[0] + axis[1] * axis[1] <= self.sine * self.sine
     }
 
+    /// Whether an axis that turns by at most `turn` between two axes certainly stays outside.
+    pub(super) fn is_clear(&self, ends: [[f64; 3]; 2], turn: f64) -> bool {
+        let [a, b] = ends.map(|[i, j, _]| i * i + j * j);
+        let reach = self.sine + turn;
+        a.min(b) > reach * reach
+    }
+
     pub(super) fn measure(&self, path: &Path) -> f64 {
         path.length() + self.scale * path.turn()
     }
 
     /// Calls `found` with the parts of a path: both ends of each, and whether it is inside the cap.
-    pub(super) fn split(&self, path: &Path, found: impl FnMut([f64; 2], bool)) {
+    pub(super) fn split(&self, path: &Path, mut found: impl FnMut([f64; 2], bool)) {
+        if path.is_great_circle() && self.is_clear(path.end_axes(), path.turn()) {
+            found([0.0, 1.0], false);
+            return;
+        }
         let steps = if path.is_great_circle() { 1 } else { count_of(path.turn() / STEP) };
         let mut parts = Parts { begun: 0.0, is_inside: self.has(path.at(0.0).axis), found };
         for step in 0..steps {
@@ -64,9 +75,8 @@ impl Cap {
             let [i, j, k] = path.at(s).axis;
             if k > 0.0 { i * i + j * j } else { 1.0 }
         };
-        let reach = self.sine + path.turn() * (high - low);
-        if square(low).min(square(high)) > reach * reach {
-            return None;
+        if path.is_great_circle() {
+            return path.nearest_to_pole().filter(|&s| self.has(path.at(s).axis));
         }
         let (mut a, mut b) = (low, high);
         for _ in 0..GOLDEN_STEPS {

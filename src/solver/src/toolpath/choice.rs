@@ -23,8 +23,10 @@ use crate::margins::Margins;
 
 /// Angle and fraction of the machine's longest dimension between two ends of motions: ends that are closer to the last
 /// place are not examined.
-const LEAST_ANGLE: f64 = 0.005;
-const LEAST_LENGTH: f64 = 1.0 / 512.0;
+const LEAST_ANGLE: f64 = 0.01;
+const LEAST_LENGTH: f64 = 1.0 / 256.0;
+/// How far the machine may move for a worst margin of the whole range until the limits are examined again.
+const WAY: f64 = 0.125;
 /// Greatest number of states at a place.
 const MOST_STATES: usize = 64;
 
@@ -33,10 +35,20 @@ const MOST_STATES: usize = 64;
 struct State {
     h: [i32; 2],
     node: Option<Node>,
-    /// Whether all limits but the rotary axis' hold.
-    holds: bool,
+    reserve: Reserve,
     cost: Cost,
     parent: usize,
+    /// An earlier state that differs by whole turns of theta2 alone.
+    twin: Option<usize>,
+}
+
+/// The limits but the rotary axis'.
+#[derive(Clone, Copy, Debug)]
+struct Reserve {
+    /// Whether they hold.
+    holds: bool,
+    /// How far the machine may move until they are examined again, as [`Node::way_from`].
+    way: f64,
 }
 
 /// Chooses the states of a program.
@@ -96,13 +108,19 @@ impl<'a> Chooser<'a> {
         self.examine_skipped();
         let before = std::mem::take(&mut self.states);
         let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
+        // The nodes of both preimages; whole turns change theta2 alone.
+        let mut known: [Option<Vec<(Option<Node>, Reserve)>>; 2] = [None, None];
         for h in self.setting.half_turns(phi2) {
             let target = self.setting.target(span, 1.0, &motion.end, [h, h]);
-            let nodes = self.setting.nodes(&target, motion.tool_length).unwrap_or_default();
-            let none = nodes.is_empty().then_some(None);
-            let nodes = nodes.into_iter().map(Some).chain(none);
-            for node in nodes {
-                let state = self.entered(&before, [h, h], node, motion);
+            let nodes = known[usize::from(h.rem_euclid(2) == 1)].get_or_insert_with(|| {
+                let nodes = self.setting.nodes(&target, motion.tool_length).unwrap_or_default();
+                let none = nodes.is_empty().then_some(None);
+                let nodes = nodes.into_iter().map(Some).chain(none);
+                nodes.map(|node| (node, self.reserve(node.as_ref(), motion.tool_length))).collect()
+            });
+            for (node, reserve) in nodes {
+                let node = node.map(|node| node.wound_to(target.pose.phi2));
+                let state = self.entered(&before, [h, h], node, *reserve);
                 self.states.push(state);
             }
             if self.states.len() >= MOST_STATES {
@@ -112,9 +130,8 @@ impl<'a> Chooser<'a> {
         self.stage();
     }
 
-    fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, motion: &Motion) -> State {
-        let holds = self.holds(node.as_ref(), motion.tool_length);
-        let own = self.place_cost(node.as_ref(), holds);
+    fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, reserve: Reserve) -> State {
+        let own = self.place_cost(node.as_ref(), reserve.holds);
         if before.is_empty() {
             let turning = node.zip(self.start).map_or(0.0, |(node, [theta1, theta2])| {
                 self.weights[0] * (node.table.theta1 - theta1).abs()
@@ -122,7 +139,7 @@ impl<'a> Chooser<'a> {
             });
             let start = node.map_or(f64::INFINITY, |node| node.table.theta2.abs());
             let cost = Cost { turning, start, is_turned: h[1].rem_euclid(2) == 1, ..own };
-            return State { h, node, holds, cost, parent: 0 };
+            return State { h, node, reserve, cost, parent: 0, twin: None };
         }
         let mut best: Option<(Cost, usize)> = None;
         for (parent, state) in before.iter().enumerate() {
@@ -134,14 +151,28 @@ impl<'a> Chooser<'a> {
             }
         }
         let (cost, parent) = best.map_or((own, 0), |best| best);
-        State { h, node, holds, cost, parent }
+        State { h, node, reserve, cost, parent, twin: None }
     }
 
-    /// Whether all limits but the rotary axis' hold.
-    fn holds(&self, node: Option<&Node>, tool_length: f64) -> bool {
-        node.is_some_and(|node| {
-            Margins { rotary: None, ..self.setting.margins(node, tool_length) }.feasible()
-        })
+    fn reserve(&self, node: Option<&Node>, tool_length: f64) -> Reserve {
+        let fraction = node.map_or(-1.0, |node| {
+            let margins = Margins { rotary: None, ..self.setting.margins(node, tool_length) };
+            margins.worst_with_fraction(self.setting.machine).1
+        });
+        Reserve { holds: fraction >= 0.0, way: WAY * fraction }
+    }
+
+    /// The reserve after a state has moved to a place.
+    fn moved(&self, state: &State, node: Option<&Node>, tool_length: f64) -> Reserve {
+        if let (Some(before), Some(node)) = (&state.node, node)
+            && state.reserve.holds
+        {
+            let way = state.reserve.way - node.way_from(before, self.setting.machine.longest());
+            if way > 0.0 {
+                return Reserve { holds: true, way };
+            }
+        }
+        self.reserve(node, tool_length)
     }
 
     /// The cost of one place, where the limits but the rotary axis' hold or not.
@@ -240,31 +271,37 @@ impl<'a> Chooser<'a> {
 
     /// Moves every state to a place.
     fn advance(&mut self, tool_length: f64, span: &Span, s: f64, at: &ToolPosition) {
-        let before = std::mem::take(&mut self.states);
-        self.states.reserve(before.len());
-        for (i, state) in before.iter().enumerate() {
+        for i in 0..self.states.len() {
+            let state = &self.states[i];
             let target = self.setting.target(span, s, at, state.h);
-            // Whole turns change theta2 alone.
-            let twin = (0..i).find(|&j| is_wound(&before[j], state));
-            let node = match twin.and_then(|j| self.states[j].node) {
-                Some(node) => Some(node.wound_to(target.pose.phi2)),
-                None if twin.is_some() => None,
-                None => match &state.node {
-                    Some(before) => self.setting.node_near(&target, tool_length, before).ok(),
-                    None => self.setting.node(&target, tool_length, None).ok(),
-                },
+            let (node, reserve) = match (state.twin, &state.node) {
+                (Some(twin), _) => {
+                    let twin = &self.states[twin];
+                    (twin.node.map(|node| node.wound_to(target.pose.phi2)), twin.reserve)
+                }
+                (None, before) => {
+                    let node = match before {
+                        Some(before) => self.setting.node_near(&target, tool_length, before).ok(),
+                        None => self.setting.node(&target, tool_length, None).ok(),
+                    };
+                    (node, self.moved(state, node.as_ref(), tool_length))
+                }
             };
-            let holds =
-                twin.map_or_else(|| self.holds(node.as_ref(), tool_length), |j| self.states[j].holds);
-            let own = self.place_cost(node.as_ref(), holds);
-            let turning =
-                node.zip(state.node).map_or(0.0, |(node, from)| node.turning_from(&from, self.weights));
-            self.states.push(State { node, holds, cost: state.cost.and(&own, turning), ..*state });
+            let own = self.place_cost(node.as_ref(), reserve.holds);
+            let from = node.as_ref().zip(state.node.as_ref());
+            let turning = from.map_or(0.0, |(node, from)| node.turning_from(from, self.weights));
+            let cost = state.cost.and(&own, turning);
+            let state = &mut self.states[i];
+            (state.node, state.reserve, state.cost) = (node, reserve, cost);
         }
     }
 
     /// Notes the states, so that the chosen ones can be traced back.
     fn stage(&mut self) {
+        for i in 0..self.states.len() {
+            let twin = (0..i).find(|&j| is_wound(&self.states[j], &self.states[i]));
+            self.states[i].twin = twin.map(|j| self.states[j].twin.unwrap_or(j));
+        }
         let states = self.states.iter().map(|state| {
             let alpha = state.node.map(|node| node.pose.alpha);
             (Chosen { h: state.h, alpha }, state.parent)

@@ -1,53 +1,37 @@
-//! The joints at one place of a program with what their neighbourhood needs.
+//! How the platform moves with the sliders at one place of a program.
 
-use nalgebra::{Matrix4, Vector4};
-
-use super::node::Node;
 use crate::machine::Machine;
-use crate::parallel_matrix::matrix;
+use crate::parallel_matrix::{ParallelMatrix, inverse, matrix};
 use crate::pose::PlatformPose;
 use crate::rods::Rods;
 
-/// The rods at a place, and the inverse of the parallel matrix.
+/// Eqs (3)-(6) differentiated at one place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Differential {
-    pub(super) rods: Rods,
-    pub(super) inverse: Matrix4<f64>,
+    /// The inverse of the parallel matrix.
+    inverse: ParallelMatrix,
+    /// Cosine between the guideway and rods 11, 12, 21 and 31.
+    cosines: [f64; 4],
     radius: f64,
-}
-
-/// Joints with their differential.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Station {
-    pub(super) node: Node,
-    /// `None` at a parallel singularity.
-    pub(super) differential: Option<Differential>,
-}
-
-impl Station {
-    pub(super) fn new(machine: &Machine, node: Node) -> Self {
-        Self { node, differential: Differential::of(machine, node.rods(machine)) }
-    }
 }
 
 impl Differential {
     /// `None` at a parallel singularity.
-    pub(super) fn of(machine: &Machine, rods: Rods) -> Option<Self> {
+    pub(super) fn of(machine: &Machine, rods: &Rods) -> Option<Self> {
         let g = machine.geometry();
-        let rows = matrix(g, &rods);
-        let inverse = Matrix4::from_fn(|row, column| rows[row][column]).try_inverse()?;
-        Some(Self { rods, inverse, radius: g.R1 })
+        let inverse = inverse(&matrix(g, rods))?;
+        Some(Self { inverse, cosines: rods.directions.map(|direction| direction[2]), radius: g.R1 })
     }
 
-    /// Rates of the platform's pose for these rates of the sliders: Eqs (3)-(6) differentiated.
+    /// Rates of the platform's pose for these rates of the sliders.
     pub(super) fn pose_rates(&self, [first, second, third]: [f64; 3]) -> PlatformPose {
-        let z = self.rods.directions.map(|direction| direction[2]);
-        self.pose_change(&Vector4::new(z[0] * first, z[1] * first, z[2] * second, z[3] * third))
+        let z = self.cosines;
+        self.pose_change([z[0] * first, z[1] * first, z[2] * second, z[3] * third])
     }
 
     /// The change of the platform's pose for changes of the rods' lengths, to the first order.
-    pub(super) fn pose_change(&self, lengths: &Vector4<f64>) -> PlatformPose {
-        let change = self.inverse * lengths;
-        PlatformPose { x: change[0], y: change[1], z: change[2], alpha: change[3] / self.radius }
+    pub(super) fn pose_change(&self, [a, b, c, d]: [f64; 4]) -> PlatformPose {
+        let [x, y, z, arc] = self.inverse.map(|row| row[0] * a + row[1] * b + row[2] * c + row[3] * d);
+        PlatformPose { x, y, z, alpha: arc / self.radius }
     }
 }

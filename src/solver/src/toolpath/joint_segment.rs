@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::differential::{Differential, Station};
+use super::differential::Differential;
 use super::meridian::Span;
 use super::nearby_pose::{hermite_middle, parabola, solved};
 use super::node::{Node, Setting};
@@ -53,7 +53,25 @@ pub(super) struct Track<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stop {
     pub(super) s: f64,
-    pub(super) station: Station,
+    pub(super) node: Node,
+}
+
+/// What the segments on both sides of a stop need of it.
+pub(super) struct Surroundings {
+    pub(super) differential: Differential,
+    tool: ToolMotion,
+    /// The rates of the path by its parameter.
+    path: [Vector3<f64>; 2],
+}
+
+impl Surroundings {
+    /// `None` at a parallel singularity.
+    pub(super) fn of(track: &Track<'_>, stop: &Stop, path: [Vector3<f64>; 2]) -> Option<Self> {
+        let machine = track.setting.machine;
+        let differential = Differential::of(machine, &stop.node.rods(machine))?;
+        let tool = ToolMotion::at(machine, &stop.node, track.tool_length);
+        Some(Self { differential, tool, path })
+    }
 }
 
 /// The motion between two rows.
@@ -67,10 +85,12 @@ pub(super) struct JointSegment<'a> {
 
 impl<'a> JointSegment<'a> {
     /// Solves the forward problem in the middle. `None` if there is a parallel singularity on the segment, or nearly.
-    pub(super) fn new(machine: &Machine, [a, b]: [&'a Station; 2]) -> Option<Self> {
-        let differentials = [a.differential.as_ref()?, b.differential.as_ref()?];
-        let ends = [&a.node, &b.node];
-        let change = std::array::from_fn(|i| b.node.rho[i] - a.node.rho[i]);
+    pub(super) fn new(
+        machine: &Machine,
+        ends: [&'a Node; 2],
+        differentials: [&'a Differential; 2],
+    ) -> Option<Self> {
+        let change = std::array::from_fn(|i| ends[1].rho[i] - ends[0].rho[i]);
         let rates = differentials.map(|differential| differential.pose_rates(change));
         let guess = hermite_middle(ends.map(|end| &end.pose), &rates);
         let (rho, _) = between(ends, 0.5);
@@ -100,6 +120,7 @@ impl<'a> JointSegment<'a> {
         &self,
         track: &Track<'_>,
         parameters: [f64; 2],
+        surroundings: [&Surroundings; 2],
         tolerance: &Deviation,
     ) -> Option<Deviation> {
         let machine = track.setting.machine;
@@ -115,8 +136,9 @@ impl<'a> JointSegment<'a> {
         } else {
             [Vector3::zeros(); 2]
         };
+        let width = parameters[1] - parameters[0];
         let rates = [0, 1].map(|end| {
-            let [tip, axis] = self.rates_from_path(track, parameters, end, tolerance);
+            let [tip, axis] = self.rates_from_path(surroundings[end], width, end, tolerance);
             [tip, axis - (held[1] - held[0])]
         });
         let tips = Interpolated::new(middle[0], [rates[0][0], rates[1][0]]);
@@ -138,17 +160,14 @@ impl<'a> JointSegment<'a> {
     /// The rates at which the tool leaves the path at an end, by the fraction of the segment.
     fn rates_from_path(
         &self,
-        track: &Track<'_>,
-        [start, stop]: [f64; 2],
+        &Surroundings { tool, path, .. }: &Surroundings,
+        width: f64,
         end: usize,
         tolerance: &Deviation,
     ) -> [Vector3<f64>; 2] {
         let [a, b] = self.ends;
         let turn = [b.table.theta1 - a.table.theta1, b.table.theta2 - a.table.theta2];
-        let tool = ToolMotion::at(track.setting.machine, self.ends[end], track.tool_length);
         let tool = tool.rates(&self.rates[end], turn);
-        let (_, path) = track.path.with_rates([start, stop][end]);
-        let width = stop - start;
         let off = [tool[0] - path[0] * width, tool[1] - path[1] * width];
         across_path(off, path, tolerance, [f64::NEG_INFINITY, f64::INFINITY])
     }

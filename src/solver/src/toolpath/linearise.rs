@@ -1,8 +1,8 @@
 //! The rows between two stops: so few that between any two of them the joints may change linearly.
 
-use super::bound::second_derivatives;
-use super::differential::Station;
-use super::joint_segment::{Deviation, JointSegment, Stop, Track};
+use super::bound::{InverseBound, second_derivatives};
+use super::joint_segment::{Deviation, JointSegment, Stop, Surroundings, Track};
+use super::motion::ToolPosition;
 use super::node::Node;
 use crate::error::KinematicsError;
 use crate::machine::Machine;
@@ -29,11 +29,12 @@ pub(super) enum LineariseError {
     Jump(f64),
 }
 
-/// What the last segment deviated by: the deviation grows with the square of a segment.
+/// What the segments before tell about the next one: the deviation grows with the square of a segment.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Bend {
-    /// Fraction of the tolerance over the square of the joints' way.
+    /// Fraction of the tolerance over the square of the joints' way, in the last segment.
     known: Option<f64>,
+    inverse: Option<InverseBound>,
 }
 
 /// Divides the path between two stops into segments, and calls `found` with the end of each.
@@ -46,34 +47,43 @@ pub(super) fn linearise(
     mut found: impl FnMut(&Stop, Option<&JointSegment<'_>>, Deviation),
 ) -> Result<(), LineariseError> {
     let machine = track.setting.machine;
-    let way = square_way(machine, &start.station.node, &end.station.node);
+    let way = square_way(machine, &start.node, &end.node);
     let expected = bend.known.map(|known| known * way);
     if expected.is_none_or(|expected| expected <= BOUNDABLE)
-        && let Some(deviation) = bounded(track, &start, end).filter(|bound| bound.ratio(tolerance) <= USED)
+        && let Some(deviation) = bounded(track, [&start, end], &mut bend.inverse)
+        && deviation.ratio(tolerance) <= USED
     {
         found(end, None, deviation);
         return Ok(());
     }
-    let mut now = start;
+    let surroundings = |stop: &Stop| Surroundings::of(track, stop, track.path.with_rates(stop.s).1);
+    let (mut now, mut here) = (start, surroundings(&start));
     // Fraction of the tolerance over the square of the parameter.
     let mut curvature = expected.map_or(0.0, |expected| expected / (end.s - start.s).powi(2));
     while now.s < end.s {
         let rest = end.s - now.s;
         let count = (rest * (curvature / AIM).sqrt() - ROUNDING).ceil().max(1.0);
         let width = rest / count;
-        let next = if count == 1.0 { *end } else { stop_at(track, now.s + width, &now.station.node)? };
-        let segment = JointSegment::new(machine, [&now.station, &next.station]);
-        let deviation =
-            segment.as_ref().and_then(|segment| segment.deviation(track, [now.s, next.s], tolerance));
-        let ratio = deviation.map_or(f64::INFINITY, |deviation| deviation.ratio(tolerance));
+        let (next, there) = if count == 1.0 {
+            (*end, surroundings(end))
+        } else {
+            stop_at(track, now.s + width, &now.node)?
+        };
+        let segment = here.as_ref().zip(there.as_ref()).and_then(|(here, there)| {
+            let differentials = [&here.differential, &there.differential];
+            let segment = JointSegment::new(machine, [&now.node, &next.node], differentials)?;
+            let deviation = segment.deviation(track, [now.s, next.s], [here, there], tolerance)?;
+            Some((segment, deviation))
+        });
+        let ratio = segment.as_ref().map_or(f64::INFINITY, |(_, deviation)| deviation.ratio(tolerance));
         let bounds = RATIOS.map(|ratio| AIM / (ratio * ratio));
         curvature = ratio.clamp(bounds[1], bounds[0]) / (width * width);
-        match (&segment, deviation) {
-            (Some(segment), Some(deviation)) if ratio <= USED => {
-                found(&next, Some(segment), deviation);
-                let way = square_way(machine, &now.station.node, &next.station.node);
+        match segment {
+            Some((segment, deviation)) if ratio <= USED => {
+                found(&next, Some(&segment), deviation);
+                let way = square_way(machine, &now.node, &next.node);
                 bend.known = (way > 0.0).then(|| ratio / way).or(bend.known);
-                now = next;
+                (now, here) = (next, there);
             }
             _ if width < LEAST_STEP => return Err(LineariseError::Jump(now.s)),
             _ => {}
@@ -91,9 +101,13 @@ fn square_way(machine: &Machine, a: &Node, b: &Node) -> f64 {
 }
 
 /// An upper bound of the deviation of a single segment between two stops.
-fn bounded(track: &Track<'_>, start: &Stop, end: &Stop) -> Option<Deviation> {
-    let stations = [&start.station, &end.station];
-    let joints = second_derivatives(track.setting.machine, stations, track.tool_length)?;
+fn bounded(
+    track: &Track<'_>,
+    [start, end]: [&Stop; 2],
+    inverse: &mut Option<InverseBound>,
+) -> Option<Deviation> {
+    let ends = [&start.node, &end.node];
+    let joints = second_derivatives(track.setting.machine, ends, track.tool_length, inverse)?;
     let width = end.s - start.s;
     let [tip, axis] = track.path.second_derivatives().map(|second| second * width * width);
     // Inside a cap the axis is off its path at the ends, too.
@@ -101,9 +115,18 @@ fn bounded(track: &Track<'_>, start: &Stop, end: &Stop) -> Option<Deviation> {
     Some(Deviation { tip: 0.125 * (joints.tip + tip), axis: off + 0.125 * (joints.axis + axis) })
 }
 
-fn stop_at(track: &Track<'_>, s: f64, before: &Node) -> Result<Stop, LineariseError> {
-    let node = track.node(s, Some(before)).map_err(|refusal| LineariseError::Refused(s, refusal))?;
-    Ok(Stop { s, station: Station::new(track.setting.machine, node) })
+fn stop_at(
+    track: &Track<'_>,
+    s: f64,
+    before: &Node,
+) -> Result<(Stop, Option<Surroundings>), LineariseError> {
+    let ([tip, axis], rates) = track.path.with_rates(s);
+    let at = ToolPosition { tip: tip.into(), axis: axis.into() };
+    let target = track.setting.target(&track.span, s, &at, track.h);
+    let node = track.setting.node_near(&target, track.tool_length, before);
+    let stop = Stop { s, node: node.map_err(|refusal| LineariseError::Refused(s, refusal))? };
+    let surroundings = Surroundings::of(track, &stop, rates);
+    Ok((stop, surroundings))
 }
 
 impl Track<'_> {

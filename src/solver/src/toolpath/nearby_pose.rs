@@ -1,7 +1,5 @@
 //! The forward problem near a known pose: Newton's method from a guess.
 
-use nalgebra::Vector4;
-
 use super::differential::Differential;
 use crate::machine::Machine;
 use crate::pose::PlatformPose;
@@ -46,7 +44,7 @@ pub(super) fn solved(
 fn newton(machine: &Machine, rho: [f64; 3], guess: PlatformPose) -> Option<PlatformPose> {
     let mut pose = guess;
     for _ in 0..STEPS {
-        let differential = Differential::of(machine, Rods::of(&machine.mechanism, &pose, rho))?;
+        let differential = Differential::of(machine, &Rods::of(&machine.mechanism, &pose, rho))?;
         if let Some(pose) = corrected(machine, rho, pose, &differential) {
             return Some(pose);
         }
@@ -74,5 +72,5 @@ fn corrected(
 }
 
 fn stepped(pose: PlatformPose, differential: &Differential, errors: [f64; 4]) -> PlatformPose {
-    sum([(1.0, &pose), (-1.0, &differential.pose_change(&Vector4::from(errors)))])
+    sum([(1.0, &pose), (-1.0, &differential.pose_change(errors))])
 }

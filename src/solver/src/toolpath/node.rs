@@ -177,6 +177,15 @@ impl Node {
         Self { table: TableAngles { theta2: -phi2, ..self.table }, ..self }
     }
 
+    /// How far the platform and the sliders are from another node, as a fraction of the machine's longest dimension,
+    /// with the angles that the platform and the table tilt through.
+    pub(super) fn way_from(&self, other: &Self, longest: f64) -> f64 {
+        let (a, b) = (&self.pose, &other.pose);
+        let platform = (a.x - b.x).abs().max((a.y - b.y).abs()).max((a.z - b.z).abs());
+        let length = (0..3).fold(platform, |way, i| way.max((self.rho[i] - other.rho[i]).abs()));
+        length / longest + (a.alpha - b.alpha).abs() + (self.table.theta1 - other.table.theta1).abs()
+    }
+
     /// The angle that the table's axes turn through from another node, weighted by `weights`.
     pub(super) fn turning_from(&self, other: &Self, weights: [f64; 2]) -> f64 {
         weights[0] * (self.table.theta1 - other.table.theta1).abs()

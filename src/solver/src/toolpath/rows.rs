@@ -4,7 +4,6 @@ mod feed;
 mod rapid;
 
 use super::choice::Chosen;
-use super::differential::Station;
 use super::joint_segment::{Deviation, JointSegment, Track};
 use super::linearise::Bend;
 use super::meridian::{Meridian, Span};
@@ -64,7 +63,7 @@ pub(super) struct Rower<'a, F> {
     report: Report,
     least: LeastMargins,
     /// Where the machine stands.
-    now: Option<Station>,
+    now: Option<Node>,
     h: [i32; 2],
     /// The worst margin of the last row, as a fraction of its range.
     margin: Option<f64>,
@@ -116,10 +115,6 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         }
         self.report.least = self.least.found();
         Some(self.report)
-    }
-
-    pub(super) fn station(&self, node: Node) -> Station {
-        Station::new(self.setting.machine, node)
     }
 
     pub(super) fn next_choice(&mut self) -> Chosen {
@@ -189,18 +184,17 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         kind: RowKind,
         at: &ToolPosition,
         s: f64,
-        station: &Station,
+        node: &Node,
         tool_length: f64,
     ) {
-        let node = &station.node;
         let margins = self.setting.margins(node, tool_length);
         let (margin, fraction) = self.meet(index, s, &margins);
         let ([s1, c1], [s2, c2]) = (node.turns.inclination(), node.turns.rotary);
         // phi2 = -theta2.
         let position = ToolPosition { tip: at.tip, axis: [-s1 * s2, -s1 * c2, c1] };
         let inclination = angle_of(c1, s1);
-        self.report.add_row(node, self.now.as_ref().map(|now| &now.node), inclination);
+        self.report.add_row(node, self.now.as_ref(), inclination);
         (self.emit)(&Row { motion: index, kind, position, rho: node.rho, table: node.table, margin });
-        (self.now, self.margin) = (Some(*station), Some(fraction));
+        (self.now, self.margin) = (Some(*node), Some(fraction));
     }
 }

@@ -3,11 +3,11 @@
 use super::{Row, RowKind, Rower};
 use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
-use crate::toolpath::differential::Station;
 use crate::toolpath::joint_segment::{Stop, Track};
 use crate::toolpath::linearise::{LineariseError, linearise};
 use crate::toolpath::meridian::Span;
 use crate::toolpath::motion::Motion;
+use crate::toolpath::node::Node;
 use crate::toolpath::path::Path;
 use crate::toolpath::stretches::Place;
 
@@ -44,15 +44,15 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let held = Path::new(position, &Motion { end: position, ..*motion });
         let turning = span.turning();
         let track = self.track(&held, turning, motion.tool_length);
-        let Ok(end) = track.node(1.0, Some(&now.node)) else { return };
-        self.rows_between(index, motion, &track, [now, self.station(end)], RowKind::Turn);
+        let Ok(end) = track.node(1.0, Some(&now)) else { return };
+        self.rows_between(index, motion, &track, [now, end], RowKind::Turn);
     }
 
     /// Follows a feed motion on one span.
     fn follow(&mut self, index: usize, motion: &Motion, path: &Path, span: &Span) {
         let track = self.track(path, *span, motion.tool_length);
-        let end = match track.node(span.to, self.now.as_ref().map(|now| &now.node)) {
-            Ok(end) => self.station(end),
+        let end = match track.node(span.to, self.now.as_ref()) {
+            Ok(end) => end,
             Err(refusal) => {
                 self.survey(index, &track);
                 self.refuse(index, span.to, refusal);
@@ -73,11 +73,11 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         index: usize,
         motion: &Motion,
         track: &Track<'_>,
-        ends: [Station; 2],
+        ends: [Node; 2],
         kind: RowKind,
     ) {
         let [start, end] = [track.span.from, track.span.to];
-        let stops = [Stop { s: start, station: ends[0] }, Stop { s: end, station: ends[1] }];
+        let stops = [Stop { s: start, node: ends[0] }, Stop { s: end, node: ends[1] }];
         let (feed, mut bend) = (self.settings.feed, self.bends[0]);
         if track.path.is_point() && kind != RowKind::Turn {
             self.row(index, kind, &track.path.at(end), end, &ends[1], motion.tool_length);
@@ -88,7 +88,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             let kind = if kind == RowKind::Feed && !is_end { RowKind::Inserted } else { kind };
             self.report.deviation = self.report.deviation.with(deviation);
             let before = self.margin;
-            self.row(index, kind, &track.path.at(stop.s), stop.s, &stop.station, motion.tool_length);
+            self.row(index, kind, &track.path.at(stop.s), stop.s, &stop.node, motion.tool_length);
             let least = before.unwrap_or(f64::INFINITY).min(self.margin.unwrap_or(f64::INFINITY));
             if let Some(segment) = segment.filter(|_| least < GUARD) {
                 self.examine(index, segment, motion.tool_length);
@@ -119,7 +119,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         track: &Track<'_>,
         s: f64,
         refusal: KinematicsError,
-        end: &Station,
+        end: &Node,
     ) {
         self.survey(index, track);
         self.refuse(index, s, refusal);

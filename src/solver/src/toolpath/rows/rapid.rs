@@ -4,7 +4,7 @@ use super::{Row, RowKind, Rower};
 use crate::pose::PartPose;
 use crate::table::part_pose;
 use crate::toolpath::choice::Chosen;
-use crate::toolpath::differential::Station;
+use crate::toolpath::differential::Differential;
 use crate::toolpath::joint_segment::{JointSegment, Stop};
 use crate::toolpath::linearise::linearise;
 use crate::toolpath::meridian::Span;
@@ -28,8 +28,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let target = self.setting.target(span, 1.0, &motion.end, chosen.h);
         match self.setting.node(&target, motion.tool_length, chosen.alpha) {
             Ok(node) => {
-                let station = self.station(node);
-                self.row(index, RowKind::Rapid, &motion.end, 1.0, &station, motion.tool_length);
+                self.row(index, RowKind::Rapid, &motion.end, 1.0, &node, motion.tool_length);
             }
             Err(refusal) => {
                 self.refuse(index, 1.0, refusal);
@@ -63,21 +62,20 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         chosen: Chosen,
     ) -> bool {
         let Some(mut now) = self.now else { return false };
-        let (mut rows, mut bend): (Vec<(f64, Station)>, _) = (Vec::new(), self.bends[1]);
+        let (mut rows, mut bend): (Vec<(f64, Node)>, _) = (Vec::new(), self.bends[1]);
         for span in spans {
             let track = self.track(path, *span, motion.tool_length);
-            let Ok(end) = track.node(span.to, Some(&now.node)) else { return false };
-            let end = self.station(end);
-            let stops = [Stop { s: span.from, station: now }, Stop { s: span.to, station: end }];
+            let Ok(end) = track.node(span.to, Some(&now)) else { return false };
+            let stops = [Stop { s: span.from, node: now }, Stop { s: span.to, node: end }];
             let result = linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _| {
-                rows.push((stop.s, stop.station));
+                rows.push((stop.s, stop.node));
             });
             if result.is_err() {
                 return false;
             }
             now = end;
         }
-        let is_chosen = chosen.alpha.is_none_or(|alpha| (alpha - now.node.pose.alpha).abs() < 1e-6);
+        let is_chosen = chosen.alpha.is_none_or(|alpha| (alpha - now.pose.alpha).abs() < 1e-6);
         if !is_chosen {
             return false;
         }
@@ -85,19 +83,24 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             rows.push((1.0, now));
         }
         self.bends[1] = bend;
-        for (s, station) in rows {
-            self.row(index, RowKind::Rapid, &path.at(s), s, &station, motion.tool_length);
+        for (s, node) in rows {
+            self.row(index, RowKind::Rapid, &path.at(s), s, &node, motion.tool_length);
         }
         true
     }
 
     /// Notes how far a rapid with straight joints leaves its line.
-    fn depart(&mut self, index: usize, motion: &Motion, path: &Path, before: &Station, after: &Station) {
+    fn depart(&mut self, index: usize, motion: &Motion, path: &Path, before: &Node, after: &Node) {
         self.report.departure_count += 1;
         if self.report.departures.len() >= MOST_DEPARTURES {
             return;
         }
-        let segment = JointSegment::new(self.setting.machine, [before, after]);
+        let machine = self.setting.machine;
+        let differentials = [before, after].map(|node| Differential::of(machine, &node.rods(machine)));
+        let segment = match &differentials {
+            [Some(first), Some(last)] => JointSegment::new(machine, [before, after], [first, last]),
+            _ => None,
+        };
         let greatest = segment.map(|segment| {
             self.examine(index, &segment, motion.tool_length);
             let of =
