@@ -21,6 +21,7 @@ mod kinematics;
 mod machines;
 mod mesh_size_limit;
 mod part_frame;
+mod programs;
 mod proxies;
 mod query_parameters;
 mod rate_limits;
@@ -30,6 +31,7 @@ mod security_headers;
 mod shutdown;
 mod table;
 mod table_workspaces;
+mod toolpath;
 mod transport;
 mod viewer;
 mod workspace;
@@ -62,6 +64,7 @@ pub(crate) fn config(machines: Option<PathBuf>) -> ServeConfig {
     ServeConfig {
         machines,
         max_body_bytes: 1024 * 1024,
+        max_program_bytes: 4 * 1024 * 1024,
         max_rows: 2_000,
         memory_only: true,
         cache_bytes: 64 * 1024 * 1024,

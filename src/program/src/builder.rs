@@ -81,6 +81,12 @@ impl Builder {
         self.program.moves.len()
     }
 
+    /// About the bytes of the program so far.
+    pub(crate) fn memory(&self) -> usize {
+        let Program { moves, arcs, .. } = &self.program;
+        size_of_val(moves.as_slice()) + size_of_val(arcs.as_slice()) + self.event_bytes
+    }
+
     /// The last move, if the tool is at its end.
     pub(crate) fn position(&self) -> Option<&Move> {
         self.program.moves.last().filter(|_| self.known)

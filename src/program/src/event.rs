@@ -63,13 +63,13 @@ pub enum EventKind {
     },
     /// The origin of the points that follow is that of a work offset. Before the first one, it is that of G54.
     WorkOffset(WorkOffset),
-    /// Control of the tool centre point begins or ends. It is on during all moves with a tilted axis; its end ends a cut.
+    /// Control of the tool centre point begins or ends; its end ends a cut.
     CentrePointControl {
         /// Whether it is on.
         on: bool,
     },
-    /// A tilted plane begins (G68.2) or ends (G69), which ends a cut. The points of the moves are in the program's frame
-    /// all the same.
+    /// A tilted plane begins (G68.2) or ends (G69), which ends a cut. The points of the moves are in the program's
+    /// frame all the same.
     TiltedPlane {
         /// Whether it is on.
         on: bool,

@@ -87,7 +87,8 @@ pub enum RotarySense {
     Table,
 }
 
-/// How a program is read.
+/// How a program is read. Its serialised form, which is part of the ids of programs, is what a client can choose: it
+/// leaves out the limit.
 ///
 /// ```
 /// use verne_program::{ReadOptions, Units};
@@ -119,6 +120,7 @@ pub struct ReadOptions {
     /// G-code: the sense of the words A, B and C.
     pub rotary_sense: RotarySense,
     /// The most moves that a program may have. A move takes 72 bytes of memory, an arc 56 more.
+    #[serde(skip)]
     pub most_moves: usize,
 }
 

@@ -52,6 +52,19 @@ impl Reader {
         self.lines.push(chunk, self.format.as_mut())
     }
 
+    /// About the bytes of memory that the program takes so far.
+    ///
+    /// ```
+    /// use verne_program::{Format, ReadOptions, Reader};
+    ///
+    /// let mut reader = Reader::new(Format::Csv, &ReadOptions::default());
+    /// let _ = reader.push(b"x,y,z\n1,2,3\n");
+    /// assert_eq!(reader.memory(), 72);
+    /// ```
+    pub fn memory(&mut self) -> usize {
+        self.format.builder().memory()
+    }
+
     /// The program, after its last byte.
     ///
     /// # Errors

@@ -6,6 +6,9 @@
 //!   into answers.
 //! - Workspaces: [`workspace_question`], [`family_question`] and [`dexterity_question`] check requests; [`workspace`]
 //!   and [`dexterity_map`] compute answers; [`mesh_files`], [`slice`] and [`drawing`] write files.
+//! - Programs: a client's file is read while it arrives and kept in the result store ([`programs`]).
+//! - Tool paths: [`toolpath_question`] checks requests; [`program_motions`] are what the planner reads; [`toolpath`]
+//!   plans, [`toolpath_rows`] and [`toolpath_report`] are what it leaves.
 //! - Jobs: a [`question`] is submitted as text ([`question_text`]); [`job_executor`] answers it, large ones in
 //!   [`subtask`]s, and stores the [`results`].
 //!
@@ -32,6 +35,8 @@ pub(crate) mod machine_registry;
 pub(crate) mod mesh_files;
 pub(crate) mod nearest;
 pub(crate) mod observers;
+pub(crate) mod program_motions;
+pub(crate) mod programs;
 pub(crate) mod question;
 pub(crate) mod question_cache;
 pub(crate) mod question_text;
@@ -42,6 +47,13 @@ pub(crate) mod solutions;
 pub(crate) mod solver_errors;
 pub(crate) mod subtask;
 pub(crate) mod table_angles;
+pub(crate) mod toolpath;
+pub(crate) mod toolpath_cost;
+pub(crate) mod toolpath_job;
+pub(crate) mod toolpath_question;
+pub(crate) mod toolpath_report;
+pub(crate) mod toolpath_request;
+pub(crate) mod toolpath_rows;
 pub(crate) mod workspace;
 pub(crate) mod workspace_colours;
 pub(crate) mod workspace_question;

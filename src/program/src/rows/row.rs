@@ -3,6 +3,7 @@
 use std::fmt;
 
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::moves::MoveKind;
 
@@ -18,6 +19,7 @@ use crate::moves::MoveKind;
 /// assert_eq!(row.orientation, RowOrientation::Rotary([20.0, 45.0]));
 /// let row: Row = serde_json::from_str("[1, 2, 3, 0, 0, 1]")?;
 /// assert_eq!((row.tip, row.feed), ([1.0, 2.0, 3.0], None));
+/// assert_eq!(serde_json::to_string(&row)?, "[1.0,2.0,3.0,0.0,0.0,1.0]");
 /// # Ok::<(), serde_json::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +87,34 @@ impl Named {
 impl<'de> Deserialize<'de> for Row {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(RowVisitor)
+    }
+}
+
+/// The shortest form: an array unless the row has a feed, is a rapid, or states its line.
+impl Serialize for Row {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (names, words): (&[&str], &[f64]) = match &self.orientation {
+            RowOrientation::None => (&[], &[]),
+            RowOrientation::Vector(axis) => (&["i", "j", "k"], axis),
+            RowOrientation::Rotary(words) => (&["phi1", "phi2"], words),
+        };
+        if self.feed.is_none() && self.kind == MoveKind::Feed && self.line.is_none() {
+            return serializer.collect_seq(self.tip.iter().chain(words));
+        }
+        let mut map = serializer.serialize_map(None)?;
+        for (name, value) in ["x", "y", "z"].iter().chain(names).zip(self.tip.iter().chain(words)) {
+            map.serialize_entry(name, value)?;
+        }
+        if let Some(feed) = self.feed {
+            map.serialize_entry("feed", &feed)?;
+        }
+        if self.kind != MoveKind::Feed {
+            map.serialize_entry("kind", &self.kind)?;
+        }
+        if let Some(line) = self.line {
+            map.serialize_entry("line", &line)?;
+        }
+        map.end()
     }
 }
 

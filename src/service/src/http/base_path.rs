@@ -10,7 +10,6 @@ use axum::routing::get;
 use tower::ServiceBuilder;
 
 use crate::http::proxy::BasePath;
-use crate::wire::result_id::ResultId;
 
 /// Adds a redirect from the base path to the page below it. Without the slash at its end the page would look for its
 /// files beside the base path.
@@ -39,15 +38,15 @@ pub(crate) fn nest(routes: Router, base: &BasePath) -> Router {
     )
 }
 
-/// A summary with links that begin with the base path; `None` without one. All links are below the id, which occurs
-/// nowhere else.
-pub(crate) fn summary_below(base: &BasePath, summary: &[u8], id: ResultId) -> Option<Vec<u8>> {
+/// A summary with links that begin with the base path; `None` without one. All links are below the path of the
+/// result, which occurs nowhere else.
+pub(crate) fn summary_below(base: &BasePath, summary: &[u8], path: &str) -> Option<Vec<u8>> {
     if base.as_str().is_empty() {
         return None;
     }
-    let link = format!("\"{}", id.path());
+    let link = format!("\"{path}");
     let text = std::str::from_utf8(summary).ok()?;
-    Some(text.replace(&link, &format!("\"{base}{}", id.path())).into_bytes())
+    Some(text.replace(&link, &format!("\"{base}{path}")).into_bytes())
 }
 
 fn remove_from_uri(base: &BasePath, mut request: Request) -> Request {

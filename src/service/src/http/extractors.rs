@@ -1,5 +1,6 @@
 //! Extracts path parameters, query strings and bodies from requests. Each failure is an [`HttpError`].
 
+use axum::BoxError;
 use axum::body::{Body, Bytes, HttpBody};
 use axum::extract::{FromRequest, FromRequestParts, Path, Request};
 use axum::http::request::Parts;
@@ -76,17 +77,29 @@ pub(crate) struct BatchBody {
 }
 
 impl BatchBody {
+    /// Reads the body on the worker threads.
+    pub(crate) async fn read<T: Send + 'static>(
+        self,
+        read: impl FnOnce(&[u8]) -> Result<T, OperationError> + Send + 'static,
+    ) -> Result<T, HttpError> {
+        let Self { body, coding, limit, mut memory, permit } = self;
+        run_on_pool(move |_| {
+            let body = decoded(body, coding, limit, &mut memory)?;
+            let outcome = read(&body);
+            drop((body, memory, permit));
+            Ok(outcome?)
+        })
+        .await
+    }
+
     /// Computes the answer on the worker threads. The batch keeps its permit until the answer is sent or dropped.
     pub(crate) async fn answer(
         self,
         compute: impl FnOnce(&[u8], &dyn Observer) -> Result<Vec<u8>, OperationError> + Send + 'static,
     ) -> Result<Bytes, HttpError> {
-        let Self { mut body, coding, limit, mut memory, permit } = self;
+        let Self { body, coding, limit, mut memory, permit } = self;
         run_on_pool(move |observer| {
-            if let Some(coding) = coding {
-                let sent = body.len();
-                body = coding.decode(&body, limit, |decoded| memory.grow_to(sent + decoded))?;
-            }
+            let body = decoded(body, coding, limit, &mut memory)?;
             let answer = compute(&body, observer);
             drop((body, memory));
             Ok(bytes_with_permit(answer?, permit))
@@ -109,15 +122,33 @@ impl FromRequest<SharedState> for BatchBody {
     }
 }
 
+/// The decoded body of a batch.
+fn decoded(
+    body: Vec<u8>,
+    coding: Option<Coding>,
+    limit: usize,
+    memory: &mut BodyMemory,
+) -> Result<Vec<u8>, HttpError> {
+    let Some(coding) = coding else { return Ok(body) };
+    let sent = body.len();
+    coding.decode(&body, limit, |decoded| memory.grow_to(sent + decoded))
+}
+
 /// The content coding of a JSON body. Fails for other media types.
 fn coding_of_json(headers: &HeaderMap) -> Result<Option<Coding>, RequestError> {
     let Some(declared) = headers.get(header::CONTENT_TYPE) else { return Err(RequestError::NotJson(None)) };
     let declared = declared.to_str().unwrap_or_default();
-    let essence = declared.split(';').next().unwrap_or_default().trim().to_ascii_lowercase();
-    if essence == "application/json" || (essence.starts_with("application/") && essence.ends_with("+json")) {
-        return Coding::of(headers);
+    if is_json(declared) {
+        Coding::of(headers)
+    } else {
+        Err(RequestError::NotJson(Some(declared.to_owned())))
     }
-    Err(RequestError::NotJson(Some(declared.to_owned())))
+}
+
+/// Whether a media type is that of JSON.
+pub(crate) fn is_json(media_type: &str) -> bool {
+    let essence = media_type.split(';').next().unwrap_or_default().trim().to_ascii_lowercase();
+    essence == "application/json" || (essence.starts_with("application/") && essence.ends_with("+json"))
 }
 
 /// Reads a body of at most `limit` bytes. Calls `reserve` with the new length before the body grows.
@@ -134,18 +165,21 @@ async fn read(
     let mut body = Limited::new(body, limit);
     let mut bytes = Vec::new();
     while let Some(frame) = body.frame().await {
-        let frame = frame.map_err(|error| {
-            let is_too_large = error.is::<LengthLimitError>();
-            if is_too_large {
-                RequestError::BodyTooLarge(limit)
-            } else {
-                RequestError::UnreadableBody(error.to_string())
-            }
-        })?;
+        let frame = frame.map_err(|error| unreadable(&error, limit))?;
         if let Ok(data) = frame.into_data() {
             reserve(bytes.len() + data.len())?;
             bytes.extend_from_slice(&data);
         }
     }
     Ok(bytes)
+}
+
+/// Why a body of at most `limit` bytes cannot be read.
+pub(crate) fn unreadable(error: &BoxError, limit: usize) -> RequestError {
+    let is_too_large = error.is::<LengthLimitError>();
+    if is_too_large {
+        RequestError::BodyTooLarge(limit)
+    } else {
+        RequestError::UnreadableBody(error.to_string())
+    }
 }

@@ -5,6 +5,8 @@ pub(crate) mod dexterity;
 pub(crate) mod jobs;
 pub(crate) mod kinematics;
 pub(crate) mod machines;
+pub(crate) mod programs;
 pub(crate) mod results;
 pub(crate) mod service;
+pub(crate) mod toolpath;
 pub(crate) mod workspace;

@@ -15,7 +15,7 @@ use verne_jobs::{Failure, Job, JobId, State};
 use crate::http::error::{HttpError, JobError};
 use crate::http::problem::Problem;
 use crate::http::proxy::BasePath;
-use crate::operations::question_text::QuestionHeader;
+use crate::operations::question_text::{QuestionHeader, QuestionKind};
 use crate::wire::answer::MachineId;
 use crate::wire::error::OperationError;
 use crate::wire::result_id::ResultId;
@@ -26,6 +26,8 @@ use crate::wire::result_id::ResultId;
 pub(crate) struct JobObject {
     /// The id of the result. Equal requests share one job.
     pub id: String,
+    /// The kind of result that the job computes.
+    pub kind: QuestionKind,
     /// State of the job.
     #[schema(value_type = StateName)]
     pub state: &'static str,
@@ -101,6 +103,7 @@ impl JobObject {
         let itself = format!("{base}{}", Self::path(job.id));
         Ok(Self {
             id: job.id.to_string(),
+            kind: header.kind,
             state: job.state.name(),
             progress: job.progress,
             request: header.request.to_owned(),
@@ -109,7 +112,7 @@ impl JobObject {
             started: job.started.map(time),
             finished: job.finished.map(time),
             result: (job.state == State::Succeeded)
-                .then(|| format!("{base}{}", ResultId::from(job.id).path())),
+                .then(|| format!("{base}{}", header.kind.path(ResultId::from(job.id)))),
             error: (job.state == State::Failed).then(|| Problem::from(failure(job))),
             links: JobLinks { events: format!("{itself}/events"), itself },
         })

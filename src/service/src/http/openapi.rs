@@ -46,12 +46,15 @@ use crate::wire::workspace_summary::WorkspaceSummary;
             **Bodies** may have `Content-Encoding: gzip` or `br`; limits apply to the decoded bytes. The service \
             rejects unknown and repeated fields.\n\n\
             **Errors** are `application/problem+json` (RFC 9457) with a stable `code`. `errors` lists the invalid \
-            fields, each with a JSON Pointer into the body, or `/query/<name>`."
+            fields, each with a JSON Pointer into the body, or `/query/<name>`; for `program_fault` it lists the \
+            faults of the program, each with line, column and word."
     ),
     servers((url = "/", description = "This service.")),
     tags(
         (name = "kinematics", description = "Forward and inverse kinematics."),
         (name = "workspace", description = "Positions that the machine can reach."),
+        (name = "programs", description = "Files of tool paths."),
+        (name = "toolpath", description = "Joint motion of programs."),
         (name = "jobs", description = "Computations that take longer than a request."),
         (name = "machines", description = "Published machines."),
         (name = "service", description = "State and description of the service.")

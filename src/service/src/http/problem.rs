@@ -14,6 +14,7 @@ use crate::http::error::{AccessError, HttpError, JobError, RequestError};
 use crate::http::problem::code::Code;
 use crate::limits::error::LimitError;
 use crate::wire::error::{FieldError, OperationError};
+use crate::wire::program::ProgramFault;
 
 /// Retry-After of a service that may be restarting, in seconds.
 const RESTART_SECONDS: u64 = 5;
@@ -36,9 +37,19 @@ pub(crate) struct Problem {
     code: &'static str,
     /// Description of the problem, for people.
     detail: String,
-    /// The invalid fields.
+    /// The invalid fields, or the faults of the program.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    errors: Vec<FieldError>,
+    errors: Vec<ErrorEntry>,
+}
+
+/// An entry of `errors`.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(untagged)]
+pub(crate) enum ErrorEntry {
+    /// An invalid field.
+    Field(FieldError),
+    /// A fault of a program.
+    Program(ProgramFault),
 }
 
 /// The error of a bare status that axum or tower returned.
@@ -60,7 +71,12 @@ impl From<HttpError> for Problem {
         let title = status.canonical_reason().unwrap_or("Error").to_owned();
         let detail = error.to_string();
         let errors = match error {
-            HttpError::Operation(OperationError::Fields(errors)) => errors,
+            HttpError::Operation(OperationError::Fields(errors)) => {
+                errors.into_iter().map(ErrorEntry::Field).collect()
+            }
+            HttpError::Operation(OperationError::ProgramFaults(refused)) => {
+                refused.errors.into_iter().map(|fault| ErrorEntry::Program(fault.into())).collect()
+            }
             _ => Vec::new(),
         };
         Self { kind: "about:blank", title, status: status.as_u16(), code: code.name(), detail, errors }

@@ -22,8 +22,9 @@ use crate::wire::result_id::ResultId;
 
 /// The summary of a record.
 pub(crate) fn summary(state: &AppState, record: Record) -> Representation {
-    let below = summary_below(&state.base, &record.summary.bytes, record.id);
-    Representation::json(below.map_or(record.summary, hashed), record.id.path())
+    let path = record.kind.path(record.id);
+    let below = summary_below(&state.base, &record.summary.bytes, &path);
+    Representation::json(below.map_or(record.summary, hashed), path)
 }
 
 /// The summary that answers a question, or the job that computes it.
@@ -53,6 +54,7 @@ impl Surface {
                 let detail = "is allowed only for dexterity maps: a workspace has one mesh";
                 return Err(HttpError::field("/query/set", detail));
             }
+            (QuestionKind::Toolpath, _) => return Err(LookupError::Result(id.to_string()).into()),
             (QuestionKind::Family | QuestionKind::Subtask, _) => {
                 return Err(LookupError::Mesh(id.to_string()).into());
             }
@@ -143,7 +145,7 @@ fn description(question: &Question, set: Option<SetName>) -> Result<MeshDescript
     match question {
         Question::Workspace(workspace) => Ok(MeshDescription::of_workspace(workspace)),
         Question::Dexterity(map) => Ok(MeshDescription::of_set(map, set.unwrap_or(SetName::Reachable))),
-        Question::Family(_) | Question::Subtask(_) => Err(OperationError::Internal),
+        Question::Family(_) | Question::Toolpath(_) | Question::Subtask(_) => Err(OperationError::Internal),
     }
 }
 

@@ -15,7 +15,9 @@ use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouter};
 use utoipa_axum::routes;
 
 use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
-use crate::http::handlers::{batch, dexterity, jobs, kinematics, machines, results, service, workspace};
+use crate::http::handlers::{
+    batch, dexterity, jobs, kinematics, machines, programs, results, service, toolpath, workspace,
+};
 use crate::http::openapi::{self, Document, problem_responses, security};
 use crate::http::state::SharedState;
 use crate::http::unknown_parameters::reject_unknown;
@@ -30,7 +32,7 @@ pub fn document() -> Value {
 }
 
 /// Each route with its access.
-fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 22] {
+fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 27] {
     [
         (Key(Read, Fast), routes!(kinematics::get_fk, kinematics::post_fk)),
         (Key(Read, Fast), routes!(kinematics::get_ik, kinematics::post_ik)),
@@ -43,6 +45,11 @@ fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 22] {
         (Key(Read, Other), routes!(results::get_mesh)),
         (Key(Read, Other), routes!(results::get_slice)),
         (Key(Read, Other), routes!(dexterity::get_cells)),
+        (Key(Compute, Other), routes!(programs::post_program)),
+        (Key(Read, Other), routes!(programs::get_program)),
+        (Key(Read, Other), routes!(programs::get_source)),
+        (Key(Compute, Other), routes!(toolpath::post_toolpath)),
+        (Key(Read, Other), routes!(toolpath::get_report)),
         (Key(Read, Other), routes!(jobs::get_jobs)),
         (Key(Read, Other), routes!(jobs::get_job)),
         (Key(Compute, Other), routes!(jobs::delete_job)),

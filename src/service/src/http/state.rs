@@ -20,6 +20,8 @@ use crate::telemetry::metrics::Metrics;
 pub(crate) struct RequestLimits {
     /// Most bytes in the body of a batch.
     pub body_bytes: usize,
+    /// Most bytes of a program.
+    pub program_bytes: usize,
     /// Most rows in a batch.
     pub rows: usize,
     /// Most triangles of a mesh.

@@ -27,6 +27,9 @@ const BATCHES: usize = 32;
 /// hundred megabytes for the largest.
 const MESHES: usize = 2;
 
+/// Memory that one program may take while it is received: the most of one client. A larger one counts as this.
+const PROGRAM_BYTES: usize = 512 * 1024 * 1024;
+
 /// Most requests that wait for their jobs at once. Each takes some sixty kilobytes, mostly for its connection. A
 /// request beyond the limit does not wait: its response is 202.
 const WAITING: usize = 16_384;
@@ -64,6 +67,8 @@ pub(crate) struct Admission {
     pub(super) meshes: Arc<Quota>,
     /// Encodings of meshes that run.
     running_meshes: Arc<Quota>,
+    /// Memory of programs that are received.
+    pub(super) programs: Arc<Quota>,
     pub(super) waiting: Arc<Quota>,
     /// Streams of events.
     pub streams: Arc<Quota>,
@@ -83,6 +88,7 @@ impl Admission {
             batches: Quota::new(batches),
             meshes: Quota::new(batches),
             running_meshes: Quota::new(MESHES),
+            programs: Quota::new(2 * pages(PROGRAM_BYTES as u64)),
             waiting: Quota::new(WAITING),
             streams: Quota::new(STREAMS),
             responses: Quota::new(RESPONSE_PAGES),
@@ -109,6 +115,11 @@ impl Admission {
     /// The memory of a body, before any of it is read.
     pub(crate) fn body(&self, client: Option<&str>) -> Result<BodyMemory, LimitError> {
         self.bodies.take(client).map(BodyMemory)
+    }
+
+    /// The memory of a program that is received, before any of it is read.
+    pub(crate) fn program(&self, client: Option<&str>) -> Result<ProgramMemory, LimitError> {
+        self.programs.take(client).map(|permit| ProgramMemory(BodyMemory(permit)))
     }
 
     /// A permit to encode a mesh. Waits for it, in order.
@@ -149,6 +160,17 @@ impl BodyMemory {
             None | Some(0) => Ok(()),
             Some(more) => self.0.grow(more),
         }
+    }
+}
+
+/// The counted memory of a program.
+#[derive(Debug)]
+pub(crate) struct ProgramMemory(BodyMemory);
+
+impl ProgramMemory {
+    /// Counts the memory of a program that grows to this many bytes.
+    pub(crate) fn grow_to(&mut self, bytes: usize) -> Result<(), LimitError> {
+        self.0.grow_to(bytes.min(PROGRAM_BYTES))
     }
 }
 

@@ -29,8 +29,8 @@ impl Admission {
     }
 
     /// The use of memory, in bytes.
-    pub(crate) fn memory(&self) -> [Usage; 2] {
-        [("bodies", &self.bodies), ("answers", &self.responses)]
+    pub(crate) fn memory(&self) -> [Usage; 3] {
+        [("bodies", &self.bodies), ("programs", &self.programs), ("answers", &self.responses)]
             .map(|(of, quota)| usage(of, quota, PAGE_BYTES))
     }
 }

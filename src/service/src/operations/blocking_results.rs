@@ -22,6 +22,11 @@ impl BlockingResults {
         self.runtime.block_on(self.results.blob(id, name)).map(|content| content.bytes)
     }
 
+    /// Whether the store has a blob of a result.
+    pub(crate) fn has_blob(&self, id: ResultId, name: &str) -> bool {
+        self.runtime.block_on(self.results.find_blob(id, name)).is_some()
+    }
+
     /// See [`Results::put_blob`].
     pub(crate) fn put_blob(&self, id: ResultId, name: &str, bytes: Vec<u8>) -> Result<Bytes, OperationError> {
         self.runtime.block_on(self.results.put_blob(id, name, bytes)).map(|content| content.bytes)
@@ -40,6 +45,6 @@ impl BlockingResults {
     /// The record of a result if the store has it with these blobs.
     pub(crate) fn complete_record(&self, id: ResultId, blobs: &[&str]) -> Option<Record> {
         let record = self.runtime.block_on(self.results.record(id))?;
-        blobs.iter().all(|name| self.blob(id, name).is_some()).then_some(record)
+        blobs.iter().all(|name| self.has_blob(id, name)).then_some(record)
     }
 }

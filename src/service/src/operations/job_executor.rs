@@ -21,6 +21,7 @@ use crate::operations::question::Question;
 use crate::operations::question_text::JobParameters;
 use crate::operations::results::{CELLS, MESH, Results, pack_mesh};
 use crate::operations::subtask::{Subtask, SubtaskRequest};
+use crate::operations::toolpath_job::answer_toolpath;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::telemetry::metrics::computations::ComputationMetrics;
@@ -60,6 +61,7 @@ impl JobExecutor {
             Question::Workspace(workspace) => self.workspace(workspace, parameters, observer).map(drop),
             Question::Family(family) => self.family(question, family, parameters, observer),
             Question::Dexterity(map) => self.dexterity(question, map, parameters, observer),
+            Question::Toolpath(path) => answer_toolpath(&self.store, path, &self.computations, observer),
             Question::Subtask(subtask) => self.subtask(subtask, parameters, observer).map(drop),
         }
     }
@@ -178,7 +180,7 @@ impl JobExecutor {
     /// The subtasks from which a question's answer is merged; none if the answer is stored.
     fn subtasks(&self, question: &Question) -> Vec<Subtask> {
         let (subtasks, blobs): (_, &[&str]) = match question {
-            Question::Workspace(_) | Question::Subtask(_) => return Vec::new(),
+            Question::Workspace(_) | Question::Toolpath(_) | Question::Subtask(_) => return Vec::new(),
             Question::Family(family) => (Subtask::of_family(family), &[]),
             Question::Dexterity(map) => (Subtask::of_map(map), &MAP),
         };

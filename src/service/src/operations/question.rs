@@ -1,4 +1,4 @@
-//! A question that a job answers: a workspace, a family of workspaces, a dexterity map, or a subtask of these.
+//! A question that a job answers: a workspace, a family of workspaces, a dexterity map, a tool path, or a subtask.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -11,6 +11,7 @@ use crate::operations::family_question::FamilyQuestion;
 use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::question_text::{CanonicalRequest, JobParameters, QuestionKind, QuestionText};
 use crate::operations::subtask::Subtask;
+use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::workspace_question::{WorkspaceQuestion, check_triangles, workspace_cost};
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
@@ -29,6 +30,8 @@ pub(crate) enum Question {
     Family(FamilyQuestion),
     /// A dexterity map.
     Dexterity(DexterityQuestion),
+    /// A tool path.
+    Toolpath(ToolpathQuestion),
     /// A subtask of a family or of a dexterity map.
     Subtask(Subtask),
 }
@@ -40,6 +43,7 @@ impl Question {
             Self::Workspace(question) => question.id,
             Self::Family(question) => question.id,
             Self::Dexterity(question) => question.id,
+            Self::Toolpath(question) => question.id,
             Self::Subtask(subtask) => subtask.id(),
         }
     }
@@ -50,6 +54,7 @@ impl Question {
             Self::Workspace(_) => QuestionKind::Workspace,
             Self::Family(_) => QuestionKind::Family,
             Self::Dexterity(_) => QuestionKind::Dexterity,
+            Self::Toolpath(_) => QuestionKind::Toolpath,
             Self::Subtask(_) => QuestionKind::Subtask,
         }
     }
@@ -65,6 +70,7 @@ impl Question {
             Self::Workspace(question) => (question.triangles(observer)?, 1),
             Self::Family(family) => (family.triangles(observer)?, family.count()),
             Self::Dexterity(question) => return Ok(question.cost()),
+            Self::Toolpath(question) => return Ok(question.cost),
             Self::Subtask(_) => return Err(OperationError::Internal),
         };
         check_triangles(triangles, max_triangles)?;
@@ -77,11 +83,16 @@ impl Question {
             Self::Workspace(question) => (&question.machine, CanonicalRequest::Workspace(question.request)),
             Self::Family(family) => (&family.machine, CanonicalRequest::Family(family.request.clone())),
             Self::Dexterity(map) => (&map.machine, CanonicalRequest::Dexterity(map.request)),
+            Self::Toolpath(path) => (&path.machine, CanonicalRequest::Toolpath(path.request.clone())),
             Self::Subtask(subtask) => (&subtask.machine, CanonicalRequest::Subtask(subtask.request)),
         };
         let hash = Arc::clone(&machine.id.hash);
         let machine = MachineObject::from(machine.data());
-        write_json(&QuestionText { request, machine, hash, parameters }, TEXT_BYTES)
+        let cost = match self {
+            Self::Toolpath(question) => Some(question.cost),
+            _ => None,
+        };
+        write_json(&QuestionText { request, machine, hash, cost, parameters }, TEXT_BYTES)
     }
 
     /// Reads a question from its text, and prepares its machine.
@@ -98,6 +109,9 @@ impl Question {
             CanonicalRequest::Workspace(request) => Self::Workspace(WorkspaceQuestion::of(machine, request)),
             CanonicalRequest::Family(request) => Self::Family(FamilyQuestion::of(machine, request)),
             CanonicalRequest::Dexterity(request) => Self::Dexterity(DexterityQuestion::of(machine, request)),
+            CanonicalRequest::Toolpath(request) => {
+                Self::Toolpath(ToolpathQuestion::of(machine, request, text.cost.unwrap_or_default()))
+            }
             CanonicalRequest::Subtask(request) => Self::Subtask(Subtask { machine, request }),
         };
         if question.id() == id { Ok(question) } else { Err(OperationError::OtherVersion) }

@@ -5,18 +5,22 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
+use utoipa::ToSchema;
 
 use crate::operations::subtask::SubtaskRequest;
 use crate::wire::answer::MachineId;
+use crate::wire::canonical_toolpath::CanonicalToolpath;
 use crate::wire::dexterity::CanonicalDexterity;
 use crate::wire::error::OperationError;
 use crate::wire::family::CanonicalFamily;
 use crate::wire::format::MeshFormat;
 use crate::wire::machine::MachineObject;
+use crate::wire::result_id::ResultId;
 use crate::wire::workspace::CanonicalWorkspace;
 
-/// The kinds of questions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// The kind of a result: `workspace`; `family`, a table of workspaces; `dexterity`, a map; `toolpath`; `subtask`, a
+/// part of a family or of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum QuestionKind {
     /// One workspace.
@@ -25,17 +29,28 @@ pub(crate) enum QuestionKind {
     Family,
     /// A dexterity map.
     Dexterity,
+    /// A tool path.
+    Toolpath,
     /// A subtask of a family or of a dexterity map.
     Subtask,
 }
 
 impl QuestionKind {
-    /// The name in logs and metrics.
+    /// The path of a result of this kind.
+    pub(crate) fn path(self, id: ResultId) -> String {
+        match self {
+            Self::Workspace | Self::Family | Self::Dexterity | Self::Subtask => id.path(),
+            Self::Toolpath => id.toolpath(),
+        }
+    }
+
+    /// The name in job documents, logs and metrics.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Workspace => "workspace",
             Self::Family => "family",
             Self::Dexterity => "dexterity",
+            Self::Toolpath => "toolpath",
             Self::Subtask => "subtask",
         }
     }
@@ -75,6 +90,10 @@ pub(crate) struct QuestionText {
     pub machine: MachineObject,
     /// The hash of the machine.
     pub hash: Arc<str>,
+    /// The estimated work of a tool path, seconds of one core. It depends on the program, which the text does not
+    /// contain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cost: Option<f64>,
     /// The parameters of the job, in its payload.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parameters: Option<JobParameters>,
@@ -87,6 +106,7 @@ pub(crate) enum CanonicalRequest {
     Workspace(CanonicalWorkspace),
     Family(CanonicalFamily),
     Dexterity(CanonicalDexterity),
+    Toolpath(CanonicalToolpath),
     Subtask(SubtaskRequest),
 }
 

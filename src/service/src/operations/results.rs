@@ -117,7 +117,7 @@ impl Results {
         &self,
         id: ResultId,
         name: &str,
-        bytes: Vec<u8>,
+        bytes: impl Into<Bytes>,
     ) -> Result<Content, OperationError> {
         match self.store.put(&id.key(name), bytes.into()).await {
             (_, Durability::MemoryOnly) if self.are_shared() => Err(OperationError::StoreUnavailable),

@@ -95,6 +95,10 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_MAX_BODY_BYTES", default_value_t = 16 * 1024 * 1024,
         value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_body_bytes: usize,
+    /// Maximum size of a program (the file of a tool path), in bytes. Of a compressed body the decoded bytes count.
+    #[arg(long, env = "VERNE_MAX_PROGRAM_BYTES", default_value_t = 128 * 1024 * 1024,
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
+    pub max_program_bytes: usize,
     /// Maximum number of rows in a batch.
     #[arg(long, env = "VERNE_MAX_ROWS", default_value_t = 100_000,
         value_parser = RangedU64ValueParser::<usize>::new().range(1..=MOST_ROWS as u64))]
@@ -176,6 +180,7 @@ impl ServeConfig {
         let longest_wait = Duration::from_secs(self.timeout.saturating_sub(1));
         RequestLimits {
             body_bytes: self.max_body_bytes,
+            program_bytes: self.max_program_bytes,
             rows: self.max_rows,
             triangles: self.max_triangles,
             wait: Duration::from_secs(self.wait).min(longest_wait),

@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use utoipa::ToSchema;
+use verne_program::ProgramErrors;
 
 /// One invalid field.
 #[derive(Clone, Debug, PartialEq, Eq, Error, Serialize, Deserialize, ToSchema)]
@@ -49,6 +50,16 @@ pub(crate) enum OperationError {
     Fields(Vec<FieldError>),
     #[error("The batch has {rows} rows; the limit is {limit}.")]
     TooManyRows { rows: usize, limit: usize },
+    /// The program has faults: the reader, or those who fit it to the machine, refuse these lines.
+    #[error("{}", faults(.0))]
+    ProgramFaults(ProgramErrors),
+    #[error(
+        "The service has no program with the id {0:?}, or has evicted it. Send the program to POST /programs again; \
+         the id stays the same."
+    )]
+    ProgramNotFound(String),
+    #[error("The program is larger than the whole storage for results. Split it into several programs.")]
+    ProgramTooLarge,
     #[error("The computation was cancelled.")]
     Cancelled,
     #[error("Another version created the job. Repeat the request for a new id.")]
@@ -58,6 +69,17 @@ pub(crate) enum OperationError {
     /// A defect of the service.
     #[error("The service has a defect; its log states this x-request-id.")]
     Internal,
+}
+
+fn faults(refused: &ProgramErrors) -> String {
+    let end = if refused.complete { "" } else { " The reader stopped at the last of them." };
+    match refused.errors.as_slice() {
+        [] => "The program has faults.".to_owned(),
+        [only] => format!("The program has a fault: {only}.{end}"),
+        [first, rest @ ..] => {
+            format!("The program has faults: {first}; `errors` lists {} more.{end}", rest.len())
+        }
+    }
 }
 
 fn fields(errors: &[FieldError]) -> String {

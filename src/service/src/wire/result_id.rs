@@ -3,7 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use serde::{Serialize, Serializer};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use verne_jobs::{JobId, ParseJobIdError};
 use verne_store::Key;
 
@@ -48,9 +49,24 @@ impl ResultId {
         hasher.finalize().into()
     }
 
-    /// The path of the result.
+    /// The id of the answer to a question that is given as text: as for [`ResultId::of`].
+    pub(crate) fn of_text(prefix: &[u8], machine: &MachineId, description: &str, question: &[u8]) -> Self {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(prefix).update(env!("CARGO_PKG_VERSION").as_bytes());
+        for text in [question, machine.hash.as_bytes(), machine.name.as_bytes(), description.as_bytes()] {
+            hasher.update(blake3::hash(text).as_bytes());
+        }
+        hasher.finalize().into()
+    }
+
+    /// The path of a workspace, a family or a dexterity map.
     pub(crate) fn path(self) -> String {
         format!("/workspace/{self}")
+    }
+
+    /// The path of a tool path.
+    pub(crate) fn toolpath(self) -> String {
+        format!("/toolpath/{self}")
     }
 }
 
@@ -83,5 +99,12 @@ impl fmt::Display for ResultId {
 impl Serialize for ResultId {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(&self.0)
+    }
+}
+
+impl<'de> Deserialize<'de> for ResultId {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = std::borrow::Cow::<'de, str>::deserialize(deserializer)?;
+        text.parse().map_err(|_| D::Error::custom("must be the 64 hexadecimal digits of an id"))
     }
 }

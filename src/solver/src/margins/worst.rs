@@ -7,8 +7,7 @@ use crate::machine::Machine;
 use crate::pose::TableAngles;
 
 /// The rod that represents each family.
-const FAMILY_ROD: [Element; 4] =
-    [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
+const FAMILY_ROD: [Element; 4] = [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
 
 /// The least number and its index.
 #[inline]

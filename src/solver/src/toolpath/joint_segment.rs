@@ -172,13 +172,13 @@ impl<'a> JointSegment<'a> {
         across_path(off, path, tolerance, [f64::NEG_INFINITY, f64::INFINITY])
     }
 
-    /// The worst margin along the segment as a fraction of its constraint's range.
-    pub(super) fn worst(&self, setting: &Setting<'_>, tool_length: f64) -> Option<Margins> {
+    /// The place of the worst margin along the segment, as a fraction of its constraint's range, and the margins there.
+    pub(super) fn worst(&self, setting: &Setting<'_>, tool_length: f64) -> Option<(Node, Margins)> {
         let margins = self.places(setting.machine).flatten().map(|(_, node)| {
             let margins = setting.margins(&node, tool_length);
-            (margins.worst_with_fraction(setting.machine).1, margins)
+            (margins.worst_with_fraction(setting.machine).1, (node, margins))
         });
-        margins.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, margins)| margins)
+        margins.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, worst)| worst)
     }
 }
 

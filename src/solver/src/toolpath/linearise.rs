@@ -3,7 +3,7 @@
 use super::bound::{InverseBound, second_derivatives};
 use super::joint_segment::{Deviation, JointSegment, Stop, Surroundings, Track};
 use super::motion::ToolPosition;
-use super::node::Node;
+use super::node::{Node, Target};
 use crate::error::KinematicsError;
 use crate::machine::Machine;
 
@@ -64,11 +64,8 @@ pub(super) fn linearise(
         let rest = end.s - now.s;
         let count = (rest * (curvature / AIM).sqrt() - ROUNDING).ceil().max(1.0);
         let width = rest / count;
-        let (next, there) = if count == 1.0 {
-            (*end, surroundings(end))
-        } else {
-            stop_at(track, now.s + width, &now.node)?
-        };
+        let (next, there) =
+            if count == 1.0 { (*end, surroundings(end)) } else { stop_at(track, now.s + width, &now.node)? };
         let segment = here.as_ref().zip(there.as_ref()).and_then(|(here, there)| {
             let differentials = [&here.differential, &there.differential];
             let segment = JointSegment::new(machine, [&now.node, &next.node], differentials)?;
@@ -115,11 +112,7 @@ fn bounded(
     Some(Deviation { tip: 0.125 * (joints.tip + tip), axis: off + 0.125 * (joints.axis + axis) })
 }
 
-fn stop_at(
-    track: &Track<'_>,
-    s: f64,
-    before: &Node,
-) -> Result<(Stop, Option<Surroundings>), LineariseError> {
+fn stop_at(track: &Track<'_>, s: f64, before: &Node) -> Result<(Stop, Option<Surroundings>), LineariseError> {
     let ([tip, axis], rates) = track.path.with_rates(s);
     let at = ToolPosition { tip: tip.into(), axis: axis.into() };
     let target = track.setting.target(&track.span, s, &at, track.h);
@@ -132,10 +125,15 @@ fn stop_at(
 impl Track<'_> {
     /// The joints at a parameter, in the working solution that continues that of another place.
     pub(super) fn node(&self, s: f64, before: Option<&Node>) -> Result<Node, KinematicsError> {
-        let target = self.setting.target(&self.span, s, &self.path.at(s), self.h);
+        let target = self.target(s);
         match before {
             Some(before) => self.setting.node_near(&target, self.tool_length, before),
             None => self.setting.node(&target, self.tool_length, None),
         }
+    }
+
+    /// The pose of the tool at a parameter.
+    pub(super) fn target(&self, s: f64) -> Target {
+        self.setting.target(&self.span, s, &self.path.at(s), self.h)
     }
 }

@@ -5,6 +5,7 @@ use super::node::Node;
 use crate::limit::{Constraint, Margin};
 use crate::machine::Machine;
 use crate::margins::Margins;
+use crate::pose::PartPose;
 
 /// Greatest number of failures that a report lists.
 pub const MOST_FAILURES: usize = 1_000;
@@ -20,8 +21,10 @@ pub struct Failure {
     pub margin: Margin,
     /// The margin as a fraction of its constraint's range.
     pub fraction: f64,
-    /// The motion with this margin, and the path parameter there.
-    pub at: (usize, f64),
+    /// Index of the motion with this margin.
+    pub motion: usize,
+    /// The pose with this margin: the inverse problem for it, with the motion's tool, reproduces the failure.
+    pub pose: PartPose,
 }
 
 /// The least margin of a constraint.
@@ -118,21 +121,21 @@ impl Report {
     }
 
     /// Notes a place outside a limit.
-    pub(super) fn fail(&mut self, motion: usize, s: f64, margin: Margin, fraction: f64) {
+    pub(super) fn fail(&mut self, motion: usize, pose: PartPose, margin: Margin, fraction: f64) {
         if let Some(last) = self.failures.last_mut()
             && last.margin.constraint == margin.constraint
             && motion <= last.motions[1] + 1
         {
             last.motions[1] = motion;
             if fraction < last.fraction {
-                (last.margin, last.fraction, last.at) = (margin, fraction, (motion, s));
+                (last.margin, last.fraction) = (margin, fraction);
+                (last.motion, last.pose) = (motion, pose);
             }
             return;
         }
         self.failure_count += 1;
         if self.failures.len() < MOST_FAILURES {
-            let at = (motion, s);
-            self.failures.push(Failure { motions: [motion; 2], margin, fraction, at });
+            self.failures.push(Failure { motions: [motion; 2], margin, fraction, motion, pose });
         }
     }
 

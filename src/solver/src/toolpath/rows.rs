@@ -15,7 +15,8 @@ use crate::error::KinematicsError;
 use crate::fast_math::angle_of;
 use crate::limit::{Constraint, Element, Margin};
 use crate::margins::Margins;
-use crate::pose::TableAngles;
+use crate::pose::{PartPose, TableAngles};
+use crate::table::part_pose;
 
 /// The purpose of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,36 +138,43 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
             match track.node(s, None) {
                 Ok(node) => {
                     let margins = self.setting.margins(&node, track.tool_length);
-                    self.meet(index, s, &margins);
+                    self.meet(index, (&node, track.tool_length), &margins);
                 }
-                Err(refusal) => self.refuse(index, s, refusal),
+                Err(refusal) => self.refuse(index, track.target(s).pose, refusal),
             }
         }
     }
 
-    pub(super) fn refuse(&mut self, index: usize, s: f64, refusal: KinematicsError) {
+    pub(super) fn refuse(&mut self, index: usize, pose: PartPose, refusal: KinematicsError) {
         let margin = match refusal {
             KinematicsError::Unreachable(margin) => margin,
-            KinematicsError::OutOfDomain | KinematicsError::OutOfProportion | KinematicsError::SelfMotion => {
+            KinematicsError::SelfMotion => Margin {
+                constraint: Constraint::ParallelSingularity,
+                element: Element::Platform,
+                value: -self.setting.machine.limits().parallel_margin,
+            },
+            KinematicsError::OutOfDomain | KinematicsError::OutOfProportion => {
                 Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value: f64::MIN }
             }
         };
-        self.report.fail(index, s, margin, margin.value);
+        self.report.fail(index, pose, margin, margin.value);
     }
 
     /// Examines the margins between the ends of a segment.
     pub(super) fn examine(&mut self, index: usize, segment: &JointSegment<'_>, tool_length: f64) {
-        if let Some(margins) = segment.worst(&self.setting, tool_length) {
-            self.meet(index, 1.0, &margins);
+        if let Some((node, margins)) = segment.worst(&self.setting, tool_length) {
+            self.meet(index, (&node, tool_length), &margins);
         }
     }
 
-    /// Notes the margins of a place; those of limits that are broken are failures. The answer is the worst margin and
-    /// its fraction of its constraint's range.
-    fn meet(&mut self, index: usize, s: f64, margins: &Margins) -> (Margin, f64) {
+    /// Notes the margins of a place, which is given by its joints and the tool's length; those of limits that are
+    /// broken are failures. The answer is the worst margin and its fraction of its constraint's range.
+    pub(super) fn meet(&mut self, index: usize, place: (&Node, f64), margins: &Margins) -> (Margin, f64) {
         let (margin, fraction) = self.least.meet(self.setting.machine, index, margins);
         if margin.value < 0.0 {
-            self.report.fail(index, s, margin, fraction);
+            let (node, tool_length) = place;
+            let pose = part_pose(self.setting.machine, &node.pose, node.table, tool_length);
+            self.report.fail(index, pose, margin, fraction);
         }
         (margin, fraction)
     }
@@ -183,12 +191,11 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         index: usize,
         kind: RowKind,
         at: &ToolPosition,
-        s: f64,
         node: &Node,
         tool_length: f64,
     ) {
         let margins = self.setting.margins(node, tool_length);
-        let (margin, fraction) = self.meet(index, s, &margins);
+        let (margin, fraction) = self.meet(index, (node, tool_length), &margins);
         let ([s1, c1], [s2, c2]) = (node.turns.inclination(), node.turns.rotary);
         // phi2 = -theta2.
         let position = ToolPosition { tip: at.tip, axis: [-s1 * s2, -s1 * c2, c1] };

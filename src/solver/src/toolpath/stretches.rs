@@ -48,7 +48,14 @@ struct Open {
 
 /// Finds the stretches of a program inside the cap. `fallback` is phi2 where nothing determines it.
 pub(super) fn stretches<M: Motions + ?Sized>(motions: &M, cap: &Cap, fallback: f64) -> Vec<Stretch> {
-    let mut survey = Survey { stretches: Vec::new(), phi2: None, open: None, fallback, scale: cap.scale, azimuths: Azimuths::default() };
+    let mut survey = Survey {
+        stretches: Vec::new(),
+        phi2: None,
+        open: None,
+        fallback,
+        scale: cap.scale,
+        azimuths: Azimuths::default(),
+    };
     let mut start: Option<ToolPosition> = None;
     for index in 0..motions.count() {
         let motion = motions.motion(index);

@@ -46,14 +46,12 @@ impl ToolMotion {
         let ([s1, c1], [s2, c2], [sp, cp]) = (self.turns.tilt, self.turns.rotary, self.inclination);
         let inclination = pose.alpha - tilt;
         let (y, height) = (self.pose.y, self.height);
-        let across = self.tool_length * cp * inclination - pose.y * c1 - pose.z * s1
-            + (y * s1 - height * c1) * tilt;
+        let across =
+            self.tool_length * cp * inclination - pose.y * c1 - pose.z * s1 + (y * s1 - height * c1) * tilt;
         let tip = Vector3::new(
             pose.x * c2 + across * s2 + (self.across * c2 - self.pose.x * s2) * rotary,
             across * c2 - pose.x * s2 - (self.pose.x * c2 + self.across * s2) * rotary,
-            pose.y * s1 - pose.z * c1
-                + (y * c1 + height * s1) * tilt
-                + self.tool_length * sp * inclination,
+            pose.y * s1 - pose.z * c1 + (y * c1 + height * s1) * tilt + self.tool_length * sp * inclination,
         );
         let axis = Vector3::new(
             -cp * s2 * inclination - sp * c2 * rotary,

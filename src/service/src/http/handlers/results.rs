@@ -46,7 +46,11 @@ pub(crate) async fn get_summary(
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
-    summary(&state, record(&state, id).await?).cached(IMMUTABLE).respond(&conditions)
+    let record = record(&state, id).await?;
+    if record.kind == QuestionKind::Toolpath {
+        return Err(LookupError::Result(record.id.to_string()).into());
+    }
+    summary(&state, record).cached(IMMUTABLE).respond(&conditions)
 }
 
 /// The mesh of a computed workspace

@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use serde::Serialize;
 use serde_json::{Value, json};
+use verne_program::Format;
 use verne_solver::workspace::Unobserved;
 
 use crate::http::machine_documents::{machine_answer, machine_list};
@@ -14,7 +15,10 @@ use crate::operations::forward_batch::answer_fk_batch;
 use crate::operations::inverse::answer_ik;
 use crate::operations::inverse_batch::answer_ik_batch;
 use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::programs::receiver::ProgramReceiver;
 use crate::operations::slice::answer_slice;
+use crate::operations::toolpath::compute_toolpath;
+use crate::operations::toolpath_request::{ProgramSource, read_request};
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::alphas::Alphas;
@@ -22,11 +26,16 @@ use crate::wire::error::OperationError;
 use crate::wire::format::SliceFormat;
 use crate::wire::health::{Health, HealthStatus};
 use crate::wire::parse::parse_body;
+use crate::wire::program_query::ProgramQuery;
 use crate::wire::query::{FkQuery, IkQuery};
 use crate::wire::query_string::parse_query;
 
 /// Most rows of an example.
 const ROWS: usize = 100;
+
+/// The program of the examples.
+const PROGRAM: &str = "PARTNO/COVER\nUNITS/MM\nLOADTL/3,LENGTH,120\nSPINDL/RPM,6000,CLW\nRAPID\n\
+    GOTO/0,0,350,0,0,1\nFEDRAT/800,MMPM\nGOTO/0,0,300\nGOTO/80,0,300,0,0.6,0.8\nFINI\n";
 
 /// A request that the tests send, and its answer.
 pub(crate) struct Example {
@@ -34,6 +43,8 @@ pub(crate) struct Example {
     path: &'static str,
     /// The body of POST, or the values of path and query parameters.
     request: Value,
+    /// The file that a POST sends; `request` are its parameters then.
+    file: Option<&'static str>,
     /// `None` for answers that are long or not JSON.
     answer: Option<Value>,
 }
@@ -42,9 +53,12 @@ impl Example {
     /// Writes request and answer into the operation.
     pub(crate) fn write_into(self, document: &mut Value) {
         let Some(operation) = document["paths"][self.path].get_mut(self.method) else { return };
-        if self.method == "post" {
+        if self.method == "post" && self.file.is_none() {
             operation["requestBody"]["content"]["application/json"]["example"] = self.request;
         } else {
+            if let Some(file) = self.file {
+                operation["requestBody"]["content"]["text/plain"]["example"] = json!(file);
+            }
             let parameters = operation.get_mut("parameters").and_then(Value::as_array_mut);
             for parameter in parameters.into_iter().flatten() {
                 if let Some(value) = parameter["name"].as_str().and_then(|name| self.request.get(name)) {
@@ -52,14 +66,17 @@ impl Example {
                 }
             }
         }
-        if let Some(answer) = self.answer {
-            operation["responses"]["200"]["content"]["application/json"]["example"] = answer;
+        let Some(answer) = self.answer else { return };
+        for status in ["200", "201"] {
+            if let Some(response) = operation["responses"].get_mut(status) {
+                response["content"]["application/json"]["example"] = answer.clone();
+            }
         }
     }
 }
 
 fn get(path: &'static str, request: Value, answer: Option<Value>) -> Example {
-    Example { method: "get", path, request, answer }
+    Example { method: "get", path, request, file: None, answer }
 }
 
 fn post<T: Serialize>(
@@ -68,7 +85,7 @@ fn post<T: Serialize>(
     answer: impl Fn(&[u8]) -> Result<T, OperationError>,
 ) -> Example {
     let answer = Some(json_of(answer(request.to_string().as_bytes())));
-    Example { method: "post", path, request, answer }
+    Example { method: "post", path, request, file: None, answer }
 }
 
 /// The answer as JSON, or the error, which the tests report as an outdated example.
@@ -82,6 +99,8 @@ pub(crate) fn examples() -> Vec<Example> {
     let mut examples = of_service(&machines);
     examples.extend(of_kinematics(&machines));
     examples.extend(of_workspaces(&machines));
+    examples.extend(of_programs());
+    examples.extend(of_toolpaths(&machines));
     examples
 }
 
@@ -152,11 +171,17 @@ fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {
         get("/workspace", request.clone(), Some(summary.clone())),
         post("/workspace", request, |_| Ok(&summary)),
         // The answer takes seconds.
-        Example { method: "post", path: "/workspace/dexterity", request: dexterity, answer: None },
+        Example {
+            method: "post",
+            path: "/workspace/dexterity",
+            request: dexterity,
+            file: None,
+            answer: None,
+        },
         get("/jobs", json!({"state": "failed", "limit": 10}), Some(json!({"jobs": [], "next": null}))),
         get("/jobs/{id}", of_job(), None),
         get("/jobs/{id}/events", of_job(), None),
-        Example { method: "delete", path: "/jobs/{id}", request: of_job(), answer: None },
+        Example { method: "delete", path: "/jobs/{id}", request: of_job(), file: None, answer: None },
         get("/workspace/{id}", of_job(), Some(summary.clone())),
         get("/workspace/{id}/mesh", json!({"id": id, "format": "glb"}), None),
         get("/workspace/{id}/slice", json!({"id": id, "z": 300, "alpha": "0"}), Some(slice)),
@@ -167,6 +192,47 @@ fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {
             |body| value_of(answer_contains(body, machines, ROWS, &Unobserved)),
         ),
     ]
+}
+
+fn of_programs() -> Vec<Example> {
+    let summary = program_summary();
+    let of_program = || json!({"id": summary["id"]});
+    vec![
+        Example {
+            method: "post",
+            path: "/programs",
+            request: json!({"format": "apt"}),
+            file: Some(PROGRAM),
+            answer: Some(summary.clone()),
+        },
+        get("/programs/{id}", of_program(), Some(summary.clone())),
+        get("/programs/{id}/source", of_program(), None),
+    ]
+}
+
+/// The summary of the program of the examples.
+fn program_summary() -> Value {
+    let mut receiver = ProgramReceiver::new(Format::Apt, &ProgramQuery::default().options());
+    // A refused program has its faults in the result.
+    let _ = receiver.push(PROGRAM.as_bytes());
+    json_of(receiver.finish().and_then(|received| received.summary().ok_or(OperationError::Internal)))
+}
+
+fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
+    let points = json!([[0, 0, 350, 0, 0, 1], [0, 0, 300, 0, 0, 1], [20, 0, 300, 0, 0.28, 0.96]]);
+    let request = json!({"program": {"points": points}, "setup": {"x": 10}, "tool_length": 120,
+                         "tolerance": {"tip": 0.05}});
+    let report = json_of(toolpath_report(&request, machines));
+    let of_report = json!({"id": report["id"]});
+    vec![post("/toolpath", request, |_| Ok(&report)), get("/toolpath/{id}", of_report, Some(report.clone()))]
+}
+
+/// The report on a tool path whose request has points.
+fn toolpath_report(request: &Value, machines: &MachineRegistry) -> Result<Value, OperationError> {
+    let (checked, source) = read_request(request.to_string().as_bytes(), machines)?;
+    let ProgramSource::Received(program) = &source else { return Err(OperationError::Internal) };
+    let question = checked.question(source.id());
+    value_of(compute_toolpath(&question, &program.program, |_| Ok(Vec::new()), |_, _| Ok(()), &Unobserved))
 }
 
 /// The id, the summary and a slice of the workspace for a request.

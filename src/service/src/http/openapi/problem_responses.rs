@@ -22,6 +22,16 @@ const BODY: &[Code] = &[
     Code::BodyTooLarge,
 ];
 
+/// Codes of requests with a program as their body.
+const PROGRAM_BODY: &[Code] = &[
+    Code::BadRequest,
+    Code::UnsupportedCoding,
+    Code::BodyTooLarge,
+    Code::ProgramFault,
+    Code::ProgramTooLarge,
+    Code::DiskFailing,
+];
+
 /// Codes of requests that wait for a job.
 const JOB: &[Code] = &[
     Code::QueueFull,
@@ -36,6 +46,9 @@ const JOB: &[Code] = &[
 
 /// Codes of requests for a stored result.
 const RESULT: &[Code] = &[Code::NotFound, Code::WorkspaceNotFound, Code::RangeNotSatisfiable];
+
+/// Codes of requests with a program.
+const PROGRAM: &[Code] = &[Code::ProgramFault, Code::ProgramNotFound];
 
 type Responses = BTreeMap<String, RefOr<Response>>;
 
@@ -78,6 +91,14 @@ problems! {
     MeshProblems: RESULT, JOB, &[Code::NoMesh, Code::Forbidden];
     /// Problems of the points of a dexterity map.
     CellsProblems: RESULT, JOB, &[Code::NoCells, Code::Forbidden];
+    /// Problems of a program in the body.
+    ProgramBodyProblems: PROGRAM_BODY;
+    /// Problems of a stored program.
+    ProgramProblems: &[Code::NotFound, Code::ProgramNotFound];
+    /// Problems of a tool path.
+    ToolpathProblems: BODY, JOB, PROGRAM;
+    /// Problems of the report on a tool path.
+    ReportProblems: RESULT;
     /// Problems of a machine.
     MachineProblems: &[Code::NotFound, Code::MachineNotFound];
     /// Problems of the list of jobs.

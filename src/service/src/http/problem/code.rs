@@ -3,6 +3,7 @@
 
 use axum::http::StatusCode;
 use verne_jobs::UnavailableError;
+use verne_program::{Format, ProgramErrors, ReadError, ReadOptions};
 
 use crate::http::error::HttpError::{self, Access, Job, Limit, Lookup, Operation, Request};
 use crate::http::error::{AccessError, JobError, LookupError, RequestError};
@@ -82,6 +83,9 @@ problems! {
         Lookup(LookupError::Machine(_)) => LookupError::Machine("nautilus".to_owned());
     WorkspaceNotFound, "workspace_not_found", NOT_FOUND, "No stored result has this id.";
         Lookup(LookupError::Result(_)) => LookupError::Result("1f2e".to_owned());
+    ProgramNotFound, "program_not_found", NOT_FOUND,
+        "The service has no program with this id, or has evicted it; the client can send it again.";
+        Operation(OperationError::ProgramNotFound(_)) => OperationError::ProgramNotFound("1f2e".to_owned());
     NoMesh, "no_mesh", NOT_FOUND, "A family of workspaces has no mesh of its own.";
         Lookup(LookupError::Mesh(_)) => LookupError::Mesh("1f2e".to_owned());
     NoSlice, "no_slice", NOT_FOUND, "Only a single workspace has slices.";
@@ -117,6 +121,9 @@ problems! {
     InvalidRequest, "invalid_request", UNPROCESSABLE_ENTITY, "Fields or query parameters are invalid.";
         Operation(OperationError::Fields(_))
             => HttpError::field("/query/tool_length", "must be a number from 0 to 1e7 mm");
+    ProgramFault, "program_fault", UNPROCESSABLE_ENTITY,
+        "The program has faults; `errors` lists them with line, column and word.";
+        Operation(OperationError::ProgramFaults(_)) => OperationError::ProgramFaults(example_of_faults());
     TooManyRequests, "too_many_requests", TOO_MANY_REQUESTS, "The client exceeded its request rate.";
         Limit(LimitError::TooManyRequests(_)) => LimitError::TooManyRequests(1);
     Internal, "internal", INTERNAL_SERVER_ERROR, "The service has a defect.";
@@ -139,6 +146,17 @@ problems! {
         HttpError::TimedOut => HttpError::TimedOut;
     NoRoom, "no_room", INSUFFICIENT_STORAGE, "The result is larger than the whole storage for results.";
         Job(JobError::ResultTooLarge) => JobError::ResultTooLarge;
+    ProgramTooLarge, "program_too_large", INSUFFICIENT_STORAGE,
+        "The program is larger than the whole storage for results.";
+        Operation(OperationError::ProgramTooLarge) => OperationError::ProgramTooLarge;
+}
+
+fn example_of_faults() -> ProgramErrors {
+    let text: &[u8] = b"UNITS/MM\nGOTO/0,0\n";
+    match verne_program::read(Format::Apt, text, &ReadOptions::default()) {
+        Err(ReadError::Program(refused)) => refused,
+        _ => ProgramErrors { errors: Vec::new(), complete: true },
+    }
 }
 
 #[cfg(test)]

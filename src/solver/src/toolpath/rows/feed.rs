@@ -55,7 +55,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             Ok(end) => end,
             Err(refusal) => {
                 self.survey(index, &track);
-                self.refuse(index, span.to, refusal);
+                self.refuse(index, track.target(span.to).pose, refusal);
                 self.now = None;
                 return;
             }
@@ -64,7 +64,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             self.rows_between(index, motion, &track, [now, end], RowKind::Feed);
         } else {
             self.survey(index, &track);
-            self.row(index, RowKind::Feed, &path.at(span.to), span.to, &end, motion.tool_length);
+            self.row(index, RowKind::Feed, &path.at(span.to), &end, motion.tool_length);
         }
     }
 
@@ -80,7 +80,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let stops = [Stop { s: start, node: ends[0] }, Stop { s: end, node: ends[1] }];
         let (feed, mut bend) = (self.settings.feed, self.bends[0]);
         if track.path.is_point() && kind != RowKind::Turn {
-            self.row(index, kind, &track.path.at(end), end, &ends[1], motion.tool_length);
+            self.row(index, kind, &track.path.at(end), &ends[1], motion.tool_length);
             return;
         }
         let result = linearise(track, stops[0], &stops[1], &feed, &mut bend, |stop, segment, deviation| {
@@ -88,7 +88,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             let kind = if kind == RowKind::Feed && !is_end { RowKind::Inserted } else { kind };
             self.report.deviation = self.report.deviation.with(deviation);
             let before = self.margin;
-            self.row(index, kind, &track.path.at(stop.s), stop.s, &stop.node, motion.tool_length);
+            self.row(index, kind, &track.path.at(stop.s), &stop.node, motion.tool_length);
             let least = before.unwrap_or(f64::INFINITY).min(self.margin.unwrap_or(f64::INFINITY));
             if let Some(segment) = segment.filter(|_| least < GUARD) {
                 self.examine(index, segment, motion.tool_length);
@@ -122,8 +122,8 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         end: &Node,
     ) {
         self.survey(index, track);
-        self.refuse(index, s, refusal);
+        self.refuse(index, track.target(s).pose, refusal);
         let position = track.path.at(track.span.to);
-        self.row(index, RowKind::Feed, &position, track.span.to, end, motion.tool_length);
+        self.row(index, RowKind::Feed, &position, end, motion.tool_length);
     }
 }

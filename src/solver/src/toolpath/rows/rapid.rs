@@ -28,10 +28,10 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let target = self.setting.target(span, 1.0, &motion.end, chosen.h);
         match self.setting.node(&target, motion.tool_length, chosen.alpha) {
             Ok(node) => {
-                self.row(index, RowKind::Rapid, &motion.end, 1.0, &node, motion.tool_length);
+                self.row(index, RowKind::Rapid, &motion.end, &node, motion.tool_length);
             }
             Err(refusal) => {
-                self.refuse(index, 1.0, refusal);
+                self.refuse(index, target.pose, refusal);
                 self.now = None;
             }
         }
@@ -67,9 +67,10 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             let track = self.track(path, *span, motion.tool_length);
             let Ok(end) = track.node(span.to, Some(&now)) else { return false };
             let stops = [Stop { s: span.from, node: now }, Stop { s: span.to, node: end }];
-            let result = linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _| {
-                rows.push((stop.s, stop.node));
-            });
+            let result =
+                linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _| {
+                    rows.push((stop.s, stop.node));
+                });
             if result.is_err() {
                 return false;
             }
@@ -84,7 +85,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         }
         self.bends[1] = bend;
         for (s, node) in rows {
-            self.row(index, RowKind::Rapid, &path.at(s), s, &node, motion.tool_length);
+            self.row(index, RowKind::Rapid, &path.at(s), &node, motion.tool_length);
         }
         true
     }

@@ -1,0 +1,76 @@
+//! Computes a tool path: the rows, chunk by chunk, and the report.
+
+use std::cell::Cell;
+use std::sync::Arc;
+
+use verne_program::Program;
+use verne_solver::toolpath::{PlanError, Row, plan};
+use verne_solver::workspace::Observer;
+
+use crate::operations::toolpath_question::ToolpathQuestion;
+use crate::operations::toolpath_report::report;
+use crate::operations::toolpath_rows::RowWriter;
+use crate::operations::toolpath_rows::row_bytes::StoredRow;
+use crate::wire::error::{FieldError, OperationError};
+use crate::wire::json::write_json;
+
+/// About the bytes of a report.
+const REPORT_BYTES: usize = 4096;
+
+/// How many motions are planned between two calls of the observer.
+const MOTIONS_PER_CALL: u32 = 16;
+
+/// Plans a program. Hands the chunks of rows to `put`, with their numbers, and returns the report as it is sent.
+/// `texts` returns the texts of lines, of which it knows any or none.
+///
+/// # Errors
+///
+/// Those of `texts` and `put`; program faults, or more rows than a plan may have.
+pub(crate) fn compute_toolpath(
+    question: &ToolpathQuestion,
+    program: &Arc<Program>,
+    texts: impl FnOnce(&[u32]) -> Result<Vec<(u32, String)>, OperationError>,
+    put: impl FnMut(u64, Vec<u8>) -> Result<(), OperationError>,
+    observer: &dyn Observer,
+) -> Result<Vec<u8>, OperationError> {
+    let motions = question.motions(program).map_err(OperationError::ProgramFaults)?;
+    let mut writer = RowWriter::new(put);
+    let mut written = Ok(());
+    let has_failed = Cell::new(false);
+    let mut calls = 0_u32;
+    let progress = |fraction| {
+        calls = calls.wrapping_add(1);
+        if calls % MOTIONS_PER_CALL != 1 {
+            return !has_failed.get();
+        }
+        observer.progress(fraction);
+        !observer.cancelled() && !has_failed.get()
+    };
+    let emit = |row: &Row| {
+        if written.is_ok() {
+            written = writer.push(&StoredRow::new(row, program, None));
+            has_failed.set(written.is_err());
+        }
+    };
+    let planned = plan(&question.machine, &motions, &question.plan_options(), progress, emit);
+    written?;
+    let planned = planned.map_err(plan_error)?;
+    writer.finish()?;
+    let mut report = report(question, &motions, &planned);
+    let mut failing: Vec<u32> = report.failures.iter().map(|failure| failure.lines[0]).collect();
+    failing.sort_unstable();
+    failing.dedup();
+    if !failing.is_empty() {
+        report.add_texts(&texts(&failing)?);
+    }
+    write_json(&report, REPORT_BYTES)
+}
+
+fn plan_error(error: PlanError) -> OperationError {
+    match error {
+        PlanError::Cancelled => OperationError::Cancelled,
+        PlanError::TooManyRows => {
+            OperationError::Fields(vec![FieldError::new("/tolerance", error.to_string())])
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! The report on a tool path, from what the planner has found out.
+
+use serde::Deserialize;
+use verne_solver::toolpath::{Departure, Failure, LeastMargin, Motions, Report};
+
+use crate::operations::program_motions::ProgramMotions;
+use crate::operations::toolpath_question::ToolpathQuestion;
+use crate::wire::degrees::to_degrees;
+use crate::wire::fixed_array::FixedArray;
+use crate::wire::limit::{Limit, Unchecked};
+use crate::wire::program::WarningObject;
+use crate::wire::toolpath_report::{
+    DepartureObject, DeviationObject, FailureObject, FailurePlace, JointRanges, MarginObject, PathLengths,
+    ToolpathLinks, ToolpathReport, TurningObject, Verdict,
+};
+
+/// The number of rows that a report states.
+pub(crate) fn row_count(report: &[u8]) -> Option<u64> {
+    #[derive(Deserialize)]
+    struct RowCount {
+        rows: u64,
+    }
+    serde_json::from_slice(report).ok().map(|count: RowCount| count.rows)
+}
+
+/// The report.
+pub(crate) fn report(
+    question: &ToolpathQuestion,
+    motions: &ProgramMotions,
+    planned: &Report,
+) -> ToolpathReport {
+    let [feed, rapid] = planned.length;
+    let [theta1, theta2] = planned.turning.map(to_degrees);
+    let read = motions.program().warnings();
+    let warnings = motions.warnings.iter().cloned().chain(read.list.iter().cloned().map(WarningObject::from));
+    let planning = motions.warnings.iter().map(|warning| u64::from(warning.occurrences)).sum::<u64>();
+    ToolpathReport {
+        id: question.id,
+        machine: question.machine.id.clone(),
+        program: question.request.program,
+        request: question.request.clone(),
+        verdict: if planned.is_feasible() { Verdict::Ok } else { Verdict::Fails },
+        failures: planned.failures.iter().map(|failure| failed(motions, failure)).collect(),
+        failure_count: planned.failure_count,
+        rows: planned.rows,
+        length: PathLengths { feed, rapid },
+        margins: planned
+            .least
+            .iter()
+            .map(|LeastMargin { margin, motion }| MarginObject::new(*margin, motions.line(*motion)))
+            .collect(),
+        ranges: planned.ranges.map(ranges),
+        turning: TurningObject { theta1, theta2 },
+        pole_distance: planned.least_inclination.map(to_degrees),
+        deviation: DeviationObject { tip: planned.deviation.tip, axis: to_degrees(planned.deviation.axis) },
+        preimage_changes: planned.preimage_changes,
+        departures: planned.departures.iter().map(|departure| departed(motions, departure)).collect(),
+        departure_count: planned.departure_count,
+        warnings: warnings.collect(),
+        warning_count: planning + read.total,
+        not_checked: Unchecked::beside(question.request.table_clearance.is_some()),
+        links: ToolpathLinks { itself: question.id.toolpath() },
+    }
+}
+
+fn failed(motions: &ProgramMotions, failure: &Failure) -> FailureObject {
+    let Limit { constraint, value, unit, element } = failure.margin.into();
+    let tool_length = motions.motion(failure.motion).tool_length;
+    FailureObject {
+        lines: failure.motions.map(|motion| motions.line(motion)),
+        text: None,
+        constraint,
+        element,
+        margin: value,
+        unit,
+        at: FailurePlace::new(motions.line(failure.motion), failure.pose, tool_length),
+    }
+}
+
+fn departed(motions: &ProgramMotions, departure: &Departure) -> DepartureObject {
+    DepartureObject {
+        line: motions.line(departure.motion),
+        distance: departure.distance,
+        direction: departure
+            .distance
+            .map(|_| FixedArray(departure.direction.map(|component| component + 0.0))),
+    }
+}
+
+fn ranges([rho1, rho2, rho3, theta1, theta2]: [[f64; 2]; 5]) -> JointRanges {
+    let [rho1, rho2, rho3] = [rho1, rho2, rho3].map(FixedArray);
+    let [theta1, theta2] = [theta1, theta2].map(|range| FixedArray(range.map(to_degrees)));
+    JointRanges { rho1, rho2, rho3, theta1, theta2 }
+}

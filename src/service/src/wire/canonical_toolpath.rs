@@ -1,0 +1,68 @@
+//! The request for a tool path with its default values.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use crate::wire::result_id::ResultId;
+use crate::wire::toolpath::{
+    OnLimitName, OrientationName, RapidsName, Setup, TipName, Tolerance, ToolLengths,
+};
+
+/// The request for a tool path with its default values, without the fields that have no effect.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[schema(as = CanonicalToolpathRequest)]
+pub(crate) struct CanonicalToolpath {
+    /// The id of the program.
+    #[schema(value_type = String)]
+    pub program: ResultId,
+    /// The program's frame in the part frame.
+    pub setup: Setup,
+    /// The program's frame for each work offset.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub offsets: BTreeMap<String, Setup>,
+    /// The lengths of the tools, mm; missing if those of the program are used.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub tool_length: Option<ToolLengths>,
+    /// The entry of `tool_length` for moves before the program calls a tool. Only a table of lengths has it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub length_before: Option<u32>,
+    /// Radius of the tool's end, mm. Only a request with a table check or with `tip: "centre"` has it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub tool_radius: Option<f64>,
+    /// The point of the tool that the program moves.
+    pub tip: TipName,
+    /// The motion of the axis between two points; missing if it follows the words of each point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub orientation: Option<OrientationName>,
+    /// Greatest deviations.
+    pub tolerance: Tolerance,
+    /// Half-angle of the cap around the table's own axis in which theta2 is free, degrees.
+    pub pole: f64,
+    /// The motion in rapids.
+    pub rapids: RapidsName,
+    /// Where the table stands before the program.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub start: Option<TableStart>,
+    /// Table clearance, mm. Only a request with a table check has it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub table_clearance: Option<f64>,
+    /// What happens where the machine cannot follow a cut.
+    pub on_limit: OnLimitName,
+}
+
+/// Where the table stands.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+pub(crate) struct TableStart {
+    /// Tilting angle, degrees.
+    pub theta1: f64,
+    /// Rotary angle, degrees.
+    pub theta2: f64,
+}
