@@ -6,15 +6,15 @@
 //! |theta2| at the start, then phi1 >= 0 there.
 
 mod cost;
-mod place;
 mod stages;
+mod state;
 
 use std::cmp::Ordering;
 
 use self::cost::Cost;
-use self::place::Reserve;
 use self::stages::Stages;
 pub(super) use self::stages::{Choice, Chosen};
+use self::state::{Reserve, State, advance, is_wound};
 use super::cap::Cap;
 use super::meridian::{Meridian, Span};
 use super::motion::{Motion, MotionKind, Motions, ToolPosition};
@@ -28,18 +28,6 @@ const LEAST_ANGLE: f64 = 0.01;
 const LEAST_LENGTH: f64 = 1.0 / 256.0;
 /// Greatest number of states at a place.
 const MOST_STATES: usize = 64;
-
-/// A state: h now and, inside a stretch, at its end.
-#[derive(Clone, Copy, Debug)]
-struct State {
-    h: [i32; 2],
-    node: Option<Node>,
-    reserve: Reserve,
-    cost: Cost,
-    parent: usize,
-    /// An earlier state that differs by whole turns of theta2 alone.
-    twin: Option<usize>,
-}
 
 /// Chooses the states of a program.
 pub(super) struct Chooser<'a> {
@@ -106,7 +94,9 @@ impl<'a> Chooser<'a> {
                 let nodes = self.setting.nodes(&target, motion.tool_length).unwrap_or_default();
                 let none = nodes.is_empty().then_some(None);
                 let nodes = nodes.into_iter().map(Some).chain(none);
-                nodes.map(|node| (node, self.reserve(node.as_ref(), motion.tool_length))).collect()
+                nodes
+                    .map(|node| (node, Reserve::of(&self.setting, node.as_ref(), motion.tool_length)))
+                    .collect()
             });
             for (node, reserve) in nodes {
                 let node = node.map(|node| node.wound_to(target.pose.phi2));
@@ -121,7 +111,7 @@ impl<'a> Chooser<'a> {
     }
 
     fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, reserve: Reserve) -> State {
-        let own = self.place_cost(node.as_ref(), reserve.holds);
+        let own = reserve.place_cost(&self.setting, node.as_ref());
         if before.is_empty() {
             let turning = node.zip(self.start).map_or(0.0, |(node, [theta1, theta2])| {
                 self.weights[0] * (node.table.theta1 - theta1).abs()
@@ -229,6 +219,12 @@ impl<'a> Chooser<'a> {
         self.stage();
     }
 
+    fn advance(&mut self, tool_length: f64, span: &Span, s: f64, at: &ToolPosition) {
+        advance(&mut self.states, &self.setting, self.weights, tool_length, |h| {
+            self.setting.target(span, s, at, h)
+        });
+    }
+
     /// Notes the states, so that the chosen ones can be traced back.
     fn stage(&mut self) {
         for i in 0..self.states.len() {
@@ -248,11 +244,4 @@ impl<'a> Chooser<'a> {
         let last = best.map_or(0, |(index, _)| index);
         self.stages.traced(last)
     }
-}
-
-/// Whether two states differ by whole turns of theta2 only.
-fn is_wound(a: &State, b: &State) -> bool {
-    let turns = [0, 1].map(|end| a.h[end] - b.h[end]);
-    let alpha = |state: &State| state.node.map(|node| node.pose.alpha.to_bits());
-    turns[0] == turns[1] && turns[0] % 2 == 0 && alpha(a) == alpha(b)
 }
