@@ -49,6 +49,7 @@ pub(crate) mod results;
 pub(crate) mod slice;
 pub(crate) mod solutions;
 pub(crate) mod solver_errors;
+pub(crate) mod stored_reader;
 pub(crate) mod subtask;
 pub(crate) mod table_angles;
 pub(crate) mod toolpath;
