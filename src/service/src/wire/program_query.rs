@@ -17,8 +17,8 @@ const MOST_MOVES: usize = 2_000_000;
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct ProgramQuery {
-    /// Format of the program: `apt` (CL text), `gcode`, `csv` or `ndjson`. With it the service accepts any Content-Type. Without
-    /// it Content-Type must tell the format.
+    /// Format of the program: `apt` (CL text), `gcode`, `csv` or `ndjson`. With it any Content-Type is accepted.
+    /// Without it Content-Type must tell the format.
     #[param(nullable = false)]
     pub format: Option<String>,
     /// Unit of the lengths, if the program states none: CL text without a unit is refused, G-code and rows are then
@@ -30,7 +30,8 @@ pub(crate) struct ProgramQuery {
     #[serde(default)]
     #[param(schema_with = compensation)]
     pub compensation: Compensation,
-    /// G-code: control of the tool centre point is always on. Otherwise G43.4 and G43.5 begin it and G43 and G49 end it.
+    /// G-code: control of the tool centre point is always on. Otherwise G43.4 and G43.5 begin it, and G43 and G49 end
+    /// it.
     #[serde(default)]
     #[param(default = false)]
     pub tcp: bool,
@@ -111,5 +112,48 @@ fn rapid_feed<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>,
         Ok(Some(feed))
     } else {
         Err(D::Error::custom("must be greater than 0 and at most 1000000000"))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "what a test cannot prepare has failed it")]
+mod tests {
+    use verne_program::RotarySense;
+
+    use super::ProgramQuery;
+    use crate::wire::error::OperationError;
+    use crate::wire::query_string::parse_query;
+
+    #[test]
+    fn options_of_g_code_come_from_the_query() {
+        let others = "format=gcode&tcp=true&rapid_feed=5000&rotary_sense=table";
+        for codes in ["tcp_on=M428&tcp_off=m429,M999", "tcp_on=[%22M428%22]&tcp_off=M429&tcp_off=M999"] {
+            let query: ProgramQuery = parse_query(&format!("{others}&{codes}")).unwrap();
+            let options = query.options();
+            assert_eq!(options.tcp_on, ["M428".parse().unwrap()]);
+            assert_eq!(options.tcp_off, ["M429".parse().unwrap(), "M999".parse().unwrap()]);
+            assert_eq!((options.tcp, options.rapid_feed), (true, Some(5000.0)));
+            assert_eq!(options.rotary_sense, RotarySense::Table);
+        }
+        let options = parse_query::<ProgramQuery>("").unwrap().options();
+        assert_eq!((options.tcp, options.tcp_on.len(), options.rapid_feed), (false, 0, None));
+    }
+
+    #[test]
+    fn options_that_are_none_are_refused_with_what_would_be_accepted() {
+        for (query, detail) in [
+            ("tcp_on=X428", "a code is G or M"),
+            ("tcp_off=", "a code is G or M"),
+            ("rapid_feed=0", "greater than 0"),
+            ("rapid_feed=NaN", "greater than 0"),
+            ("rotary_sense=left", "`table`"),
+            ("tcp=yes", "true"),
+        ] {
+            let error = parse_query::<ProgramQuery>(query).unwrap_err();
+            let OperationError::Fields(fields) = &error else { panic!("{error:?}") };
+            assert!(format!("{fields:?}").contains(detail), "{query}: {fields:?}");
+        }
+        let codes = vec!["M1"; 21].join(",");
+        assert!(parse_query::<ProgramQuery>(&format!("tcp_on={codes}")).is_err());
     }
 }

@@ -238,41 +238,6 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn g_code_is_read_with_the_options_of_the_query() {
-        let service = service("").await;
-        let file =
-            "%\nM428\nT1 M6\nG0 X0 Y0 Z50 A0 C0\nG1 Z5 F9999\nG2 X10 Y0 I5 J0 A30 C90 F800\nM429\nM30\n%\n";
-        for codes in ["tcp_on=M428&tcp_off=M429", "tcp_on=[%22M428%22]&tcp_off=M429,M999"] {
-            let query = format!("format=gcode&units=mm&rapid_feed=5000&rotary_sense=table&{codes}");
-            let answer = post(&service, &query, file).await;
-            assert_eq!(
-                (answer.status, &answer.json["moves"]),
-                (StatusCode::CREATED, &json!(3)),
-                "{}",
-                answer.json
-            );
-            assert_eq!(answer.json["warnings"], json!([]));
-            assert_eq!(answer.json["bounds"]["max"], json!([10.0, 5.0, 50.0]));
-        }
-        let refused = post(&service, "format=gcode&units=mm", file).await;
-        let error = &refused.json["errors"][0];
-        assert_eq!([&error["line"], &error["column"], &error["word"]], [&json!(4), &json!(16), &json!("A0")]);
-        assert!(error["detail"].as_str().unwrap().contains("tcp_on"), "{error}");
-        for (query, detail) in [
-            ("tcp_on=X428", "a code is G or M"),
-            ("tcp_on=", "a code is G or M"),
-            ("rapid_feed=0", "greater than 0"),
-            ("rapid_feed=NaN", "greater than 0"),
-            ("rotary_sense=left", "`table`"),
-            ("tcp=yes", "true"),
-        ] {
-            let answer = post(&service, &format!("format=gcode&{query}"), file).await;
-            assert_eq!(answer.status, StatusCode::UNPROCESSABLE_ENTITY, "{query}");
-            assert!(answer.json.to_string().contains(detail), "{query}: {}", answer.json);
-        }
-    }
-
-    #[tokio::test]
     async fn bodies_that_are_no_program_are_refused() {
         let limited = service("--max-program-bytes 1000").await;
         let utf16: Vec<u8> = "UNITS/MM\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
