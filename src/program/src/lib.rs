@@ -53,6 +53,7 @@ mod error;
 mod event;
 mod format;
 mod gcode;
+pub mod joint_program;
 mod lines;
 mod moves;
 mod numerals;

@@ -25,6 +25,8 @@ mod client;
 mod draw;
 mod json;
 mod keys;
+#[path = "../../../src/solver/tests/support/lengths.rs"]
+mod lengths;
 mod machines;
 mod mesh;
 mod programs;

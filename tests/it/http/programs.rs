@@ -36,23 +36,6 @@ async fn a_form_of_curl_is_a_program_if_the_format_is_stated() {
 }
 
 #[tokio::test]
-async fn g_code_is_read_with_the_options_of_the_query() {
-    let service = service().await;
-    let file =
-        "%\nM428\nT1 M6\nG0 X0 Y0 Z50 A0 C0\nG1 Z5 F9999\nG2 X10 Y0 I5 J0 A30 C90 F800\nM429\nM30\n%\n";
-    let query = "format=gcode&units=mm&rapid_feed=5000&rotary_sense=table&tcp_on=M428&tcp_off=M429";
-    let reply = send(&service, query, file).await;
-    assert_eq!((reply.status.as_u16(), &reply.json["moves"]), (201, &json!(3)));
-    assert_eq!(reply.json["warnings"], json!([]));
-    assert_eq!(reply.json["bounds"]["max"], json!([10.0, 5.0, 50.0]));
-    let refused = send(&service, "format=gcode&units=mm", file).await;
-    refused.assert_problem(422, "program_fault");
-    let error = &refused.json["errors"][0];
-    assert_eq!([&error["line"], &error["column"], &error["word"]], [&json!(4), &json!(16), &json!("A0")]);
-    assert!(error["detail"].as_str().unwrap().contains("tcp_on"), "{error}");
-}
-
-#[tokio::test]
 async fn what_is_no_program_is_refused_with_its_line() {
     let service = service().await;
     let utf16: Vec<u8> = FILE.encode_utf16().flat_map(u16::to_be_bytes).collect();

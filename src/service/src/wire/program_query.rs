@@ -1,10 +1,12 @@
 //! Parameters of /programs in query strings.
 
-use serde::de::Error;
+use clap::Args;
+use serde::de::value::Error as ValueError;
+use serde::de::{DeserializeOwned, Error, IntoDeserializer};
 use serde::{Deserialize, Deserializer};
 use utoipa::IntoParams;
 use utoipa::openapi::schema::{Object, ObjectBuilder, Type};
-use verne_program::{Compensation, Format, FormatError, ReadOptions, RotarySense, Units};
+use verne_program::{Code, Compensation, Format, FormatError, ReadOptions, RotarySense, Units};
 
 use crate::wire::code_list::CodeList;
 use crate::wire::error::{FieldError, OperationError};
@@ -13,44 +15,51 @@ use crate::wire::error::{FieldError, OperationError};
 const MOST_MOVES: usize = 2_000_000;
 
 /// How a program is read.
-#[derive(Debug, Default, Deserialize, IntoParams)]
+#[derive(Debug, Default, Deserialize, IntoParams, Args)]
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct ProgramQuery {
-    /// Format of the program: `apt` (CL text), `gcode`, `csv` or `ndjson`. With it any Content-Type is accepted.
-    /// Without it Content-Type must tell the format.
+    /// Format of the program: `apt` (CL text), `gcode`, `csv` or `ndjson`. With it the service accepts any
+    /// Content-Type. Without it Content-Type must tell the format.
+    #[arg(long)]
     #[param(nullable = false)]
     pub format: Option<String>,
     /// Unit of the lengths, if the program states none: CL text without a unit is refused, G-code and rows are then
     /// millimetres.
+    #[arg(long, value_parser = read_name::<Units>)]
     #[param(nullable = false, schema_with = units)]
     pub units: Option<Units>,
     /// What to do with cutter radius compensation (CUTCOM, G41): `accept` makes it a warning, because the points of a
     /// program are the tool's path; `refuse` makes it a fault.
     #[serde(default)]
+    #[arg(long, default_value = "accept", value_parser = read_name::<Compensation>)]
     #[param(schema_with = compensation)]
     pub compensation: Compensation,
-    /// G-code: control of the tool centre point is always on. Otherwise G43.4 and G43.5 begin it, and G43 and G49 end
-    /// it.
+    /// G-code: control of the tool centre point is always on. Otherwise G43.4 and G43.5 begin it and G43 and G49 end it.
     #[serde(default)]
+    #[arg(long)]
     #[param(default = false)]
     pub tcp: bool,
     /// G-code: further codes that begin control of the tool centre point, such as `M428`, separated by commas. A code
     /// that is in both lists begins and ends it in turn.
     #[serde(default)]
-    #[param(inline, style = Form, explode = false)]
-    pub tcp_on: CodeList,
+    #[arg(long, value_name = "CODES")]
+    #[param(inline, style = Form, explode = false, nullable = false)]
+    pub tcp_on: Option<CodeList>,
     /// G-code: further codes that end control of the tool centre point, such as `M429`, separated by commas.
     #[serde(default)]
-    #[param(inline, style = Form, explode = false)]
-    pub tcp_off: CodeList,
+    #[arg(long, value_name = "CODES")]
+    #[param(inline, style = Form, explode = false, nullable = false)]
+    pub tcp_off: Option<CodeList>,
     /// G-code: moves with this feed or a greater one are rapids, mm/min. Some programs write rapids as G1 F9999.
     #[serde(default, deserialize_with = "rapid_feed")]
+    #[arg(long, value_name = "MM/MIN", value_parser = read_rapid_feed)]
     #[param(exclusive_minimum = 0, maximum = 1e9, nullable = false)]
     pub rapid_feed: Option<f64>,
     /// G-code: the sense of A, B and C. `tool`: they turn the tool relative to the work (ISO 841). `table`: they turn
     /// the table, the other way.
     #[serde(default)]
+    #[arg(long, default_value = "tool", value_parser = read_name::<RotarySense>)]
     #[param(schema_with = rotary_sense)]
     pub rotary_sense: RotarySense,
 }
@@ -62,8 +71,8 @@ impl ProgramQuery {
             units: self.units,
             compensation: self.compensation,
             tcp: self.tcp,
-            tcp_on: self.tcp_on.0.clone(),
-            tcp_off: self.tcp_off.0.clone(),
+            tcp_on: codes(self.tcp_on.as_ref()),
+            tcp_off: codes(self.tcp_off.as_ref()),
             rapid_feed: self.rapid_feed,
             rotary_sense: self.rotary_sense,
             most_moves: MOST_MOVES,
@@ -88,6 +97,15 @@ fn format_fault(error: &FormatError) -> OperationError {
     OperationError::Fields(vec![FieldError::new("/query/format", detail)])
 }
 
+/// Reads one of several names on the command line.
+fn read_name<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    T::deserialize(text.into_deserializer()).map_err(|error: ValueError| error.to_string())
+}
+
+fn codes(list: Option<&CodeList>) -> Vec<Code> {
+    list.map(|list| list.0.clone()).unwrap_or_default()
+}
+
 fn names(names: [&str; 2]) -> ObjectBuilder {
     ObjectBuilder::new().schema_type(Type::String).enum_values(Some(names))
 }
@@ -107,53 +125,14 @@ fn rotary_sense() -> Object {
 
 /// A feed that bounds those of cuts.
 fn rapid_feed<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
-    let feed = f64::deserialize(deserializer)?;
-    if feed > 0.0 && feed <= 1e9 {
-        Ok(Some(feed))
-    } else {
-        Err(D::Error::custom("must be greater than 0 and at most 1000000000"))
-    }
+    checked_feed(f64::deserialize(deserializer)?).map(Some).map_err(D::Error::custom)
 }
 
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "what a test cannot prepare has failed it")]
-mod tests {
-    use verne_program::RotarySense;
+/// The same on the command line.
+fn read_rapid_feed(text: &str) -> Result<f64, String> {
+    checked_feed(text.parse().map_err(|_| "must be a number".to_owned())?).map_err(str::to_owned)
+}
 
-    use super::ProgramQuery;
-    use crate::wire::error::OperationError;
-    use crate::wire::query_string::parse_query;
-
-    #[test]
-    fn options_of_g_code_come_from_the_query() {
-        let others = "format=gcode&tcp=true&rapid_feed=5000&rotary_sense=table";
-        for codes in ["tcp_on=M428&tcp_off=m429,M999", "tcp_on=[%22M428%22]&tcp_off=M429&tcp_off=M999"] {
-            let query: ProgramQuery = parse_query(&format!("{others}&{codes}")).unwrap();
-            let options = query.options();
-            assert_eq!(options.tcp_on, ["M428".parse().unwrap()]);
-            assert_eq!(options.tcp_off, ["M429".parse().unwrap(), "M999".parse().unwrap()]);
-            assert_eq!((options.tcp, options.rapid_feed), (true, Some(5000.0)));
-            assert_eq!(options.rotary_sense, RotarySense::Table);
-        }
-        let options = parse_query::<ProgramQuery>("").unwrap().options();
-        assert_eq!((options.tcp, options.tcp_on.len(), options.rapid_feed), (false, 0, None));
-    }
-
-    #[test]
-    fn options_that_are_none_are_refused_with_what_would_be_accepted() {
-        for (query, detail) in [
-            ("tcp_on=X428", "a code is G or M"),
-            ("tcp_off=", "a code is G or M"),
-            ("rapid_feed=0", "greater than 0"),
-            ("rapid_feed=NaN", "greater than 0"),
-            ("rotary_sense=left", "`table`"),
-            ("tcp=yes", "true"),
-        ] {
-            let error = parse_query::<ProgramQuery>(query).unwrap_err();
-            let OperationError::Fields(fields) = &error else { panic!("{error:?}") };
-            assert!(format!("{fields:?}").contains(detail), "{query}: {fields:?}");
-        }
-        let codes = vec!["M1"; 21].join(",");
-        assert!(parse_query::<ProgramQuery>(&format!("tcp_on={codes}")).is_err());
-    }
+fn checked_feed(feed: f64) -> Result<f64, &'static str> {
+    if feed > 0.0 && feed <= 1e9 { Ok(feed) } else { Err("must be greater than 0 and at most 1000000000") }
 }
