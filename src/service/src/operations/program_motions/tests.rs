@@ -88,6 +88,6 @@ fn arcs_turn_with_the_set_up_and_need_a_point_to_begin_at() {
 fn points_out_of_proportion_are_faults() {
     let rows = "[0, 0, 300]\n[9000000, 0, 300]\n";
     let request = json!({"tool_length": 50, "setup": {"x": 9e6}});
-    let (line, detail) = motions_of(Format::Ndjson, rows, &request).err().unwrap();
-    assert!(line == 1 && detail.contains("must be within"), "{line} {detail}");
+    let (_, detail) = motions_of(Format::Ndjson, rows, &request).err().unwrap();
+    assert!(detail.contains("must be within"), "{detail}");
 }
