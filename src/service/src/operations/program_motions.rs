@@ -112,3 +112,7 @@ impl Motions for ProgramMotions {
         Motion { kind, end: position, curve, turning, tool_length: section.tool_length }
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::panic, clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests;
