@@ -3,6 +3,8 @@
 //! - `lines`: numbers of rows and deviations of single motions.
 //! - `choices`: preimages and windings of whole programs.
 //! - `pole`: paths along, through and to the pole.
+//! - `machines`: programs on machines unlike the reference machine, arcs, and rapids.
+//! - `limits`: what happens at limits: retracting, and changes that heal.
 //! - `support`: programs, and the check of rows by the forward problem.
 
 #![allow(
@@ -16,8 +18,12 @@
 
 #[path = "toolpath/choices.rs"]
 mod choices;
+#[path = "toolpath/limits.rs"]
+mod limits;
 #[path = "toolpath/lines.rs"]
 mod lines;
+#[path = "toolpath/machines.rs"]
+mod machines;
 #[path = "toolpath/pole.rs"]
 mod pole;
 #[path = "toolpath/support.rs"]

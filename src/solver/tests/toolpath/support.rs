@@ -23,6 +23,25 @@ impl Random {
     }
 }
 
+/// A machine whose dimensions differ from those of the reference machine by up to a tenth.
+pub(crate) fn any_machine(random: &mut Random) -> Machine {
+    loop {
+        let mut data = Machine::verne().data().clone();
+        let g = &mut data.geometry;
+        let lengths = [
+            &mut g.D1, &mut g.d1, &mut g.D2, &mut g.d2, &mut g.R1, &mut g.r1, &mut g.R2, &mut g.r4,
+            &mut g.L1, &mut g.L2, &mut g.L3,
+        ];
+        for length in lengths {
+            *length *= random.within(0.9, 1.1);
+        }
+        data.table.dt += random.within(-30.0, 30.0);
+        if let Ok(machine) = Machine::new(data) {
+            return machine;
+        }
+    }
+}
+
 pub(crate) fn unit(v: [f64; 3]) -> [f64; 3] {
     let norm = v.iter().map(|c| c * c).sum::<f64>().sqrt();
     v.map(|c| c / norm)
@@ -111,7 +130,8 @@ pub(crate) fn worst_deviation(
     let mut worst: f64 = 0.0;
     for pair in rows.windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
-        if b.kind == RowKind::Rapid || b.motion == 0 {
+        let is_cut = matches!(b.kind, RowKind::Feed | RowKind::Inserted | RowKind::Turn);
+        if !is_cut || b.motion == 0 {
             continue;
         }
         let motion = &program[b.motion];
