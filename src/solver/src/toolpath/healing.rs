@@ -44,7 +44,7 @@ pub struct Change {
 ///
 /// The changes ±1/64, ±1/32, ±1/16, … ±512 mm are tried, and those of the first size that help are refined by
 /// bisection to 1/64 mm. So a smaller change may help too, if it lies between two that do not. `None`: no change
-/// helps, the stretch has more than [`MOST_HEALED_MOTIONS`] motions or [`MOST_HEALED_ROWS`] rows, or it fails only
+/// helps, `go_on` has returned `false`, the stretch has more than [`MOST_HEALED_MOTIONS`] motions or [`MOST_HEALED_ROWS`] rows, or it fails only
 /// together with the rest of the program, such as at the end of the rotary range.
 ///
 /// # Units
@@ -68,7 +68,7 @@ pub struct Change {
 /// };
 /// // So high that the sliders would leave their strokes.
 /// let program = [to(MotionKind::Arrive, -20.0), to(MotionKind::Feed, 20.0)];
-/// let change = healing_change(&Machine::verne(), &program[..], &PlanOptions::default(), [0, 1]);
+/// let change = healing_change(&Machine::verne(), &program[..], &PlanOptions::default(), [0, 1], || true);
 /// assert!(change.is_some_and(|change| change.parameter == Parameter::Z && change.delta < 0.0));
 /// ```
 pub fn healing_change<M: Motions + ?Sized>(
@@ -76,6 +76,7 @@ pub fn healing_change<M: Motions + ?Sized>(
     motions: &M,
     options: &PlanOptions,
     [first, last]: [usize; 2],
+    go_on: impl Fn() -> bool,
 ) -> Option<Change> {
     if last >= motions.count() || last.checked_sub(first)? >= MOST_HEALED_MOTIONS {
         return None;
@@ -84,14 +85,15 @@ pub fn healing_change<M: Motions + ?Sized>(
     let options = PlanOptions { on_limit: OnLimit::Fail, most_rows, ..options.clone() };
     let heals = |change: Change| {
         let changed = Changed { motions, begin: first.saturating_sub(1), end: last, change };
-        plan(machine, &changed, &options, |_| true, |_| {}).is_ok_and(|report| report.is_feasible())
+        plan(machine, &changed, &options, |_| go_on(), |_| {}).is_ok_and(|report| report.is_feasible())
     };
     let at = |parameter, delta| Change { parameter, delta };
     if heals(at(Parameter::X, 0.0)) {
+        // Only the rest of the program lets it fail.
         return None;
     }
     let mut size = CHANGE_RESOLUTION;
-    while size <= GREATEST_CHANGE {
+    while size <= GREATEST_CHANGE && go_on() {
         let all = PARAMETERS.into_iter().flat_map(|parameter| [at(parameter, size), at(parameter, -size)]);
         let healing = all.filter(|change| heals(*change));
         let least = healing.map(|change| refined(change, &heals));

@@ -110,7 +110,7 @@ fn the_change_heals_the_stretch_and_a_little_less_does_not() {
         let (report, _) = planned(&machine, program, &options);
         assert!(!report.is_feasible());
         let range = [0, program.len() - 1];
-        let Some(change) = healing_change(&machine, &program[..], &options, range) else { continue };
+        let Some(change) = healing_change(&machine, &program[..], &options, range, || true) else { continue };
         found += 1;
         let with = |delta: f64| planned(&machine, &healed(program, change.parameter, delta), &options).0;
         assert!(with(change.delta).is_feasible(), "{change:?}");
@@ -125,5 +125,5 @@ fn a_rotary_limit_is_healed_by_no_change() {
     let program = helix(0.0, 900.0);
     let options = PlanOptions::default();
     let range = [0, program.len() - 1];
-    assert_eq!(healing_change(&Machine::verne(), &program[..], &options, range), None);
+    assert_eq!(healing_change(&Machine::verne(), &program[..], &options, range, || true), None);
 }
