@@ -44,8 +44,9 @@ pub struct Change {
 ///
 /// The changes ±1/64, ±1/32, ±1/16, … ±512 mm are tried, and those of the first size that help are refined by
 /// bisection to 1/64 mm. So a smaller change may help too, if it lies between two that do not. `None`: no change
-/// helps, `go_on` has returned `false`, the stretch has more than [`MOST_HEALED_MOTIONS`] motions or [`MOST_HEALED_ROWS`] rows, or it fails only
-/// together with the rest of the program, such as at the end of the rotary range.
+/// helps, `go_on` has returned `false`, the stretch has more than [`MOST_HEALED_MOTIONS`] motions or
+/// [`MOST_HEALED_ROWS`] rows, or it fails only together with the rest of the program, such as at the end of the
+/// rotary range.
 ///
 /// # Units
 ///
