@@ -25,12 +25,17 @@ use super::node::{Node, Setting};
 use super::path::{Path, places};
 use super::stretches::Place;
 
-/// Angle and fraction of the machine's longest dimension between two ends of motions: ends that are closer to the last
-/// place are not examined.
+/// Greatest number of motions of a program all of whose ends are examined.
+const ALL_EXAMINED: usize = 10_000;
+/// Angle and fraction of the machine's longest dimension between two ends of motions: in a longer program, ends that
+/// are closer to the last place are not examined.
 const LEAST_ANGLE: f64 = 0.01;
 const LEAST_LENGTH: f64 = 1.0 / 256.0;
 /// Greatest number of states at a place.
 const MOST_STATES: usize = 64;
+
+/// The joints at a place in each working solution, or none, with the limits there.
+type Solutions = Vec<(Option<Node>, Reserve)>;
 
 /// Chooses the states of a program.
 pub(super) struct Chooser<'a> {
@@ -40,6 +45,7 @@ pub(super) struct Chooser<'a> {
     stages: Stages,
     start: Option<[f64; 2]>,
     may_retract: bool,
+    is_long: bool,
     /// The end of the last motion, if it has not been examined.
     skipped: Option<Skipped>,
 }
@@ -64,7 +70,7 @@ impl<'a> Chooser<'a> {
         may_retract: bool,
     ) -> Self {
         let (states, stages) = (Vec::new(), Stages::default());
-        Self { setting, weights, states, stages, start, may_retract, skipped: None }
+        Self { setting, weights, states, stages, start, may_retract, is_long: false, skipped: None }
     }
 
     /// Examines the program; `go_on` is asked from time to time and ends the examination by `false`.
@@ -74,6 +80,7 @@ impl<'a> Chooser<'a> {
         cap: Cap,
         mut go_on: impl FnMut(usize) -> bool,
     ) -> Option<Choice> {
+        self.is_long = motions.count() > ALL_EXAMINED;
         let mut meridian = Meridian::new(cap, self.setting.stretches);
         for index in 0..motions.count() {
             if !go_on(index) {
@@ -98,7 +105,7 @@ impl<'a> Chooser<'a> {
         let before = std::mem::take(&mut self.states);
         let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
         // The nodes of both preimages; whole turns change theta2 alone.
-        let mut known: [Option<Vec<(Option<Node>, Reserve)>>; 2] = [None, None];
+        let mut known: [Option<Solutions>; 2] = [None, None];
         for h in self.setting.half_turns(phi2) {
             let target = self.setting.target(span, 1.0, &motion.end, [h, h]);
             let nodes = known[usize::from(h.rem_euclid(2) == 1)].get_or_insert_with(|| {
@@ -170,6 +177,9 @@ impl<'a> Chooser<'a> {
 
     /// Whether the end of a span is so near to the last place that it is left for later.
     fn skips(&mut self, index: usize, motion: &Motion, span: &Span, path: &Path) -> bool {
+        if !self.is_long {
+            return false;
+        }
         let part = span.to - span.from;
         let (length, angle) = (path.length() * part, (path.turn() + path.sweep()) * part);
         let before = self.skipped.as_ref().map_or((0.0, 0.0), |skipped| (skipped.length, skipped.angle));

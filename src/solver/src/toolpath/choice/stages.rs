@@ -46,7 +46,7 @@ struct Stage {
 #[derive(Debug, Default)]
 pub(super) struct Stages {
     states: Vec<Packed>,
-    stages: Vec<Stage>,
+    all: Vec<Stage>,
     /// The stages within a cut, with their places.
     rewinds: Vec<(usize, Place)>,
 }
@@ -55,23 +55,23 @@ impl Stages {
     /// Adds a stage; `place` is given if it is within a cut.
     pub(super) fn push(&mut self, place: Option<Place>, states: impl Iterator<Item = (Chosen, usize)>) {
         if let Some(place) = place {
-            self.rewinds.push((self.stages.len(), place));
+            self.rewinds.push((self.all.len(), place));
         }
         let first = u32::try_from(self.states.len()).unwrap_or(u32::MAX);
         let mut states = states.peekable();
         let base = states.peek().map_or(0, |(chosen, _)| chosen.h[0]);
-        self.stages.push(Stage { first, h: base });
+        self.all.push(Stage { first, h: base });
         self.states.extend(states.map(|(chosen, parent)| Packed::new(chosen, parent, base)));
     }
 
     /// The sequence that ends with a state of the last stage.
     pub(super) fn traced(mut self, last: usize) -> Choice {
         let (mut index, mut choice) = (last, Choice::default());
-        while let Some(stage) = self.stages.pop() {
+        while let Some(stage) = self.all.pop() {
             let Some(packed) = self.states.get(stage.first as usize + index).copied() else { break };
             let chosen = packed.chosen(stage.h);
             index = usize::from(packed.parent);
-            match self.rewinds.pop_if(|(number, _)| *number == self.stages.len()) {
+            match self.rewinds.pop_if(|(number, _)| *number == self.all.len()) {
                 Some((_, place)) => {
                     if self.last_h(index) != Some(chosen.h) {
                         choice.rewinds.push(Rewind { place, chosen });
@@ -87,7 +87,7 @@ impl Stages {
 
     /// h of a state of the last stage.
     fn last_h(&self, index: usize) -> Option<[i32; 2]> {
-        let stage = self.stages.last()?;
+        let stage = self.all.last()?;
         let packed = self.states.get(stage.first as usize + index)?;
         Some([packed.chosen(stage.h).h[1]; 2])
     }

@@ -5,7 +5,7 @@ use crate::margins::Margins;
 use crate::toolpath::node::{Node, Setting, Target};
 
 /// How far the machine may move for a worst margin of the whole range until the limits are examined again.
-const WAY: f64 = 0.125;
+const WAY: f64 = 1.0 / 32.0;
 
 /// A state: h now and, inside a stretch, at its end.
 #[derive(Clone, Copy, Debug)]
