@@ -77,8 +77,6 @@ pub struct PlanOptions {
     pub start: Option<TableAngles>,
     /// Whether the joints move straight in all rapids.
     pub joint_rapids: bool,
-    /// Weights of turning of theta1 and theta2.
-    pub weights: [f64; 2],
     /// What happens where no winding serves a whole cut.
     pub on_limit: OnLimit,
     /// Greatest number of rows.
@@ -96,7 +94,6 @@ impl Default for PlanOptions {
             table_clearance: None,
             start: None,
             joint_rapids: false,
-            weights: [1.0; 2],
             on_limit: OnLimit::Fail,
             most_rows: 20_000_000,
         }
@@ -182,7 +179,8 @@ pub fn plan<M: Motions + ?Sized>(
         pole: options.pole,
     };
     let part = |index: usize| fraction(index, motions.count());
-    let chooser = Chooser::new(setting, options.weights, start, options.on_limit != OnLimit::Fail);
+    let weights = machine.data().drives.map_or([1.0; 2], |drives| drives.turning_weights());
+    let chooser = Chooser::new(setting, weights, start, options.on_limit != OnLimit::Fail);
     let choice = chooser.choose(motions, cap, |index| progress(CHOICE_SHARE * part(index)));
     let choice = choice.ok_or(PlanError::Cancelled)?;
     let settings = RowSettings {

@@ -2,6 +2,7 @@
 //!
 //! - `lines`: numbers of rows and deviations of single motions.
 //! - `choices`: preimages and windings of whole programs.
+//! - `drives`: velocities that are refused, and what drives change in a plan.
 //! - `pole`: paths along, through and to the pole.
 //! - `machines`: programs on machines unlike the reference machine, arcs, and rapids.
 //! - `limits`: what happens at limits: retracting, and changes that heal.
@@ -18,6 +19,8 @@
 
 #[path = "toolpath/choices.rs"]
 mod choices;
+#[path = "toolpath/drives.rs"]
+mod drives;
 #[path = "toolpath/limits.rs"]
 mod limits;
 #[path = "toolpath/lines.rs"]
@@ -26,5 +29,7 @@ mod lines;
 mod machines;
 #[path = "toolpath/pole.rs"]
 mod pole;
+#[path = "support/random.rs"]
+mod random;
 #[path = "toolpath/support.rs"]
 mod support;

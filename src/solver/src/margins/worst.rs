@@ -147,6 +147,42 @@ fn each_range(
     }
 }
 
+impl Margin {
+    /// The margin as a fraction of its constraint's own range (stroke, rod length, cone half-angle, value at home,
+    /// ...): by it, margins of different units compare.
+    ///
+    /// ```
+    /// use verne_solver::{Constraint, Element, Machine, Margin};
+    ///
+    /// let element = Element::Stroke { slider: 2, high: false };
+    /// let margin = Margin { constraint: Constraint::Stroke, element, value: 75.0 };
+    /// assert_eq!(margin.fraction(&Machine::verne()), 75.0 / 750.0);
+    /// ```
+    pub fn fraction(&self, machine: &Machine) -> f64 {
+        let factors = &machine.normalization;
+        let of = |number: u8, factors: &[f64; 3]| {
+            let index = usize::from(number.saturating_sub(1));
+            factors[index.min(2)]
+        };
+        let factor = match (self.constraint, self.element) {
+            (Constraint::Stroke, Element::Stroke { slider, .. }) => of(slider, &factors.stroke),
+            (Constraint::Stroke, _) => factors.stroke[0],
+            (Constraint::LegLength, Element::Leg(leg)) => of(leg, &factors.leg_length),
+            (Constraint::LegLength, _) => factors.leg_length[0],
+            (Constraint::SerialSingularity, _) => factors.serial_singularity,
+            (Constraint::ParallelSingularity, _) => factors.parallel_singularity,
+            (Constraint::SliderJoint, _) => factors.slider_joint,
+            (Constraint::PlatformJoint, _) => factors.platform_joint,
+            (Constraint::RodCrossing, _) => factors.rod_crossing,
+            (Constraint::RodInterference, _) => factors.rod_interference,
+            (Constraint::Tilt, _) => factors.tilt,
+            (Constraint::Rotary, _) => factors.rotary,
+            (Constraint::TableClearance, _) => factors.table_clearance,
+        };
+        self.value * factor
+    }
+}
+
 impl Margins {
     /// Finds the worst margin. Margins are compared as fractions of their constraint's own range (stroke, rod length,
     /// cone half-angle, value at home, ...), so that lengths and angles compare.

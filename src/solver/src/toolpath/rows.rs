@@ -38,6 +38,25 @@ pub enum RowKind {
     Approach,
 }
 
+impl RowKind {
+    /// Whether the row belongs to a feed motion's path, so that its feed counts. Rapids and the ways off the part and
+    /// back do not.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::toolpath::RowKind;
+    ///
+    /// assert!(RowKind::Inserted.is_cut() && !RowKind::Rewind.is_cut());
+    /// ```
+    pub fn is_cut(self) -> bool {
+        match self {
+            Self::Feed | Self::Inserted | Self::Turn => true,
+            Self::Rapid | Self::Retract | Self::Rewind | Self::Approach => false,
+        }
+    }
+}
+
 /// One row: the joints to which the machine moves, all of them linearly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {

@@ -7,7 +7,8 @@ use verne_solver::toolpath::{Curve, Motion, MotionKind, PlanOptions, ToolPositio
 use verne_solver::{Machine, PartPose, part_working};
 
 use super::choices::tilted;
-use super::support::{Random, any_machine, arrive, feed, planned, rapid, worst_deviation};
+use super::random::Random;
+use super::support::{any_machine, arrive, feed, planned, rapid, worst_deviation};
 
 #[test]
 fn rows_stay_within_the_tolerance_on_any_machine() {
@@ -15,13 +16,16 @@ fn rows_stay_within_the_tolerance_on_any_machine() {
     let mut feasible = 0;
     for _ in 0..20 {
         let machine = any_machine(&mut random);
-        let mut tip = [random.within(-60.0, 60.0), random.within(-60.0, 60.0), random.within(250.0, 350.0)];
-        let mut axis = [random.within(2.0, 20.0), random.within(-180.0, 180.0)];
+        let mut tip =
+            [random.between(-60.0, 60.0), random.between(-60.0, 60.0), random.between(250.0, 350.0)];
+        let mut axis = [random.between(2.0, 20.0), random.between(-180.0, 180.0)];
         let mut program = vec![arrive(tip, tilted(axis[0], axis[1]))];
         for _ in 0..3 {
-            tip = tip.map(|c| c + random.within(-25.0, 25.0));
-            axis =
-                [(axis[0] + random.within(-8.0, 8.0)).clamp(2.0, 22.0), axis[1] + random.within(-30.0, 30.0)];
+            tip = tip.map(|c| c + random.between(-25.0, 25.0));
+            axis = [
+                (axis[0] + random.between(-8.0, 8.0)).clamp(2.0, 22.0),
+                axis[1] + random.between(-30.0, 30.0),
+            ];
             program.push(feed(tip, tilted(axis[0], axis[1])));
         }
         let options = PlanOptions::default();

@@ -2,26 +2,11 @@
 
 use verne_solver::axis::tool_axis;
 use verne_solver::toolpath::{
-    Curve, Motion, MotionKind, PlanOptions, Report, Row, RowKind, ToolPosition, Turning, plan,
+    Curve, Motion, MotionKind, PlanOptions, Report, Row, ToolPosition, Turning, plan,
 };
 use verne_solver::{Machine, TableAngles, forward_working, part_pose};
 
-/// Numbers that look random and are the same in every run (SplitMix64).
-pub(crate) struct Random(u64);
-
-impl Random {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
+use super::random::Random;
 
 /// A machine whose dimensions differ from those of the reference machine by up to a tenth.
 pub(crate) fn any_machine(random: &mut Random) -> Machine {
@@ -33,9 +18,9 @@ pub(crate) fn any_machine(random: &mut Random) -> Machine {
             &mut g.L1, &mut g.L2, &mut g.L3,
         ];
         for length in lengths {
-            *length *= random.within(0.9, 1.1);
+            *length *= random.between(0.9, 1.1);
         }
-        data.table.dt += random.within(-30.0, 30.0);
+        data.table.dt += random.between(-30.0, 30.0);
         if let Ok(machine) = Machine::new(data) {
             return machine;
         }
@@ -130,8 +115,7 @@ pub(crate) fn worst_deviation(
     let mut worst: f64 = 0.0;
     for pair in rows.windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
-        let is_cut = matches!(b.kind, RowKind::Feed | RowKind::Inserted | RowKind::Turn);
-        if !is_cut || b.motion == 0 {
+        if !b.kind.is_cut() || b.motion == 0 {
             continue;
         }
         let motion = &program[b.motion];
