@@ -4,6 +4,8 @@
 //! - `choices`: preimages and windings of whole programs.
 //! - `drives`: velocities that are refused, and what drives change in a plan.
 //! - `pole`: paths along, through and to the pole.
+//! - `machines`: programs on machines unlike the reference machine, arcs, and rapids.
+//! - `limits`: what happens at limits: retracting, and changes that heal.
 //! - `support`: programs, and the check of rows by the forward problem.
 
 #![allow(
@@ -19,8 +21,12 @@
 mod choices;
 #[path = "toolpath/drives.rs"]
 mod drives;
+#[path = "toolpath/limits.rs"]
+mod limits;
 #[path = "toolpath/lines.rs"]
 mod lines;
+#[path = "toolpath/machines.rs"]
+mod machines;
 #[path = "toolpath/pole.rs"]
 mod pole;
 #[path = "support/random.rs"]

@@ -3,7 +3,6 @@
 use serde_json::json;
 use verne_mesh::glb::{self, Options, Up};
 use verne_mesh::{ColourScale, PathBuilder, Stroke, Swatch};
-use verne_solver::toolpath::RowKind;
 
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_rows::read_chunk;
@@ -37,10 +36,12 @@ impl ToolpathLines {
     pub(crate) fn add(&mut self, question: &ToolpathQuestion, chunk: &[u8]) -> Result<(), OperationError> {
         for row in read_chunk(chunk) {
             let row = row?;
-            let stroke = match row.kind {
-                _ if self.is_empty => Stroke::None,
-                RowKind::Rapid => Stroke::Plain,
-                _ => Stroke::Coloured,
+            let stroke = if self.is_empty {
+                Stroke::None
+            } else if row.kind.is_cut() {
+                Stroke::Coloured
+            } else {
+                Stroke::Plain
             };
             self.is_empty = false;
             // Beyond its range, a margin has the colour of the end.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use verne_program::{Program, ProgramErrors, WorkOffset};
-use verne_solver::toolpath::{Deviation, PlanOptions};
+use verne_solver::toolpath::{Deviation, OnLimit, PlanOptions};
 use verne_solver::{MAX_INPUT, TableAngles};
 
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
@@ -16,7 +16,9 @@ use crate::wire::error::OperationError;
 use crate::wire::field_errors::{FieldErrors, is_tool_length};
 use crate::wire::json::write_json;
 use crate::wire::result_id::ResultId;
-use crate::wire::toolpath::{RapidsName, Setup, TipName, Tolerance, ToolLengths, ToolpathRequest};
+use crate::wire::toolpath::{
+    OnLimitName, RapidsName, Setup, TipName, Tolerance, ToolLengths, ToolpathRequest,
+};
 
 /// Begins the hash of every tool path. It changes when the bytes of the answer to the same question change.
 const HASH_PREFIX: &[u8] = b"verne toolpath 1";
@@ -30,6 +32,9 @@ const TOLERANCES: [(&str, [f64; 2], &str); 3] = [
     ("/tolerance/axis", [1e-5, 10.0], "degrees"),
     ("/tolerance/rapid", [1e-5, 1000.0], "mm"),
 ];
+
+/// How far the tool leaves the part, if the request does not say, mm.
+const CLEARANCE: f64 = 50.0;
 
 /// Most tools in a table of lengths.
 const MOST_TOOLS: usize = 1000;
@@ -66,6 +71,7 @@ impl CheckedToolpath {
         check_frames(request, &mut faults);
         check_tools(request, &mut faults);
         check_tolerances(request, &mut faults);
+        check_retraction(request, &mut faults);
         if let Some(start) = &request.start {
             faults.lengths("/start/rho", start.rho.as_ref().map_or(&[][..], |rho| &rho.0[..]));
             faults.angle("/start/theta1", Some(start.theta1));
@@ -130,6 +136,10 @@ impl ToolpathQuestion {
                 theta2: from_degrees(start.theta2),
             }),
             joint_rapids: *rapids == RapidsName::Joint,
+            on_limit: match self.request.clearance {
+                Some(clearance) => OnLimit::Retract { clearance, height: self.request.retract_z },
+                None => OnLimit::Fail,
+            },
             ..PlanOptions::default()
         }
     }
@@ -206,6 +216,22 @@ fn check_tolerances(request: &ToolpathRequest, faults: &mut FieldErrors) {
     }
 }
 
+fn check_retraction(request: &ToolpathRequest, faults: &mut FieldErrors) {
+    let fields = [("/clearance", request.clearance), ("/retract_z", request.retract_z)];
+    for (pointer, value) in fields {
+        match value {
+            Some(_) if request.on_limit != OnLimitName::Retract => {
+                faults.add(pointer, "is allowed only with on_limit retract");
+            }
+            Some(value) if pointer == "/clearance" && !is_tool_length(value) => {
+                faults.add(pointer, format!("must be a number from 0 to {MAX_INPUT:e} mm"));
+            }
+            Some(value) => faults.length(pointer, value),
+            None => {}
+        }
+    }
+}
+
 /// The request with its default values, without -0 and without fields that have no effect.
 fn canonical(request: &ToolpathRequest, machine: &IdentifiedMachine) -> CanonicalToolpath {
     let [table_clearance, radius] = machine.canonical_clearance(request.table_clearance, request.tool_radius);
@@ -217,6 +243,7 @@ fn canonical(request: &ToolpathRequest, machine: &IdentifiedMachine) -> Canonica
         }
         None => None,
     };
+    let retracts = request.on_limit == OnLimitName::Retract;
     CanonicalToolpath {
         program: ResultId::from(blake3::Hash::from([0; 32])),
         setup: positive_zeros(&request.setup),
@@ -239,6 +266,8 @@ fn canonical(request: &ToolpathRequest, machine: &IdentifiedMachine) -> Canonica
         table_clearance,
         drives: machine.data().drives.as_ref().map(Into::into),
         on_limit: request.on_limit,
+        clearance: retracts.then_some(request.clearance.unwrap_or(CLEARANCE) + 0.0),
+        retract_z: request.retract_z.filter(|_| retracts).map(|z| z + 0.0),
     }
 }
 

@@ -99,7 +99,7 @@ mod tests {
             (Constraint::TableClearance, Element::Joint(21)),
         ];
         let (constraint, element) = elements[index as usize % elements.len()];
-        let kinds = [RowKind::Rapid, RowKind::Feed, RowKind::Inserted, RowKind::Turn];
+        let kinds = [RowKind::Rapid, RowKind::Feed, RowKind::Turn, RowKind::Retract, RowKind::Approach];
         let value = f64::from(index);
         StoredRow {
             line: index / 3,
