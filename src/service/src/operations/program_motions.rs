@@ -41,7 +41,7 @@ impl ProgramMotions {
         request: &CanonicalToolpath,
         machine: &Machine,
     ) -> Result<Self, ProgramErrors> {
-        let Sections { sections, frames, warnings } = Sections::of(&program, request)?;
+        let Sections { list: sections, frames, warnings } = Sections::of(&program, request)?;
         let motions = Self { program, sections, frames, orientation: request.orientation, warnings };
         check_motions(&motions.program, &motions, request.orientation, machine)?;
         Ok(motions)

@@ -186,17 +186,14 @@ fn check_tools(request: &ToolpathRequest, faults: &mut FieldErrors) {
             }
         }
     }
-    match (request.length_before, &request.tool_length) {
-        (None, _) => {}
-        (Some(number), Some(ToolLengths::Table(table))) if !table.contains_key(&number) => {
-            faults.add(
-                "/length_before",
-                format!("must be an entry of tool_length, which has none for {number}"),
-            );
-        }
-        (Some(_), Some(ToolLengths::Table(_))) => {}
-        (Some(_), _) => {
-            faults.add("/length_before", "is allowed only with a table of lengths in tool_length")
+    if let Some(number) = request.length_before {
+        match &request.tool_length {
+            Some(ToolLengths::Table(table)) if table.contains_key(&number) => {}
+            Some(ToolLengths::Table(_)) => {
+                let detail = format!("must be an entry of tool_length, which has none for {number}");
+                faults.add("/length_before", detail);
+            }
+            _ => faults.add("/length_before", "is allowed only with a table of lengths in tool_length"),
         }
     }
     faults.clearance(request.table_clearance, request.tool_radius, None);

@@ -108,7 +108,7 @@ mod tests {
             position: ToolPosition { tip: [value, -value, 0.1], axis: [0.0, 0.6, 0.8] },
             rho: [value, 2.0, 3.0],
             table: TableAngles { theta1: 0.5, theta2: -value },
-            duration: (index % 2 == 0).then_some(value / 7.0),
+            duration: index.is_multiple_of(2).then_some(value / 7.0),
             margin: Margin { constraint, element, value: -value },
         }
     }
