@@ -1,6 +1,7 @@
 //! A machine of the VERNE architecture: its plain data, and the checked machine made from it.
 
 pub(crate) mod data;
+mod drives;
 mod error;
 mod home;
 mod reference;
@@ -8,6 +9,7 @@ mod validate;
 
 pub use crate::mechanism::Geometry;
 pub use data::{Limits, MachineData, Table};
+pub use drives::{Drive, Drives};
 pub use error::MachineError;
 
 use crate::margins::normalization::Normalization;
@@ -36,7 +38,7 @@ impl Machine {
     /// # Errors
     ///
     /// Every invalid field, each with the path of its field, such as `limits/stroke/0`. A machine needs finite numbers,
-    /// positive lengths, ordered ranges, D1 - d1 different from D2 - d2, R1 greater than r1, and a home posture in the
+    /// positive lengths, ordered ranges, positive velocities and accelerations, D1 - d1 different from D2 - d2, R1 greater than r1, and a home posture in the
     /// working mode away from parallel singularity.
     ///
     /// # References

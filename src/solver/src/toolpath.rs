@@ -7,15 +7,18 @@ mod azimuth;
 mod bound;
 mod cap;
 mod choice;
+mod differential;
 mod joint_segment;
 mod linearise;
 mod meridian;
 mod motion;
+mod nearby_pose;
 mod node;
 mod path;
 mod report;
 mod rows;
 mod stretches;
+mod tool_motion;
 
 use std::fmt;
 
@@ -53,8 +56,6 @@ pub struct PlanOptions {
     pub start: Option<TableAngles>,
     /// Whether the joints move straight in all rapids.
     pub joint_rapids: bool,
-    /// Weights of turning of theta1 and theta2.
-    pub weights: [f64; 2],
     /// Greatest number of rows.
     pub most_rows: u64,
 }
@@ -70,7 +71,6 @@ impl Default for PlanOptions {
             table_clearance: None,
             start: None,
             joint_rapids: false,
-            weights: [1.0; 2],
             most_rows: 20_000_000,
         }
     }
@@ -155,7 +155,8 @@ pub fn plan<M: Motions + ?Sized>(
         pole: options.pole,
     };
     let part = |index: usize| fraction(index, motions.count());
-    let chooser = Chooser::new(setting, options.weights, start);
+    let weights = machine.data().drives.map_or([1.0; 2], |drives| drives.turning_weights());
+    let chooser = Chooser::new(setting, weights, start);
     let choice = chooser.choose(motions, cap, |index| progress(CHOICE_SHARE * part(index)));
     let choice = choice.ok_or(PlanError::Cancelled)?;
     let settings = RowSettings {

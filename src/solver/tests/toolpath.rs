@@ -2,6 +2,7 @@
 //!
 //! - `lines`: numbers of rows and deviations of single motions.
 //! - `choices`: preimages and windings of whole programs.
+//! - `drives`: velocities that are refused, and what drives change in a plan.
 //! - `pole`: paths along, through and to the pole.
 //! - `support`: programs, and the check of rows by the forward problem.
 
@@ -16,6 +17,8 @@
 
 #[path = "toolpath/choices.rs"]
 mod choices;
+#[path = "toolpath/drives.rs"]
+mod drives;
 #[path = "toolpath/lines.rs"]
 mod lines;
 #[path = "toolpath/pole.rs"]

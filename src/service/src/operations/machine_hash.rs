@@ -6,7 +6,8 @@ use verne_solver::MachineData;
 const HASH_PREFIX: &[u8] = b"verne machine 1";
 
 /// BLAKE3, in hexadecimal digits, of geometry, table and limits as little-endian doubles in a fixed order: lengths in
-/// mm, angles in radians, -0 as 0. Name and description are left out because they change no solution.
+/// mm, angles in radians, -0 as 0. Name, description and drives are left out because they
+/// change no solution.
 pub(crate) fn machine_hash(data: &MachineData) -> String {
     let mut hasher = blake3::Hasher::new();
     hasher.update(HASH_PREFIX);

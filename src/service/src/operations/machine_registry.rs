@@ -167,3 +167,48 @@ fn faults_of(error: OperationError) -> Vec<FieldError> {
         other => vec![FieldError::new("", other.to_string())],
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+
+    fn resolved(drives: Value) -> Result<Arc<IdentifiedMachine>, OperationError> {
+        let mut machine = serde_json::to_value(MachineObject::from(Machine::verne().data())).unwrap();
+        machine["drives"] = drives;
+        let object: MachineObject = parse_body(machine.to_string().as_bytes())?;
+        MachineRegistry::default().resolve(&MachineRef::Object(Box::new(object)))
+    }
+
+    fn pointers(error: OperationError) -> Vec<String> {
+        let OperationError::Fields(faults) = error else { return Vec::new() };
+        faults.into_iter().map(|fault| fault.pointer).collect()
+    }
+
+    #[test]
+    fn drives_do_not_change_the_hash() {
+        let axis = json!({"velocity": 60, "acceleration": 500});
+        let drives = json!({"slider": {"velocity": 500, "acceleration": 3000}, "tilt": axis, "rotary": axis});
+        let machine = resolved(drives).unwrap();
+        assert_eq!(machine.id.hash, resolved(Value::Null).unwrap().id.hash);
+        let drives = machine.data().drives.unwrap();
+        assert_eq!((drives.slider.velocity, drives.tilt.velocity), (500.0, 60_f64.to_radians()));
+    }
+
+    #[test]
+    fn bad_drives_are_refused_at_their_pointer() {
+        let drives = |slider: Value| {
+            let axis = json!({"velocity": 60});
+            resolved(json!({"slider": slider, "tilt": axis, "rotary": axis}))
+        };
+        let error = drives(json!({"velocity": 0, "acceleration": -1})).unwrap_err();
+        let both = ["/machine/drives/slider/velocity", "/machine/drives/slider/acceleration"];
+        assert_eq!(pointers(error), both);
+        assert_eq!(pointers(drives(json!({"acceleration": 5})).unwrap_err()), ["/drives/slider/velocity"]);
+        assert_eq!(pointers(drives(json!([500])).unwrap_err()), ["/drives/slider"]);
+        assert!(drives(json!({"velocity": 1e6, "acceleration": 1e9})).is_ok());
+        assert!(drives(json!({"velocity": 0.001, "acceleration": 0.001})).is_ok());
+    }
+}

@@ -134,6 +134,7 @@ impl Question {
 mod tests {
     use serde::de::DeserializeOwned;
     use serde_json::{Value, from_value, json};
+    use verne_solver::Machine;
 
     use super::Question;
     use crate::operations::dexterity_question::DexterityQuestion;
@@ -143,6 +144,7 @@ mod tests {
     use crate::operations::subtask::Subtask;
     use crate::operations::workspace_question::WorkspaceQuestion;
     use crate::wire::format::MeshFormat;
+    use crate::wire::machine::MachineObject;
 
     fn request<T: DeserializeOwned>(value: Value) -> T {
         from_value(value).unwrap()
@@ -168,6 +170,31 @@ mod tests {
             assert_eq!((read.id(), read.kind()), (question.id(), question.kind()));
             assert_eq!(QuestionHeader::read(&text).unwrap().kind, question.kind());
             assert_eq!(JobParameters::read(&text).unwrap().cost.to_bits(), 0.1_f64.to_bits());
+        }
+    }
+
+    #[test]
+    fn drives_change_no_id_and_reach_the_worker() {
+        let plain = MachineObject::from(Machine::verne().data());
+        let mut machine = serde_json::to_value(&plain).unwrap();
+        let axis = json!({"velocity": 50, "acceleration": 0.001});
+        machine["drives"] = json!({"slider": {"velocity": 500}, "tilt": axis, "rotary": {"velocity": 1e6}});
+        let machines = MachineRegistry::default();
+        let asked = |machine: &Value| {
+            let workspace = json!({"kind": "part", "tolerance": 5, "machine": machine});
+            let map = json!({"phi1": {"from": -20, "to": 20}, "machine": machine});
+            [
+                Question::Workspace(WorkspaceQuestion::new(&request(workspace), &machines).unwrap()),
+                Question::Dexterity(DexterityQuestion::new(&request(map), &machines).unwrap()),
+            ]
+        };
+        for (with, without) in asked(&machine).into_iter().zip(asked(&json!("verne"))) {
+            assert_eq!(with.id(), without.id());
+            let text = with.to_text(None).unwrap();
+            assert!(Question::from_text(&text, without.id()).is_ok());
+            let text: Value = serde_json::from_slice(&text).unwrap();
+            let drives: MachineObject = from_value(text["machine"].clone()).unwrap();
+            assert_eq!(drives, from_value(machine.clone()).unwrap(), "to the last digit");
         }
     }
 }

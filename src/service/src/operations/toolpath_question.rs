@@ -237,6 +237,7 @@ fn canonical(request: &ToolpathRequest, machine: &IdentifiedMachine) -> Canonica
             .start
             .map(|start| TableStart { theta1: start.theta1 + 0.0, theta2: start.theta2 + 0.0 }),
         table_clearance,
+        drives: machine.data().drives.as_ref().map(Into::into),
         on_limit: request.on_limit,
     }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use crate::wire::drives::DrivesObject;
 use crate::wire::result_id::ResultId;
 use crate::wire::toolpath::{
     OnLimitName, OrientationName, RapidsName, Setup, TipName, Tolerance, ToolLengths,
@@ -54,6 +55,10 @@ pub(crate) struct CanonicalToolpath {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub table_clearance: Option<f64>,
+    /// The drives of the machine, which its hash leaves out; missing if it has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub drives: Option<DrivesObject>,
     /// What happens where the machine cannot follow a cut.
     pub on_limit: OnLimitName,
 }

@@ -6,8 +6,9 @@ use verne_solver::MachineData;
 use verne_solver::machine::{Geometry, Limits, Table};
 
 use crate::wire::degrees::{from_degrees, to_degrees};
+use crate::wire::drives::DrivesObject;
 use crate::wire::fixed_array::{Axes, FixedArray, Pair, PairPerSlider};
-use crate::wire::strict_object::strict_object;
+use crate::wire::strict_object::{optional_strict_object, strict_object};
 
 /// A machine of the VERNE architecture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -32,6 +33,10 @@ pub struct MachineObject {
     #[serde(deserialize_with = "strict_object")]
     #[schema(inline)]
     pub limits: LimitsObject,
+    /// The drives, for the times of tool paths. They change neither the machine's hash nor the id of a workspace.
+    #[serde(default, deserialize_with = "optional_strict_object", skip_serializing_if = "Option::is_none")]
+    #[schema(inline)]
+    pub drives: Option<DrivesObject>,
 }
 
 /// Dimensions of the parallel module, in mm, with the paper's symbols (Fig. 3, Eqs (3)-(6)).
@@ -154,6 +159,7 @@ impl From<&MachineObject> for MachineData {
                 slider_axes: l.slider_axes.map(|axes| axes.0.map(|axis| axis.0)),
                 platform_axes: l.platform_axes.map(|axes| axes.0.map(|axis| axis.0)),
             },
+            drives: object.drives.as_ref().map(Into::into),
         }
     }
 }
@@ -178,6 +184,7 @@ impl From<&MachineData> for MachineObject {
                 slider_axes: l.slider_axes.map(|axes| FixedArray(axes.map(FixedArray))),
                 platform_axes: l.platform_axes.map(|axes| FixedArray(axes.map(FixedArray))),
             },
+            drives: data.drives.as_ref().map(Into::into),
         }
     }
 }

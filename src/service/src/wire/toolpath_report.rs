@@ -102,7 +102,8 @@ pub(crate) struct FailureObject {
     pub at: FailurePlace,
 }
 
-/// A place of a program: /ik reproduces the failure for this pose in frame `part` with this tool.
+/// A place of a program. /ik reproduces the failure for this pose in frame `part` with this tool. A failure of `rotary`
+/// is one of the winding: theta2 is -phi2 there, while /ik takes a winding within the range.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct FailurePlace {
     /// The line.

@@ -1,5 +1,6 @@
 //! The plain numbers that describe a machine.
 
+use super::drives::Drives;
 use crate::mechanism::Geometry;
 
 /// The tilting table's offsets, in mm (Eq (7)).
@@ -52,4 +53,6 @@ pub struct MachineData {
     pub table: Table,
     /// The limits.
     pub limits: Limits,
+    /// The drives. `None`: unknown; a program's feeds alone determine its time.
+    pub drives: Option<Drives>,
 }

@@ -61,6 +61,7 @@ impl Machine {
                 slider_axes: None,
                 platform_axes: None,
             },
+            drives: None,
         })
     }
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::data::{Limits, MachineData};
+use super::drives::{Drive, Drives};
 use super::error::MachineError;
 use crate::axis::direction;
 use crate::mechanism::{Geometry, Mechanism};
@@ -12,6 +13,8 @@ use crate::request_range::MAX_LENGTH_RATIO;
 const LARGEST: f64 = 1e6;
 /// Least length that is accepted where a length must be positive, mm.
 const SMALLEST: f64 = 1e-3;
+/// Least velocity (mm/s, degrees/s) and acceleration (mm/s², degrees/s²) of a drive.
+const LEAST_RATE: f64 = 1e-3;
 /// How much longer than needed a leg must be at home, relative to what is needed.
 const RELATIVE_LENGTH_RESERVE: f64 = 1e-6;
 /// Least R1/r1 - 1, and least |e1 - e2| relative to the longest leg, at which the forward problem keeps its
@@ -31,6 +34,9 @@ pub(super) fn errors(data: &MachineData) -> Vec<MachineError> {
         checker.number(field, value);
     }
     limits(&data.limits, &mut checker);
+    if let Some(of_machine) = &data.drives {
+        drives(of_machine, &mut checker);
+    }
     if checker.0.is_empty() {
         proportions(data, &mut checker);
         elimination(&data.geometry, &mut checker);
@@ -135,6 +141,28 @@ fn limits(l: &Limits, checker: &mut Checker) {
                 &format!("limits/{field}/{i}"),
                 "must be a direction: three finite numbers, not all zero",
             );
+        }
+    }
+}
+
+/// Velocities and accelerations must be positive; far from them, times would lose their precision.
+fn drives(d: &Drives, checker: &mut Checker) {
+    let in_degrees = |drive: Drive| Drive {
+        velocity: drive.velocity.to_degrees(),
+        acceleration: drive.acceleration.map(f64::to_degrees),
+    };
+    let each = [
+        ("slider", d.slider, "mm"),
+        ("tilt", in_degrees(d.tilt), "deg"),
+        ("rotary", in_degrees(d.rotary), "deg"),
+    ];
+    for (name, drive, unit) in each {
+        let limits =
+            [("velocity", Some(drive.velocity), "s", 1e6), ("acceleration", drive.acceleration, "s²", 1e9)];
+        for (field, value, time, most) in limits {
+            let holds = value.is_none_or(|value| (LEAST_RATE..=most).contains(&value));
+            let detail = format!("must be a number between {LEAST_RATE:e} and {most:e} {unit}/{time}");
+            checker.check(holds, &format!("drives/{name}/{field}"), &detail);
         }
     }
 }

@@ -142,6 +142,7 @@ fn machine(file: &str) -> Machine {
             slider_axes: None,
             platform_axes: None,
         },
+        drives: None,
     };
     Machine::new(data).expect("a published machine is valid")
 }

@@ -165,6 +165,7 @@ impl Random {
                 slider_axes: None,
                 platform_axes: None,
             },
+            drives: None,
         }
     }
 

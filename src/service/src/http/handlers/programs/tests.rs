@@ -81,8 +81,8 @@ async fn a_program_sent_twice_is_one_object() {
 async fn the_file_is_returned_as_it_was_sent() {
     let service = service("").await;
     // Several pieces, and more than one step of the decoder.
-    let rows: String = (0..60_000).map(|i| format!("{},{},{}\n", i % 800, i % 7, i % 31)).collect();
-    let file = format!("x,y,z\n{rows}");
+    let rows: Vec<_> = (0..60_000).map(|i| format!("{},{},{}\n", i % 800, i % 7, i % 31)).collect();
+    let file = format!("x,y,z\n{}", rows.concat());
     let sent = Request::post("/programs").header(CONTENT_TYPE, "text/csv");
     let answer = send(&service, sent.body(file.clone().into()).unwrap()).await;
     assert_eq!(answer.json["format"], "csv", "{}", answer.json);
@@ -156,7 +156,8 @@ async fn a_body_that_breaks_off_is_refused() {
 #[tokio::test]
 async fn evicted_programs_can_be_sent_again_and_larger_ones_than_the_store_are_refused() {
     let service = service("--cache-bytes 8000").await;
-    let rows = |count: i32, z: i32| -> String { (0..count).map(|i| format!("[{i}, 0, {z}]\n")).collect() };
+    let rows =
+        |count: i32, z: i32| (0..count).map(|i| format!("[{i}, 0, {z}]\n")).collect::<Vec<_>>().concat();
     let refused = post(&service, "format=ndjson", rows(1000, 1)).await;
     assert_eq!((refused.status.as_u16(), &refused.json["code"]), (507, &json!("program_too_large")));
     let first = post(&service, "format=ndjson", rows(50, 1)).await;
@@ -171,4 +172,39 @@ async fn evicted_programs_can_be_sent_again_and_larger_ones_than_the_store_are_r
     assert_eq!((again.status, &again.bytes), (StatusCode::CREATED, &first.bytes));
     let nonsense = get(&service, "/programs/1f2e").await;
     assert_eq!((nonsense.status.as_u16(), &nonsense.json["code"]), (404, &json!("program_not_found")));
+}
+
+#[tokio::test]
+async fn g_code_is_read_with_the_options_of_the_query() {
+    let service = service("").await;
+    let file =
+        "%\nM428\nT1 M6\nG0 X0 Y0 Z50 A0 C0\nG1 Z5 F9999\nG2 X10 Y0 I5 J0 A30 C90 F800\nM429\nM30\n%\n";
+    for codes in ["tcp_on=M428&tcp_off=M429", "tcp_on=[%22M428%22]&tcp_off=M429,M999"] {
+        let query = format!("format=gcode&units=mm&rapid_feed=5000&rotary_sense=table&{codes}");
+        let answer = post(&service, &query, file).await;
+        assert_eq!(
+            (answer.status, &answer.json["moves"]),
+            (StatusCode::CREATED, &json!(3)),
+            "{}",
+            answer.json
+        );
+        assert_eq!(answer.json["warnings"], json!([]));
+        assert_eq!(answer.json["bounds"]["max"], json!([10.0, 5.0, 50.0]));
+    }
+    let refused = post(&service, "format=gcode&units=mm", file).await;
+    let error = &refused.json["errors"][0];
+    assert_eq!([&error["line"], &error["column"], &error["word"]], [&json!(4), &json!(16), &json!("A0")]);
+    assert!(error["detail"].as_str().unwrap().contains("tcp_on"), "{error}");
+    for (query, detail) in [
+        ("tcp_on=X428", "a code is G or M"),
+        ("tcp_on=", "a code is G or M"),
+        ("rapid_feed=0", "greater than 0"),
+        ("rapid_feed=NaN", "greater than 0"),
+        ("rotary_sense=left", "`table`"),
+        ("tcp=yes", "true"),
+    ] {
+        let answer = post(&service, &format!("format=gcode&{query}"), file).await;
+        assert_eq!(answer.status, StatusCode::UNPROCESSABLE_ENTITY, "{query}");
+        assert!(answer.json.to_string().contains(detail), "{query}: {}", answer.json);
+    }
 }
