@@ -45,7 +45,9 @@ export async function offer(file: File): Promise<void> {
       inWords(thrown),
       content,
       faults.flatMap((fault) =>
-        "pointer" in fault ? [{ pointer: fault.pointer.replace(/^\/machine/, ""), detail: fault.detail }] : [],
+        "pointer" in fault
+          ? [{ pointer: fault.pointer.replace(/^\/machine/, ""), detail: fault.detail }]
+          : [],
       ),
     );
   }
