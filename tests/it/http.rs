@@ -4,6 +4,7 @@ mod admission;
 mod bad_input;
 mod batch;
 mod client_quotas;
+mod continuous_batch;
 mod cross_origin_requests;
 mod dexterity;
 mod documented_failures;

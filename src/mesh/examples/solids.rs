@@ -1,6 +1,8 @@
-//! Writes solids in every format into a directory, with what a reader should find in them:
+//! Writes solids in every format into a directory, with what a reader should find in them, and a path:
 //! `cargo run --release -p verne-mesh --example solids -- DIR`
 
+#[path = "../tests/support/paths.rs"]
+mod paths;
 #[path = "../tests/support/solids.rs"]
 mod solids;
 
@@ -30,19 +32,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (name, mesh) in solids {
         write(&directory.join(name), &mesh)?;
     }
+    let options = Options { name: "path".to_owned(), up: Up::PositiveZ, extras: json!({ "unit": "mm" }) };
+    glb::write_path(&paths::square(100), &options, File::create(directory.join("path.glb"))?)?;
     Ok(())
 }
 
 fn write(path: &Path, mesh: &Mesh) -> Result<(), Box<dyn Error>> {
     let extras = json!({ "unit": "mm", "volume": mesh.volume(), "triangles": mesh.triangles().len() });
-    let options = Options {
-        name: "solid".to_owned(),
-        up: Up::NegativeZ,
-        crease: 40_f64.to_radians(),
-        extras: extras.clone(),
-    };
+    let options = Options { name: "solid".to_owned(), up: Up::NegativeZ, extras: extras.clone() };
     let file = |extension: &str| File::create(path.with_extension(extension));
-    let glb = timed(|| glb::write(mesh, &options, file("glb")?))?;
+    let glb = timed(|| glb::write(mesh, 40_f64.to_radians(), &options, file("glb")?))?;
     let stl = timed(|| stl::write(mesh, "solid", file("stl")?))?;
     let ply = timed(|| ply::write(mesh, &extras.to_string(), file("ply")?))?;
     let json = timed(|| verne_mesh::json::write(mesh, &extras, file("json")?))?;

@@ -3,10 +3,13 @@
 //! Each tag that occurs becomes a primitive whose material has the tag's name and colour, so other programs can
 //! select it. Its `extras` contain the `tag`, an index into the `palette` of the mesh's `extras`. The vertices are
 //! split along the creases and between the tags. They are interleaved, 24 bytes each: position and normal.
+//!
+//! A path becomes lines: a primitive of coloured segments, and one of plain segments.
 
 mod document;
 mod layout;
 mod options;
+mod path;
 mod placement;
 
 use std::io::{self, BufWriter, Write};
@@ -15,6 +18,7 @@ use gltf_json::Root;
 
 use self::layout::{Layout, PrimitiveLayout, STRIDE};
 pub use self::options::Options;
+pub use self::path::write_path;
 use self::placement::Placement;
 pub use self::placement::Up;
 use crate::groups::Groups;
@@ -23,9 +27,11 @@ use crate::{Bounds, Mesh};
 
 /// Writes the mesh as a GLB. An empty mesh becomes a scene without nodes, because glTF has no empty buffers.
 ///
+/// An edge is shown sharp if the angle between its triangles is at least `crease`, or if their tags differ.
+///
 /// # Units
 ///
-/// The mesh is in millimetres; the file is in metres with Y up. `options.crease` is in radians.
+/// The mesh is in millimetres; the file is in metres with Y up. `crease` is in radians.
 ///
 /// # Errors
 ///
@@ -45,29 +51,34 @@ use crate::{Bounds, Mesh};
 /// let options = Options {
 ///     name: "tetrahedron".to_owned(),
 ///     up: Up::NegativeZ,
-///     crease: 0.7,
 ///     extras: serde_json::Value::Null,
 /// };
 /// let mut file = Vec::new();
-/// glb::write(&mesh, &options, &mut file)?;
+/// glb::write(&mesh, 0.7, &options, &mut file)?;
 /// assert!(file.starts_with(b"glTF"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn write(mesh: &Mesh, options: &Options, out: impl Write) -> io::Result<()> {
+pub fn write(mesh: &Mesh, crease: f64, options: &Options, out: impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     match mesh.bounds() {
-        Some(bounds) => write_scene(mesh, bounds, options, &mut out)?,
+        Some(bounds) => write_scene(mesh, bounds, crease, options, &mut out)?,
         None => write_head(&document::empty(options)?, None, &mut out)?,
     }
     out.flush()
 }
 
-fn write_scene(mesh: &Mesh, bounds: Bounds, options: &Options, out: &mut impl Write) -> io::Result<()> {
+fn write_scene(
+    mesh: &Mesh,
+    bounds: Bounds,
+    crease: f64,
+    options: &Options,
+    out: &mut impl Write,
+) -> io::Result<()> {
     let placement = Placement::new(options.up, bounds);
     let groups = Groups::of(mesh);
-    let shading = Shading::of(mesh, options.crease, &groups);
+    let shading = Shading::of(mesh, crease, &groups);
     let layout = Layout::new(mesh, &groups, &shading, &placement);
-    write_head(&document::of(mesh, options, &placement, &layout)?, Some(&layout), out)?;
+    write_head(&document::of(mesh, options, &placement, &layout)?, Some(layout.chunk()), out)?;
     for vertex in &shading.vertices {
         out.write_all(&record(vertex, mesh, &placement))?;
     }
@@ -105,11 +116,11 @@ fn write_indices(
     Ok(())
 }
 
-/// The file's header, the JSON chunk, and the binary chunk's header if there is one.
-fn write_head(document: &Root, layout: Option<&Layout>, out: &mut impl Write) -> io::Result<()> {
+/// The file's header, the JSON chunk, and the header of the binary chunk if there is one; `binary` is its length, a
+/// multiple of four.
+fn write_head(document: &Root, binary: Option<u64>, out: &mut impl Write) -> io::Result<()> {
     let mut json = document.to_vec()?;
     json.resize(json.len().next_multiple_of(4), b' ');
-    let binary = layout.map(Layout::chunk);
     let total = 12 + 8 + json.len() as u64 + binary.map_or(0, |length| 8 + length);
     out.write_all(b"glTF")?;
     out.write_all(&2_u32.to_le_bytes())?;

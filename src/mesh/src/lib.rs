@@ -1,5 +1,5 @@
-//! Indexed triangle meshes in millimetres: measures, audits, plane sections and encoders. The frame is any
-//! right-handed one. The crate does not know the meaning of a mesh.
+//! Indexed triangle meshes in millimetres: measures, audits, plane sections and encoders. Paths as coloured lines. The
+//! frame is any right-handed one. The crate does not know the meaning of a mesh.
 //!
 //! A vertex is stored once and shared. So a closed surface is closed by its indices, not by a comparison of
 //! coordinates. Only GLB, which has one normal for each vertex, gets split vertices.
@@ -15,6 +15,7 @@ mod measure;
 mod mesh;
 pub mod packed;
 mod palette;
+mod path;
 pub mod ply;
 mod section;
 mod shading;
@@ -28,4 +29,5 @@ pub use error::MeshError;
 pub use measure::Bounds;
 pub use mesh::Mesh;
 pub use palette::Swatch;
+pub use path::{ColourScale, Path, PathBuilder, Stroke};
 pub use section::Contour;

@@ -16,11 +16,13 @@ pub struct Swatch {
 impl Swatch {
     /// The colour as linear intensity, 0 to 1, as glTF defines a material's colour.
     pub(crate) fn linear(&self) -> [f32; 3] {
-        single(self.rgb.map(|channel| {
-            let encoded = f64::from(channel) / 255.0;
-            if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-        }))
+        single(self.rgb.map(|channel| linear(f64::from(channel) / 255.0)))
     }
+}
+
+/// The linear intensity of an sRGB channel; both are from 0 to 1.
+pub(crate) fn linear(channel: f64) -> f64 {
+    if channel <= 0.04045 { channel / 12.92 } else { ((channel + 0.055) / 1.055).powf(2.4) }
 }
 
 #[cfg(test)]

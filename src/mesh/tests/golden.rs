@@ -4,11 +4,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
+#[path = "support/golden_file.rs"]
+mod golden_file;
 #[path = "support/solids.rs"]
 mod solids;
 
 use std::io::Cursor;
-use std::path::Path;
 
 use serde_json::{Value, json};
 use verne_mesh::glb::{Options, Up};
@@ -23,10 +24,9 @@ fn note() -> Value {
 }
 
 fn glb(mesh: &Mesh) -> Vec<u8> {
-    let options =
-        Options { name: "solid".to_owned(), up: Up::NegativeZ, crease: 60_f64.to_radians(), extras: note() };
+    let options = Options { name: "solid".to_owned(), up: Up::NegativeZ, extras: note() };
     let mut bytes = Vec::new();
-    glb::write(mesh, &options, &mut bytes).unwrap();
+    glb::write(mesh, 60_f64.to_radians(), &options, &mut bytes).unwrap();
     bytes
 }
 
@@ -54,18 +54,7 @@ fn files_equal_the_golden_files() {
         for (extension, bytes) in
             [("glb", glb(&mesh)), ("stl", stl(&mesh)), ("ply", ply(&mesh)), ("json", json(&mesh))]
         {
-            let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-                .join("tests/golden")
-                .join(name)
-                .with_extension(extension);
-            if std::env::var_os("VERNE_BLESS").is_some() {
-                std::fs::write(&file, &bytes).unwrap();
-            }
-            assert!(
-                std::fs::read(&file).unwrap() == bytes,
-                "{} differs from the bytes written now",
-                file.display()
-            );
+            golden_file::assert_equal(name, extension, &bytes);
         }
     }
 }

@@ -1,4 +1,5 @@
-//! Summarises a program: `cargo run -p verne-program --example summary part.cls [mm|inch]`.
+//! Summarises a program: `cargo run -p verne-program --example summary part.cls`, or with options as JSON:
+//! `cargo run -p verne-program --example summary part.ngc '{"tcp_on": ["M428"], "tcp_off": ["M429"]}'`.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -8,9 +9,9 @@ use verne_program::{Format, MoveKind, ReadError, ReadOptions, read};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let path = arguments.next().ok_or("the path of a program is missing")?;
-    let units = arguments.next().map(|text| text.parse()).transpose()?;
+    let options: ReadOptions =
+        arguments.next().map(|text| serde_json::from_str(&text)).transpose()?.unwrap_or_default();
     let format = Format::detect(None, Some(&path), None)?;
-    let options = ReadOptions { units, ..ReadOptions::default() };
     match read(format, BufReader::new(File::open(&path)?), &options) {
         Ok(program) => {
             let rapids = program.moves().iter().filter(|one| one.kind() == MoveKind::Rapid).count();

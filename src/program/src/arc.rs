@@ -19,7 +19,7 @@ pub struct Arc {
 /// How far an arc turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Sweep {
-    /// To the end, and so many whole turns before. A full turn if the end lies on the start.
+    /// To the end, and so many whole turns before. The way to an end on the start is a full turn.
     ToEnd {
         /// Whole turns.
         turns: u16,
@@ -62,7 +62,7 @@ impl Arc {
         let turn = from.angle_to(&to, normal);
         let chord = (to.direction * to.radius - from.direction * from.radius).norm();
         let sweep = match sweep {
-            Sweep::ToEnd { turns } if chord <= SAME_POINT => TAU * f64::from(turns.max(1)),
+            Sweep::ToEnd { turns } if chord <= SAME_POINT => TAU * (f64::from(turns) + 1.0),
             Sweep::ToEnd { turns } => turn + TAU * f64::from(turns),
             Sweep::About(stated) => {
                 let exact = turn + TAU * ((stated - turn) / TAU).round();

@@ -77,6 +77,15 @@ impl Builder {
         self.program.units = units;
     }
 
+    pub(crate) fn set_length_source(&mut self, source: LengthSource) {
+        self.program.length_source = source;
+    }
+
+    /// Adds an angle to phi2 of all moves with rotary words.
+    pub(crate) fn add_to_phi2(&mut self, angle: f64) {
+        self.program.moves.iter_mut().for_each(|one| one.add_to_phi2(angle));
+    }
+
     pub(crate) fn move_count(&self) -> usize {
         self.program.moves.len()
     }
@@ -112,7 +121,7 @@ impl Builder {
     /// Adds an arc from the present point, or says in a sentence why not.
     pub(crate) fn arc(&mut self, target: Target, circle: Circle) -> Result<(), String> {
         let Some(start) = self.position().copied() else {
-            return Err("an arc needs a point to begin at; write a GOTO before it".to_owned());
+            return Err("an arc needs a point to begin at; write a straight move to it before".to_owned());
         };
         if circle.centre.iter().any(|value| value.abs() > LARGEST) {
             return Err(too_far());
@@ -138,7 +147,7 @@ impl Builder {
             return Ok(());
         }
         let before = u32::try_from(self.program.moves.len()).map_err(|_| "too many moves".to_owned())?;
-        if kind == EventKind::Home {
+        if kind.hides_start() {
             self.known = false;
         }
         self.program.events.push(Event { line, before, kind, text: text.into() });

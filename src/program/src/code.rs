@@ -5,6 +5,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+use crate::numerals::tenths;
+
 /// A G or M code, with at most one digit after the point: `M428`, `G43.4`.
 ///
 /// ```
@@ -30,8 +32,12 @@ pub(crate) enum CodeKind {
     M,
 }
 
-/// The largest number of a code.
-const LARGEST: u32 = 99_999;
+impl Code {
+    /// A code with the number `tenths / 10`.
+    pub(crate) fn new(kind: CodeKind, tenths: u32) -> Self {
+        Self { kind, tenths }
+    }
+}
 
 impl fmt::Display for Code {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -79,17 +85,4 @@ impl From<Code> for String {
     fn from(code: Code) -> Self {
         code.to_string()
     }
-}
-
-/// Ten times a number with at most one digit other than zero after the point.
-pub(crate) fn tenths(text: &str) -> Option<u32> {
-    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
-    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-    let rest = fraction.get(1..).unwrap_or_default();
-    if whole.is_empty() || !digits(whole) || !digits(fraction) || rest.bytes().any(|byte| byte != b'0') {
-        return None;
-    }
-    let whole: u32 = whole.parse().ok().filter(|whole| *whole <= LARGEST)?;
-    let tenth = fraction.bytes().next().map_or(0, |byte| u32::from(byte - b'0'));
-    Some(whole * 10 + tenth)
 }

@@ -61,7 +61,8 @@ pub enum EventKind {
         /// The entry of the table; none after G49.
         number: Option<u32>,
     },
-    /// The origin of the points that follow is that of a work offset. Before the first one, it is that of G54.
+    /// The origin of the points that follow is that of another work offset. Before the first such event it is that of
+    /// G54. The move before and the next one have different origins, so the next move has no start.
     WorkOffset(WorkOffset),
     /// Control of the tool centre point begins or ends; its end ends a cut.
     CentrePointControl {
@@ -119,6 +120,11 @@ pub enum Dwell {
 }
 
 impl EventKind {
+    /// Whether the end of the move before is no point in the frame of the next move.
+    pub(crate) fn hides_start(&self) -> bool {
+        matches!(self, Self::Home | Self::WorkOffset(_))
+    }
+
     /// Whether the numbers of the event are finite and not negative.
     pub(crate) fn is_valid(&self) -> bool {
         let number = match *self {

@@ -8,6 +8,8 @@ use std::str::FromStr;
 pub enum Format {
     /// CL text.
     Apt,
+    /// G-code: RS-274/NGC and Fanuc.
+    Gcode,
     /// Rows with comma-separated columns and a first row of names.
     Csv,
     /// Rows as one JSON object or array per line.
@@ -39,7 +41,7 @@ impl fmt::Display for FormatError {
                 write!(f, "{controller} programs are not read; post the tool path as CL text")?;
             }
         }
-        f.write_str("; accepted are apt, csv and ndjson")
+        f.write_str("; accepted are apt, gcode, csv and ndjson")
     }
 }
 
@@ -53,6 +55,7 @@ impl Format {
     pub fn name(self) -> &'static str {
         match self {
             Self::Apt => "apt",
+            Self::Gcode => "gcode",
             Self::Csv => "csv",
             Self::Ndjson => "ndjson",
         }
@@ -63,7 +66,7 @@ impl Format {
     /// # Errors
     ///
     /// - [`FormatError::Unknown`]: no format has the stated name.
-    /// - [`FormatError::Unsupported`]: the format cannot be read yet: `gcode` and `arrow`.
+    /// - [`FormatError::Unsupported`]: the format cannot be read yet: `arrow`.
     /// - [`FormatError::Refused`]: the program is one of Heidenhain (`.h`) or Siemens (`.mpf`).
     /// - [`FormatError::Undetermined`]: nothing is stated, and neither extension nor media type is known.
     ///
@@ -105,9 +108,9 @@ impl FromStr for Format {
 fn by_name(name: &str) -> Option<Known> {
     Some(match name {
         "apt" => Ok(Format::Apt),
+        "gcode" => Ok(Format::Gcode),
         "csv" => Ok(Format::Csv),
         "ndjson" => Ok(Format::Ndjson),
-        "gcode" => Err(FormatError::Unsupported("gcode")),
         "arrow" => Err(FormatError::Unsupported("arrow")),
         "heidenhain" => Err(FormatError::Refused("Heidenhain")),
         "siemens" => Err(FormatError::Refused("Siemens")),

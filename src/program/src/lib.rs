@@ -27,7 +27,8 @@
 //! - [`EventKind::WorkOffset`] names the origin of the points that follow. Before the first one it is that of G54.
 //! - [`EventKind::CentrePointControl`] and [`EventKind::TiltedPlane`] change nothing about the points of moves. They
 //!   interrupt a cut.
-//! - After [`EventKind::Home`] the next move has no start.
+//! - After [`EventKind::Home`] the position of the tool is not known. After [`EventKind::WorkOffset`] it is known, but
+//!   in the frame of the origin before. The next move has no start in either case.
 //!
 //! A fault names its line, column and word, and what would be accepted:
 //!
@@ -47,11 +48,15 @@ mod arc;
 mod builder;
 mod code;
 mod diagnostics;
+mod drilling;
 mod error;
 mod event;
 mod format;
+mod gcode;
+pub mod joint_program;
 mod lines;
 mod moves;
+mod numerals;
 mod options;
 mod orientation;
 pub mod packed;

@@ -82,6 +82,12 @@ impl Move {
         self
     }
 
+    pub(crate) fn add_to_phi2(&mut self, angle: f64) {
+        if self.words_are == Words::Rotary {
+            self.words[1] += angle;
+        }
+    }
+
     /// The number of its arc in the program, from 1.
     pub(crate) fn arc_number(&self) -> Option<NonZeroU32> {
         self.arc

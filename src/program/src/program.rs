@@ -55,7 +55,7 @@ pub struct Segment<'a> {
     /// The index of the move.
     pub index: usize,
     /// The move before: its tip and orientation are the start. The first move, and one after
-    /// [`EventKind::Home`], has none.
+    /// [`EventKind::Home`] or [`EventKind::WorkOffset`], has none.
     pub start: Option<&'a Move>,
     /// The move.
     pub end: &'a Move,
@@ -239,7 +239,7 @@ impl<'a> Iterator for Steps<'a> {
             && event.before as usize <= self.next_move
         {
             self.next_event += 1;
-            if event.kind == EventKind::Home {
+            if event.kind.hides_start() {
                 self.start = None;
             }
             return Some(Step::Event(event));

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use crate::apt::AptReader;
 use crate::error::{ProgramErrors, ReadError};
 use crate::format::Format;
+use crate::gcode::GcodeReader;
 use crate::lines::{LineReader, LineSplitter};
 use crate::options::ReadOptions;
 use crate::program::Program;
@@ -37,6 +38,7 @@ impl Reader {
     pub fn new(format: Format, options: &ReadOptions) -> Self {
         let format: Box<dyn LineReader> = match format {
             Format::Apt => Box::new(AptReader::new(options)),
+            Format::Gcode => Box::new(GcodeReader::new(options)),
             Format::Csv => Box::new(CsvReader::new(options)),
             Format::Ndjson => Box::new(NdjsonReader::new(options)),
         };

@@ -37,6 +37,7 @@ pub(crate) mod security_headers;
 pub(crate) mod state;
 pub(crate) mod static_content;
 pub(crate) mod toolpath_body;
+pub(crate) mod toolpath_rows;
 pub(crate) mod unknown_parameters;
 pub(crate) mod viewer_files;
 pub(crate) mod wait_policy;

@@ -8,7 +8,7 @@ use verne_service::Cli;
 fn main() -> ExitCode {
     let cli = Cli::read(std::env::args_os()).unwrap_or_else(|message| message.exit());
     match cli.run(&mut stdout(), &mut stderr(), stdout().is_terminal()) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => status,
         Err(message) => {
             // If standard error is closed, the exit status alone reports the failure.
             drop(writeln!(stderr(), "error: {message}"));

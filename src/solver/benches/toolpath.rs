@@ -9,7 +9,7 @@ use verne_solver::axis::{Preimages, preimages};
 use verne_solver::toolpath::{Curve, Motion, MotionKind, PlanOptions, ToolPosition, Turning, plan};
 use verne_solver::{Machine, PartPose, part_working};
 
-const ROUNDS: usize = 5;
+const ROUNDS: usize = 9;
 
 /// A dome finished in a raster: `lines` lines of `points` points.
 fn dome(lines: u32, points: u32) -> Vec<Motion> {

@@ -13,6 +13,7 @@ mod platform_locus;
 mod solutions;
 mod tool;
 
+pub(crate) use part::part_working_near;
 pub use part::{part, part_every_working, part_working};
 pub use platform::{platform, platform_working};
 pub use tool::{tool, tool_every_working, tool_working};

@@ -154,4 +154,4 @@ pub use margins::Margins;
 pub use pose::{PartPose, PlatformPose, Point, TableAngles};
 pub use posture::{MAX_POSTURES, Mode, Posture, Postures, Side};
 pub use request_range::{MAX_INPUT, MAX_LENGTH_RATIO};
-pub use table::{SplitAngle, Winding, part_pose, table_angles, table_windings, tool_point};
+pub use table::{SplitAngle, Winding, part_pose, rotary_windings, table_angles, table_windings, tool_point};

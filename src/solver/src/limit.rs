@@ -27,6 +27,11 @@ pub enum Constraint {
     TableClearance,
 }
 
+impl Constraint {
+    /// Number of constraints.
+    pub(crate) const COUNT: usize = Self::TableClearance as usize + 1;
+}
+
 /// The part of the machine that a margin belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Element {

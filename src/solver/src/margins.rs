@@ -5,6 +5,6 @@ pub(crate) mod interference;
 pub(crate) mod margin_batch;
 pub(crate) mod normalization;
 mod posture_margins;
-pub(crate) mod worst;
+mod worst;
 
 pub use posture_margins::Margins;

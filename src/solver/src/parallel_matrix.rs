@@ -35,3 +35,28 @@ where
         - upper(1, 3) * lower(0, 2)
         + upper(2, 3) * lower(0, 1)
 }
+
+/// The inverse, from the minors of the upper and the lower two rows. `None` if a number of it is not finite.
+#[inline]
+pub(crate) fn inverse(m: &ParallelMatrix) -> Option<ParallelMatrix> {
+    let minors = |a: &[f64; 4], b: &[f64; 4]| {
+        let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+        [minor(0, 1), minor(0, 2), minor(0, 3), minor(1, 2), minor(1, 3), minor(2, 3)]
+    };
+    let (s, c) = (minors(&m[0], &m[1]), minors(&m[2], &m[3]));
+    let det = s[0] * c[5] - s[1] * c[4] + s[2] * c[3] + s[3] * c[2] - s[4] * c[1] + s[5] * c[0];
+    let scale = 1.0 / det;
+    // The adjugate's rows, each from one row of the matrix and the minors of the other two.
+    let first = |row: &[f64; 4], c: &[f64; 6]| {
+        [
+            row[1] * c[5] - row[2] * c[4] + row[3] * c[3],
+            -row[0] * c[5] + row[2] * c[2] - row[3] * c[1],
+            row[0] * c[4] - row[1] * c[2] + row[3] * c[0],
+            -row[0] * c[3] + row[1] * c[1] - row[2] * c[0],
+        ]
+    };
+    let columns = [first(&m[1], &c), first(&m[0], &c), first(&m[3], &s), first(&m[2], &s)];
+    let signs = [scale, -scale, scale, -scale];
+    let found = std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i] * signs[j]));
+    scale.is_finite().then_some(found)
+}

@@ -114,7 +114,8 @@ pub struct Winding {
 /// Moves theta1 and theta2 by whole turns into the machine's ranges.
 ///
 /// Of several values in a range the function takes the one nearest to `near` if that is given, else the given value,
-/// else the one nearest to zero. An angle that has no value in its range is moved to its value nearest to zero.
+/// else the one nearest to zero; of two that are equally near, the greater one. An angle that has no value in its range
+/// is moved to its value nearest to zero.
 ///
 /// # Units
 ///
@@ -141,16 +142,59 @@ pub fn table_windings(machine: &Machine, given: [SplitAngle; 2], near: [Option<f
     [winding(limits.tilt, given[0], near[0]), winding(limits.rotary, given[1], near[1])]
 }
 
+/// Counts the values of theta2, by whole turns apart, that are within the machine's range.
+///
+/// # Units
+///
+/// Radians, and whole turns.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eq (9) determines theta2 up to
+/// whole turns.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Machine, rotary_windings};
+///
+/// // The range is ±2π: 1 and 1 - 2π are in it, and of 0 also ±2π.
+/// assert_eq!(rotary_windings(&Machine::verne(), 1.0), 2);
+/// assert_eq!(rotary_windings(&Machine::verne(), 0.0), 3);
+/// ```
+pub fn rotary_windings(machine: &Machine, theta2: f64) -> u32 {
+    let (first, last) = admissible_turns(machine.limits().rotary, theta2);
+    if first <= last { count(last - first) } else { 0 }
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number; a range has at most 200 turns"
+)]
+fn count(turns: f64) -> u32 {
+    turns as u32 + 1
+}
+
 /// Rounding of an angle of some turns, rad.
 const ROUNDING: f64 = 1e-13;
 
+/// Part of a turn within which two values are equally near: rounding does not choose between them.
+const TIE: f64 = 1e-10;
+
+/// The least and the greatest number of whole turns that move an angle into a range; none if the first is greater.
+fn admissible_turns([low, high]: [f64; 2], angle: f64) -> (f64, f64) {
+    (((low - ROUNDING - angle) / TAU).ceil(), ((high + ROUNDING - angle) / TAU).floor())
+}
+
 fn winding(
-    [low, high]: [f64; 2],
+    range: [f64; 2],
     SplitAngle { remainder: angle, turns }: SplitAngle,
     near: Option<f64>,
 ) -> Winding {
-    let nearest = |target: f64| ((target - angle) / TAU).round();
-    let (first, last) = (((low - ROUNDING - angle) / TAU).ceil(), ((high + ROUNDING - angle) / TAU).floor());
+    // Of two values half a turn away, the greater one.
+    let nearest = |target: f64| ((target - angle) / TAU + 0.5 + TIE).floor();
+    let (first, last) = admissible_turns(range, angle);
     let admissible = first <= last;
     let turns = match near {
         _ if !admissible => nearest(0.0),
@@ -159,6 +203,7 @@ fn winding(
         None => nearest(0.0).clamp(first, last),
     };
     let value = angle + TAU * turns;
+    let [low, high] = range;
     let within = if admissible && turns != 0.0 { value.clamp(low, high) } else { value };
     Winding { turns, value: within }
 }

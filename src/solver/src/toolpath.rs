@@ -7,15 +7,18 @@ mod azimuth;
 mod bound;
 mod cap;
 mod choice;
+mod differential;
 mod joint_segment;
 mod linearise;
 mod meridian;
 mod motion;
+mod nearby_pose;
 mod node;
 mod path;
 mod report;
 mod rows;
 mod stretches;
+mod tool_motion;
 
 use std::fmt;
 

@@ -23,5 +23,7 @@ mod drives;
 mod lines;
 #[path = "toolpath/pole.rs"]
 mod pole;
+#[path = "support/random.rs"]
+mod random;
 #[path = "toolpath/support.rs"]
 mod support;

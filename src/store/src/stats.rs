@@ -37,6 +37,18 @@ pub(crate) struct Counters {
     pub(crate) write_failures: Counter,
 }
 
+impl Counters {
+    /// Counts a request by its outcome, and by whether its caller looked in the backing store.
+    pub(crate) fn count(&self, found: bool, was_read: bool) {
+        let counter = match (found, was_read) {
+            (false, _) => &self.misses,
+            (true, true) => &self.disk_hits,
+            (true, false) => &self.memory_hits,
+        };
+        counter.add(1);
+    }
+}
+
 #[derive(Default)]
 pub(crate) struct Counter(AtomicU64);
 

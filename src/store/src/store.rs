@@ -115,7 +115,7 @@ impl Store {
         }
         let mut was_read = false;
         let content = self.flights.run(*key, self.read(*key, &mut was_read)).await;
-        self.count(content.is_some(), was_read);
+        self.counters.count(content.is_some(), was_read);
         content
     }
 
@@ -134,7 +134,7 @@ impl Store {
             }
             _ => None,
         };
-        self.count(reader.is_some(), was_read);
+        self.counters.count(reader.is_some(), was_read);
         reader
     }
 
@@ -143,15 +143,29 @@ impl Store {
     /// it for stored, while other processes do not find it.
     pub async fn put(&self, key: &Key, bytes: Bytes) -> (Content, Durability) {
         let content = self.live.share(*key, Content::hashed(bytes).await);
-        if !self.is_shared() {
+        let is_shared = self.is_shared();
+        if !is_shared {
             self.memory.insert(*key, content.clone());
-            let durability = self.write(*key, &content).await;
-            return (content, durability);
         }
         let durability = self.write(*key, &content).await;
         match durability {
+            _ if !is_shared => {}
             Durability::Durable => self.memory.insert(*key, content.clone()),
             Durability::MemoryOnly => self.memory.remove(key),
+        }
+        (content, durability)
+    }
+
+    /// Stores bytes as [`Store::put`] does, but in memory only if there is no other place.
+    pub async fn put_uncached(&self, key: &Key, bytes: Bytes) -> (Content, Durability) {
+        if self.backing.is_none() {
+            return self.put(key, bytes).await;
+        }
+        let content = self.live.share(*key, Content::hashed(bytes).await);
+        self.memory.remove(key);
+        let durability = self.write(*key, &content).await;
+        if durability == Durability::MemoryOnly && !self.is_shared() {
+            self.memory.insert(*key, content.clone());
         }
         (content, durability)
     }
@@ -267,16 +281,6 @@ impl Store {
             Some(backing) if backing.write(key, content).await => Durability::Durable,
             _ => Durability::MemoryOnly,
         }
-    }
-
-    /// Counts a request by its outcome, and by whether its caller looked in the backing store.
-    fn count(&self, found: bool, was_read: bool) {
-        let counter = match (found, was_read) {
-            (false, _) => &self.counters.misses,
-            (true, true) => &self.counters.disk_hits,
-            (true, false) => &self.counters.memory_hits,
-        };
-        counter.add(1);
     }
 }
 

@@ -25,6 +25,8 @@ mod client;
 mod draw;
 mod json;
 mod keys;
+#[path = "../../../src/solver/tests/support/lengths.rs"]
+mod lengths;
 mod machines;
 mod mesh;
 mod programs;
@@ -46,10 +48,11 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 14] = [
+pub const TARGETS: [Target; 15] = [
     Target { name: "apt", run: programs::apt, default_inputs: 5_000 },
     Target { name: "body", run: requests::body, default_inputs: 500 },
     Target { name: "csv", run: programs::csv, default_inputs: 5_000 },
+    Target { name: "gcode", run: programs::gcode, default_inputs: 5_000 },
     Target { name: "headers", run: requests::headers, default_inputs: 500 },
     Target { name: "keys", run: keys::keys, default_inputs: 200 },
     Target { name: "machine", run: requests::machine, default_inputs: 500 },

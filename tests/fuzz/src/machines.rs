@@ -4,6 +4,7 @@ use verne_solver::machine::{Geometry, Limits, Table};
 use verne_solver::{Machine, MachineData};
 
 use crate::draw::Draw;
+use crate::lengths::lengths;
 
 /// A machine, if the numbers are valid. Otherwise the error must name a field.
 pub(crate) fn machine(draw: &mut Draw<'_>) -> Option<Machine> {
@@ -26,9 +27,8 @@ fn data(draw: &mut Draw<'_>) -> MachineData {
     let scale = if draw.one_in(3) { draw.between(-6.0, 6.0).exp() } else { 1.0 };
     let spread = draw.pick(&[0.0, 0.1, 0.5, 1.0]);
     let wild = draw.pick(&[0, 0, 0, 1, 4]);
-    for length in
-        lengths(&mut data.geometry, &mut data.table).into_iter().chain(data.limits.stroke.as_flattened_mut())
-    {
+    let strokes = data.limits.stroke.as_flattened_mut();
+    for length in all_lengths(&mut data.geometry, &mut data.table).chain(strokes) {
         *length *= scale * (1.0 + spread * draw.between(-1.0, 1.0));
     }
     for small in small(&mut data.limits) {
@@ -42,46 +42,25 @@ fn data(draw: &mut Draw<'_>) -> MachineData {
     }
     for _ in 0..wild {
         let number = draw.number(1000.0 * scale);
-        match draw.below(29) {
-            which @ 0..15 => *lengths(&mut data.geometry, &mut data.table)[which] = number,
-            which @ 15..21 => data.limits.stroke.as_flattened_mut()[which - 15] = number,
-            which => *small(&mut data.limits)[which - 21] = number,
-        }
+        let MachineData { geometry, table, limits, .. } = &mut data;
+        let which = draw.below(29);
+        let chosen = match which {
+            0..15 => all_lengths(geometry, table).nth(which),
+            15..21 => limits.stroke.as_flattened_mut().get_mut(which - 15),
+            _ => small(limits).into_iter().nth(which - 21),
+        };
+        *chosen.unwrap() = number;
     }
     data
 }
 
-fn lengths<'a>(geometry: &'a mut Geometry, table: &'a mut Table) -> [&'a mut f64; 15] {
-    let g = geometry;
-    [
-        &mut g.D1,
-        &mut g.d1,
-        &mut g.D2,
-        &mut g.d2,
-        &mut g.R1,
-        &mut g.r1,
-        &mut g.R2,
-        &mut g.r4,
-        &mut g.L1,
-        &mut g.L2,
-        &mut g.L3,
-        &mut g.parallelogram_half_width,
-        &mut g.rod_radius,
-        &mut table.da,
-        &mut table.dt,
-    ]
+/// All lengths but the strokes.
+fn all_lengths<'a>(geometry: &'a mut Geometry, table: &'a mut Table) -> impl Iterator<Item = &'a mut f64> {
+    lengths(geometry).into_iter().chain([&mut table.da, &mut table.dt])
 }
 
 fn small(limits: &mut Limits) -> [&mut f64; 8] {
     let Limits { slider_cone, platform_cone, serial_margin, parallel_margin, tilt, rotary, .. } = limits;
     let ([low, high], [least, greatest]) = (tilt, rotary);
     [slider_cone, platform_cone, serial_margin, parallel_margin, low, high, least, greatest]
-}
-
-/// The largest dimension in the equations, for bounds of rounding errors.
-pub(crate) fn scale(machine: &Machine) -> f64 {
-    let g = &machine.data().geometry;
-    [g.L1, g.L2, g.L3, g.R1, g.r1, g.R2, g.r4, (g.D1 - g.d1).abs(), (g.D2 - g.d2).abs()]
-        .into_iter()
-        .fold(0.0, f64::max)
 }

@@ -66,8 +66,8 @@ fn look_at(mesh: Option<Mesh>) {
     assert_eq!(mesh.vertex_tags().len(), mesh.positions().len());
     assert!(!audit.is_watertight() || contours.iter().all(|contour| contour.points.len() > 2));
     for up in [Up::PositiveZ, Up::NegativeZ] {
-        let options = Options { name: "any".to_owned(), up, crease: 0.5, extras: json!({"any": height}) };
-        glb::write(&mesh, &options, std::io::sink()).unwrap();
+        let options = Options { name: "any".to_owned(), up, extras: json!({"any": height}) };
+        glb::write(&mesh, 0.5, &options, std::io::sink()).unwrap();
     }
     stl::write(&mesh, "any ü", std::io::sink()).unwrap();
     ply::write(&mesh, "any\nlines", std::io::sink()).unwrap();

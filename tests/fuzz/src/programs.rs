@@ -1,12 +1,30 @@
 //! Arbitrary bytes as programs of every format, and as packed programs.
 
-use verne_program::{Format, Program, ReadError, ReadOptions, Reader, Step, Units, packed, read};
+use verne_program::{
+    Compensation, Format, Program, ReadError, ReadOptions, Reader, RotarySense, Step, Units, packed, read,
+};
 
 use crate::draw::Draw;
 
 /// CL text.
 pub(crate) fn apt(bytes: &[u8]) {
     check_source(Format::Apt, bytes);
+}
+
+/// G-code, under several options.
+pub(crate) fn gcode(bytes: &[u8]) {
+    let code = |text: &str| text.parse().unwrap();
+    let plain = ReadOptions { most_moves: 10_000, ..ReadOptions::default() };
+    let controlled = ReadOptions { tcp: true, rotary_sense: RotarySense::Table, ..plain.clone() };
+    let switched = ReadOptions {
+        tcp_on: vec![code("M428"), code("M451")],
+        tcp_off: vec![code("M429"), code("M451")],
+        rapid_feed: Some(5000.0),
+        compensation: Compensation::Refuse,
+        units: Some(Units::Inches),
+        ..plain.clone()
+    };
+    [plain, controlled, switched].iter().for_each(|options| check_with(Format::Gcode, bytes, options));
 }
 
 /// CSV.
@@ -39,9 +57,12 @@ pub(crate) fn packed(bytes: &[u8]) {
 
 /// A program is sound, and the same in chunks; faults have places and say what is wrong.
 fn check_source(format: Format, bytes: &[u8]) {
-    let options = ReadOptions { most_moves: 10_000, ..ReadOptions::default() };
-    let outcome = read(format, bytes, &options);
-    let mut reader = Reader::new(format, &options);
+    check_with(format, bytes, &ReadOptions { most_moves: 10_000, ..ReadOptions::default() });
+}
+
+fn check_with(format: Format, bytes: &[u8], options: &ReadOptions) {
+    let outcome = read(format, bytes, options);
+    let mut reader = Reader::new(format, options);
     let size = bytes.first().map_or(1, |byte| usize::from(*byte) + 1);
     let refused = bytes.chunks(size).any(|chunk| reader.push(chunk).is_break());
     let in_chunks = reader.finish();

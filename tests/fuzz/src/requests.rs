@@ -60,11 +60,13 @@ static BODIES: LazyLock<[(&str, Value); 7]> = LazyLock::new(|| {
         ),
         (
             "/fk/batch",
-            json!({"joints": [[674, 685, 250], [400, 400, 400, 10, 90], null, [0, 0, 5000]], "tool_length": 50}),
+            json!({"joints": [[674, 685, 250], [400, 400, 400, 10, 90], null, [0, 0, 5000]], "tool_length": 50,
+            "orientation": "vector"}),
         ),
         (
             "/ik/batch",
-            json!({"frame": "part", "tool_length": 50, "poses": [[100, 50, 150, 0, 0], [1, 2], [5000, 0, 0, 0, 0]]}),
+            json!({"frame": "part", "tool_length": 50, "continuous": true, "start": [400, 500, 500, 10, -350],
+            "poses": [[100, 50, 150, 0, 0], [1, 2], [100, 50, 150, 0.1, -0.3, 1], [5000, 0, 0, 0, 0]]}),
         ),
         (
             "/workspace/contains",

@@ -12,7 +12,8 @@ use verne_solver::{
 };
 
 use crate::draw::Draw;
-use crate::machines::{machine, scale};
+use crate::lengths::scale;
+use crate::machines::machine;
 
 /// Functions of one posture or point.
 pub(crate) fn solver(bytes: &[u8]) {

@@ -7,7 +7,8 @@ use verne_solver::workspace::{Kind, Observer, Request, WorkspaceError, measure, 
 use verne_solver::{MAX_INPUT, Machine};
 
 use crate::draw::Draw;
-use crate::machines::{machine, scale};
+use crate::lengths::scale;
+use crate::machines::machine;
 use crate::solver::clearance;
 
 /// After so many calls of the observer a computation is cancelled, as a job would be.

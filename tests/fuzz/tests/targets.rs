@@ -14,5 +14,5 @@ macro_rules! campaigns {
 }
 
 campaigns! {
-    apt body csv headers keys machine mesh ndjson packed_program query settings solver store workspaces
+    apt body csv gcode headers keys machine mesh ndjson packed_program query settings solver store workspaces
 }

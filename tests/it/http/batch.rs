@@ -23,7 +23,7 @@ async fn rows_are_answered_in_order_like_single_requests() {
 }
 
 /// Rows as text, for what `Value` cannot hold, with the status that each gets.
-const ROWS: [(&str, &str); 13] = [
+const ROWS: [(&str, &str); 16] = [
     ("[100, 50, 150, 0, 0]", "ok"),
     ("null", "invalid"),
     ("[]", "invalid"),
@@ -36,7 +36,10 @@ const ROWS: [(&str, &str); 13] = [
     ("{\"x\": 1}", "invalid"),
     ("\"[100, 50, 150, 0, 0]\"", "invalid"),
     ("[3e6, 50, 150, 0, 0]", "unreachable"),
+    ("[100, 50, 150, 0, 0, 1, 0]", "invalid"),
+    ("[100, 50, 150, 0, 0, 1e999]", "invalid"),
     ("[ 100 ,\n 50.0, 1.5e2, 0, 0 ]", "ok"),
+    ("[100, 50, 150, 0, -0.0, 1e300]", "ok"),
 ];
 
 #[tokio::test]
@@ -47,26 +50,29 @@ async fn an_invalid_row_does_not_affect_the_others() {
     let expected: Vec<_> = ROWS.iter().map(|(_, status)| *status).collect();
     assert_eq!(reply.json["status"], json!(expected), "{}", reply.json);
     let joints = reply.json["joints"].as_array().unwrap();
-    assert_eq!(joints[0], joints[12]);
+    assert_eq!([&joints[0], &joints[0]], [&joints[14], &joints[15]]);
     assert_eq!(joints[0].as_array().unwrap().len(), 5);
-    assert!(joints[1..12].iter().all(Value::is_null));
-    assert_eq!(reply.json["counts"], json!({"ok": 2, "unreachable": 1, "infeasible": 0, "invalid": 10}));
+    assert!(joints[1..14].iter().all(Value::is_null));
+    assert_eq!(reply.json["counts"], json!({"ok": 3, "unreachable": 1, "infeasible": 0, "invalid": 12}));
     let explained: Vec<_> =
         reply.json["errors"].as_array().unwrap().iter().map(|e| e["row"].clone()).collect();
-    assert_eq!(json!(explained), json!([1, 2, 3, 4, 5, 6, 7, 8, 9, 10]));
+    assert_eq!(json!(explained), json!([1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13]));
     assert_eq!(reply.json["constraint"][11], "leg_length");
 }
 
 #[tokio::test]
-async fn an_infeasible_row_names_the_constraint_and_the_margin() {
+async fn every_solved_row_names_its_least_margin() {
     let reply = post("/ik/batch", json!({"frame": "platform", "poses": [[0, 0, 700], [0, 0, 1200]]})).await;
     assert_eq!(reply.json["status"], json!(["infeasible", "ok"]));
     assert!(reply.json["joints"][0].is_array(), "joints that break a limit are answered");
-    let single = get("/ik?frame=platform&x=0&y=0&z=700").await;
-    let worst = &single.solutions()[0]["margins"]["worst"];
-    assert_eq!(reply.json["constraint"], json!([worst["constraint"], null]));
-    assert_eq!(reply.json["margin"], json!([worst["value"], null]));
-    assert_eq!(reply.json["element"], json!([worst["element"], null]));
+    for (i, z) in [700, 1200].into_iter().enumerate() {
+        let single = get(&format!("/ik?frame=platform&x=0&y=0&z={z}")).await;
+        let worst = &single.solutions()[0]["margins"]["worst"];
+        for (column, field) in [("constraint", "constraint"), ("margin", "value"), ("element", "element")] {
+            assert_eq!(reply.json[column][i], worst[field]);
+        }
+    }
+    assert!(reply.json["margin"][1].as_f64().unwrap() > 0.0, "the least margin of a feasible row");
 }
 
 #[tokio::test]
@@ -81,6 +87,12 @@ async fn forward_rows_with_table_angles_have_a_part_pose() {
     let part = &single.solutions()[0]["part"];
     let row = json!([part["x"], part["y"], part["z"], part["phi1"], part["phi2"]]);
     assert_eq!(reply.json["parts"][1], row);
+    let vector = json!({"joints": joints, "tool_length": 50, "orientation": "vector"});
+    let reply = post("/fk/batch", vector).await;
+    let axis = &part["axis"];
+    let row = json!([part["x"], part["y"], part["z"], axis[0], axis[1], axis[2]]);
+    assert_eq!(reply.json["parts"], json!([null, row, null, null]));
+    post("/fk/batch", json!({"joints": [], "orientation": "axis"})).await.assert_bad_field("/orientation");
 }
 
 #[tokio::test]

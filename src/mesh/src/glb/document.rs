@@ -31,7 +31,7 @@ pub(super) fn of(
     layout: &Layout,
 ) -> serde_json::Result<Root> {
     let mut root = empty(options)?;
-    let views = views(&mut root, layout);
+    let views = views(&mut root, STRIDE, [layout.vertex_bytes(), layout.index_bytes()]);
     let mut primitives = Vec::with_capacity(layout.primitives.len());
     for range in &layout.primitives {
         let swatch = &mesh.palette()[usize::from(range.tag)];
@@ -43,23 +43,32 @@ pub(super) fn of(
             ..primitive(&mut root, views, layout, range)
         });
     }
+    let palette = extras(&json!({ "palette": mesh.palette() }))?;
+    place(&mut root, primitives, palette, options, placement);
+    Ok(root)
+}
+
+/// Puts a node with the primitives into the scene.
+pub(super) fn place(
+    root: &mut Root,
+    primitives: Vec<Primitive>,
+    extras: Extras,
+    options: &Options,
+    placement: &Placement,
+) {
+    let name = Some(options.name.clone());
     let object = root.push(gltf_json::Mesh {
         extensions: None,
-        extras: extras(&json!({ "palette": mesh.palette() }))?,
-        name: Some(options.name.clone()),
+        extras,
+        name: name.clone(),
         primitives,
         weights: None,
     });
-    let node = root.push(Node {
-        mesh: Some(object),
-        name: Some(options.name.clone()),
-        translation: Some(placement.translation),
-        ..Node::default()
-    });
+    let translation = Some(placement.translation);
+    let node = root.push(Node { mesh: Some(object), name, translation, ..Node::default() });
     for scene in &mut root.scenes {
         scene.nodes.push(node);
     }
-    Ok(root)
 }
 
 fn primitive(
@@ -70,9 +79,12 @@ fn primitive(
 ) -> Primitive {
     let first = (range.vertices.start * STRIDE) as u64;
     let mut attribute = |offset: u64, bounds: Option<[[f32; 3]; 2]>| {
-        let [min, max] = bounds.map_or([None, None], |corners| corners.map(|corner| Some(json!(corner))));
         let accessor = accessor(vertices, range.vertices.len(), ComponentType::F32, Type::Vec3);
-        root.push(Accessor { byte_offset: Some((first + offset).into()), min, max, ..accessor })
+        let byte_offset = Some((first + offset).into());
+        root.push(Accessor {
+            byte_offset,
+            ..bounds.map_or(accessor.clone(), |bounds| bounded(accessor, bounds))
+        })
     };
     let position = attribute(0, Some(range.bounds));
     let normal = attribute(12, None);
@@ -82,21 +94,27 @@ fn primitive(
         byte_offset: Some(from.into()),
         ..accessor(indices, range.indices.len(), width, Type::Scalar)
     });
+    let attributes = [(Valid(Semantic::Positions), position), (Valid(Semantic::Normals), normal)];
+    Primitive { attributes: attributes.into(), indices: Some(indices), ..bare(Mode::Triangles) }
+}
+
+/// A primitive without attributes.
+pub(super) fn bare(mode: Mode) -> Primitive {
     Primitive {
-        attributes: [(Valid(Semantic::Positions), position), (Valid(Semantic::Normals), normal)].into(),
+        attributes: [].into(),
         extensions: None,
         extras: None,
-        indices: Some(indices),
+        indices: None,
         material: None,
-        mode: Valid(Mode::Triangles),
+        mode: Valid(mode),
         targets: None,
     }
 }
 
-/// The two views of the buffer: vertices and indices.
-fn views(root: &mut Root, layout: &Layout) -> [Index<View>; 2] {
+/// The two views of the buffer: vertices of `stride` bytes each, and indices; of both the number of bytes.
+pub(super) fn views(root: &mut Root, stride: usize, [vertices, indices]: [u64; 2]) -> [Index<View>; 2] {
     let buffer = root.push(Buffer {
-        byte_length: layout.bytes().into(),
+        byte_length: (vertices + indices).into(),
         name: None,
         uri: None,
         extensions: None,
@@ -114,12 +132,19 @@ fn views(root: &mut Root, layout: &Layout) -> [Index<View>; 2] {
             extras: None,
         })
     };
-    let vertices = view(0, layout.vertex_bytes(), Some(Stride(STRIDE)), Target::ArrayBuffer);
-    let indices = view(layout.vertex_bytes(), layout.index_bytes(), None, Target::ElementArrayBuffer);
-    [vertices, indices]
+    [
+        view(0, vertices, Some(Stride(stride)), Target::ArrayBuffer),
+        view(vertices, indices, None, Target::ElementArrayBuffer),
+    ]
 }
 
-fn accessor(view: Index<View>, count: usize, component: ComponentType, type_: Type) -> Accessor {
+/// The accessor with the least and the greatest of each coordinate.
+pub(super) fn bounded(accessor: Accessor, bounds: [[f32; 3]; 2]) -> Accessor {
+    let [min, max] = bounds.map(|corner| Some(json!(corner)));
+    Accessor { min, max, ..accessor }
+}
+
+pub(super) fn accessor(view: Index<View>, count: usize, component: ComponentType, type_: Type) -> Accessor {
     Accessor {
         buffer_view: Some(view),
         byte_offset: None,
@@ -136,8 +161,8 @@ fn accessor(view: Index<View>, count: usize, component: ComponentType, type_: Ty
     }
 }
 
-/// The material of a tag: its name and colour, rough. It is one-sided, because the surface is closed.
-fn material(swatch: &Swatch) -> Material {
+/// A material with the name and colour of a swatch, rough. It is one-sided, because surfaces are closed.
+pub(super) fn material(swatch: &Swatch) -> Material {
     let [red, green, blue] = swatch.linear();
     Material {
         name: Some(swatch.name.clone()),
@@ -151,6 +176,6 @@ fn material(swatch: &Swatch) -> Material {
     }
 }
 
-fn extras(value: &Value) -> serde_json::Result<Extras> {
+pub(super) fn extras(value: &Value) -> serde_json::Result<Extras> {
     if value.is_null() { Ok(None) } else { to_raw_value(value).map(Some) }
 }

@@ -78,7 +78,7 @@ impl Layout {
     }
 }
 
-fn bounds(positions: impl Iterator<Item = [f32; 3]>) -> [[f32; 3]; 2] {
+pub(super) fn bounds(positions: impl Iterator<Item = [f32; 3]>) -> [[f32; 3]; 2] {
     positions.fold([[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]], |[min, max], position| {
         [
             std::array::from_fn(|axis| min[axis].min(position[axis])),

@@ -1,19 +1,16 @@
-//! What a GLB contains besides the mesh.
+//! What a GLB contains besides the mesh or the path.
 
 use serde_json::Value;
 
 use super::placement::Up;
 
-/// The contents of a GLB besides the mesh.
+/// The contents of a GLB besides the mesh or the path.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The name of the mesh in a viewer's list of objects.
+    /// The name of the object in a viewer's list of objects.
     pub name: String,
-    /// The direction that is up in the mesh's frame.
+    /// The direction that is up in the object's frame.
     pub up: Up,
-    /// The angle between two triangles, in radians, from which their edge is shown sharp. Edges between two tags
-    /// always are.
-    pub crease: f64,
     /// The scene's `extras`; omitted if null.
     pub extras: Value,
 }

@@ -1,9 +1,9 @@
-//! The map from the mesh's frame to glTF's.
+//! The map from the object's frame to glTF's.
 
 use crate::Bounds;
 use crate::vector::single;
 
-/// The direction that is up in the mesh's frame. Both rotations into glTF's frame are about x, without reflection.
+/// The direction that is up in the object's frame. Both rotations into glTF's frame are about x, without reflection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Up {
     /// z points up: (x, y, z) becomes (x, z, -y).
@@ -21,9 +21,9 @@ impl Up {
     }
 }
 
-/// The frame of a GLB's vertices: metres, Y up, about the mesh's middle.
+/// The frame of a GLB's vertices: metres, Y up, about the object's middle.
 ///
-/// Single precision is finest near zero. So the node is at the middle of the mesh, and the vertices are relative to
+/// Single precision is finest near zero. So the node is at the middle of the object, and the vertices are relative to
 /// it.
 pub(super) struct Placement {
     up: Up,

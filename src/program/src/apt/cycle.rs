@@ -3,6 +3,7 @@
 use crate::apt::feed::{Rate, rate};
 use crate::apt::lexer::Token;
 use crate::apt::statement::Statement;
+use crate::drilling::PeckKind;
 use crate::error::ProgramError;
 use crate::event::Dwell;
 
@@ -32,10 +33,8 @@ pub(crate) enum CycleKind {
     Bore,
     /// The same, and the controller reverses the spindle.
     Tap,
-    /// In by pecks, each time out of the hole.
-    Deep,
-    /// In by pecks, each time back a little.
-    ChipBreak,
+    /// In by pecks.
+    Peck(PeckKind),
 }
 
 /// What a CYCLE statement does.
@@ -79,9 +78,9 @@ const WORDS: [(&str, Meaning); 39] = [
     ("REAM", Meaning::Kind(CycleKind::Bore)),
     ("BORE", Meaning::Kind(CycleKind::Bore)),
     ("TAP", Meaning::Kind(CycleKind::Tap)),
-    ("DEEP", Meaning::Kind(CycleKind::Deep)),
-    ("DEEP2", Meaning::Kind(CycleKind::Deep)),
-    ("BRKCHP", Meaning::Kind(CycleKind::ChipBreak)),
+    ("DEEP", Meaning::Kind(CycleKind::Peck(PeckKind::Deep))),
+    ("DEEP2", Meaning::Kind(CycleKind::Peck(PeckKind::Deep))),
+    ("BRKCHP", Meaning::Kind(CycleKind::Peck(PeckKind::ChipBreak))),
     ("FEDTO", Meaning::Depth),
     ("DEPTH", Meaning::Depth),
     ("RAPTO", Meaning::Start),

@@ -6,17 +6,11 @@ use crate::apt::cycle::{Cycle, CycleKind};
 use crate::apt::state::State;
 use crate::apt::statement::Statement;
 use crate::builder::{ProgrammedFeed, Target};
+use crate::drilling::{PeckKind, ROUNDING, pecks};
 use crate::error::ProgramError;
 use crate::event::{Dwell, EventKind};
 use crate::moves::MoveKind;
 use crate::orientation::Orientation;
-
-/// The distance in mm between a peck and the bottom of the peck before, at most half a step.
-const PECK_CLEARANCE: f64 = 0.5;
-/// The most pecks of a hole.
-const MOST_PECKS: u32 = 1000;
-/// The deviation in mm of a height that was rounded.
-const ROUNDING: f64 = 1e-9;
 
 /// Drills the hole at `tip` along the present axis. Like a controller, the tool first rises if it is too low, goes
 /// over the hole at that height, and then down to where the feed begins.
@@ -39,10 +33,8 @@ pub(crate) fn drill(
     hole.approach(start, start.max(retract))?;
     let step = cycle.step.map(|step| step * millimetres);
     match (cycle.kind, step) {
-        (CycleKind::Deep | CycleKind::ChipBreak, Some(step)) => {
-            hole.peck(cycle.kind, start, bottom, step)?;
-        }
-        (CycleKind::Deep | CycleKind::ChipBreak, None) => {
+        (CycleKind::Peck(kind), Some(step)) => hole.peck(kind, start, bottom, step)?,
+        (CycleKind::Peck(_), None) => {
             let detail = "the cycle has no step: it is one stroke";
             hole.state.builder.diagnostics.warn(statement.line(), statement.word(), detail);
             hole.go(MoveKind::Feed, bottom)?;
@@ -57,7 +49,7 @@ pub(crate) fn drill(
             hole.state.builder.diagnostics.warn(statement.line(), statement.word(), detail);
             hole.go(MoveKind::Feed, start)?;
         }
-        CycleKind::Drill | CycleKind::Deep | CycleKind::ChipBreak => {}
+        CycleKind::Drill | CycleKind::Peck(_) => {}
     }
     hole.go(MoveKind::Rapid, retract)
 }
@@ -86,21 +78,9 @@ impl Hole<'_, '_> {
         self.go(MoveKind::Rapid, start)
     }
 
-    /// Pecks from the height `from` to the height `bottom`.
-    fn peck(&mut self, kind: CycleKind, from: f64, bottom: f64, step: f64) -> Result<(), ProgramError> {
-        let back = PECK_CLEARANCE.min(0.5 * step);
-        for count in 1..=MOST_PECKS {
-            let depth = from - step * f64::from(count);
-            if depth <= bottom + ROUNDING {
-                return self.go(MoveKind::Feed, bottom);
-            }
-            self.go(MoveKind::Feed, depth)?;
-            if kind == CycleKind::Deep {
-                self.go(MoveKind::Rapid, from)?;
-            }
-            self.go(MoveKind::Rapid, depth + back)?;
-        }
-        Err(self.statement.fault(format!("a hole has at most {MOST_PECKS} pecks; the step is too small")))
+    fn peck(&mut self, kind: PeckKind, from: f64, bottom: f64, step: f64) -> Result<(), ProgramError> {
+        let strokes = pecks(kind, from, bottom, step).map_err(|detail| self.statement.fault(detail))?;
+        strokes.into_iter().try_for_each(|(kind, height)| self.go(kind, height))
     }
 
     fn dwell(&mut self, dwell: Option<Dwell>) -> Result<(), ProgramError> {

@@ -5,6 +5,7 @@ use arrayvec::ArrayVec;
 use crate::apt::lexer::{Token, TokenKind, tokens};
 use crate::diagnostics::shortened;
 use crate::error::ProgramError;
+use crate::numerals::whole;
 
 /// Where a part of a statement stands in the file.
 #[derive(Clone, Copy, Debug)]
@@ -87,12 +88,7 @@ impl<'a> Statement<'a> {
 
     /// The whole number of a token: `3`, or `3.` as some systems write it.
     pub(crate) fn count(&self, token: &Token<'_>) -> Result<u32, ProgramError> {
-        let (whole, fraction) = token.text.split_once('.').unwrap_or((token.text, ""));
-        let zeros = fraction.bytes().all(|byte| byte == b'0');
-        whole
-            .parse()
-            .ok()
-            .filter(|_| zeros)
+        whole(token.text)
             .ok_or_else(|| self.fault_at(token, "this is not a whole number from 0 to 4294967295".to_owned()))
     }
 

@@ -6,6 +6,15 @@ mod arcs;
 mod cycles;
 mod faults;
 mod frames;
+mod gcode_arcs;
+mod gcode_axes;
+mod gcode_cycles;
+mod gcode_events;
+mod gcode_field;
+mod gcode_lengths;
+mod gcode_motion;
+mod gcode_planes;
+mod gcode_words;
 mod motion;
 mod packed;
 mod rows;
@@ -13,7 +22,7 @@ mod sources;
 mod texts;
 mod tools;
 
-use verne_program::{Format, Program, ProgramError, ProgramErrors, ReadError, ReadOptions, read};
+use verne_program::{EventKind, Format, Program, ProgramError, ProgramErrors, ReadError, ReadOptions, read};
 
 /// Reads CL text that states its unit.
 fn apt(text: &str) -> Program {
@@ -38,6 +47,45 @@ fn fault(text: &str) -> ProgramError {
     let mut refused = faults_of(Format::Apt, format!("UNITS/MM\n{text}\nFINI\n").as_bytes());
     assert_eq!(refused.errors.len(), 1, "{refused}");
     refused.errors.remove(0)
+}
+
+/// Reads G-code with options.
+fn gcode(text: &str, options: &ReadOptions) -> Program {
+    read(Format::Gcode, text.as_bytes(), options).unwrap()
+}
+
+/// Reads G-code in mm: the blocks after `G21`, which is line 1.
+fn nc(text: &str) -> Program {
+    gcode(&format!("G21\n{text}\nM30\n"), &ReadOptions::default())
+}
+
+/// Reads G-code in mm under control of the tool centre point: the blocks after `G21 G43.4 H1`, which is line 1.
+fn tcp(text: &str) -> Program {
+    gcode(&format!("G21 G43.4 H1\n{text}\nM30\n"), &ReadOptions::default())
+}
+
+/// The faults of G-code: of the blocks after `G21`, which is line 1.
+fn nc_faults(text: &str) -> Vec<ProgramError> {
+    faults_of(Format::Gcode, format!("G21\n{text}\nM30\n").as_bytes()).errors
+}
+
+/// The only fault of G-code: of the blocks after `G21`, which is line 1.
+#[track_caller]
+fn nc_fault(text: &str) -> ProgramError {
+    let mut errors = nc_faults(text);
+    assert_eq!(errors.len(), 1, "{errors:?}");
+    errors.remove(0)
+}
+
+/// The kinds of the events, without comments and the end.
+fn events(program: &Program) -> Vec<EventKind> {
+    let kinds = program.events().iter().map(|event| event.kind);
+    kinds.filter(|kind| !matches!(kind, EventKind::Comment | EventKind::End)).collect()
+}
+
+/// Numbers from 0 to 1 that fill the interval evenly.
+fn evenly(n: u32, seed: f64) -> f64 {
+    (f64::from(n) * 0.618_033_988_749_894_8 + seed).fract()
 }
 
 /// Line, column and word of a fault.

@@ -3,10 +3,12 @@
 pub(crate) mod batch;
 pub(crate) mod dexterity;
 pub(crate) mod jobs;
+pub(crate) mod joint_program;
 pub(crate) mod kinematics;
 pub(crate) mod machines;
 pub(crate) mod programs;
 pub(crate) mod results;
 pub(crate) mod service;
 pub(crate) mod toolpath;
+pub(crate) mod toolpath_rows;
 pub(crate) mod workspace;

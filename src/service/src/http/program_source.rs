@@ -68,7 +68,7 @@ pub(crate) fn respond_source(
 
 fn media_type(format: Format) -> &'static str {
     match format {
-        Format::Apt => "text/plain",
+        Format::Apt | Format::Gcode => "text/plain",
         Format::Csv => "text/csv",
         Format::Ndjson => "application/x-ndjson",
     }

@@ -16,7 +16,8 @@ use utoipa_axum::routes;
 
 use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
 use crate::http::handlers::{
-    batch, dexterity, jobs, kinematics, machines, programs, results, service, toolpath, workspace,
+    batch, dexterity, jobs, joint_program, kinematics, machines, programs, results, service, toolpath,
+    toolpath_rows, workspace,
 };
 use crate::http::openapi::{self, Document, problem_responses, security};
 use crate::http::state::SharedState;
@@ -32,7 +33,7 @@ pub fn document() -> Value {
 }
 
 /// Each route with its access.
-fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 27] {
+fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 30] {
     [
         (Key(Read, Fast), routes!(kinematics::get_fk, kinematics::post_fk)),
         (Key(Read, Fast), routes!(kinematics::get_ik, kinematics::post_ik)),
@@ -50,6 +51,9 @@ fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 27] {
         (Key(Read, Other), routes!(programs::get_source)),
         (Key(Compute, Other), routes!(toolpath::post_toolpath)),
         (Key(Read, Other), routes!(toolpath::get_report)),
+        (Key(Read, Other), routes!(toolpath_rows::get_rows)),
+        (Key(Read, Other), routes!(joint_program::get_joint_program)),
+        (Key(Read, Other), routes!(joint_program::get_path)),
         (Key(Read, Other), routes!(jobs::get_jobs)),
         (Key(Read, Other), routes!(jobs::get_job)),
         (Key(Compute, Other), routes!(jobs::delete_job)),

@@ -15,7 +15,10 @@ use crate::wire::tool::Tool;
 pub(crate) const MIN_CHUNK: usize = 64;
 
 /// About the bytes of an answered row.
-pub(crate) const ROW_BYTES: usize = 192;
+pub(crate) const ROW_BYTES: usize = 208;
+
+/// How many numbers a row with a tool axis has: `[x, y, z, i, j, k]`.
+pub(crate) const ROW_WITH_AXIS: usize = 6;
 
 /// Most invalid rows whose errors are explained.
 pub(crate) const MAX_EXPLAINED: usize = 100;
@@ -23,8 +26,8 @@ pub(crate) const MAX_EXPLAINED: usize = 100;
 /// The outcome of a row.
 #[derive(Debug)]
 pub(crate) enum RowOutcome {
-    /// The solution keeps every limit.
-    Ok,
+    /// The solution keeps every limit: the worst margin.
+    Ok(Margin),
     /// No solution: the margin names the constraint that prevents it.
     Unreachable(Margin),
     /// The solution breaks a limit: the worst margin.
@@ -33,7 +36,8 @@ pub(crate) enum RowOutcome {
     Invalid(String),
 }
 
-/// The numbers that a row may have. The first three numbers are lengths in mm, the others angles in degrees.
+/// The numbers that a row may have. The first three numbers are lengths in mm; one or two more are angles in degrees,
+/// three more a direction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RowFormat {
     /// The accepted lengths of a row.
@@ -47,8 +51,10 @@ impl RowFormat {
         format!("expected {}", self.description)
     }
 
-    /// The row if it has an accepted length.
-    fn with_accepted_length(self, row: Row) -> Result<Row, String> {
+    /// The row if its numbers and its length are accepted.
+    fn checked(self, row: Row) -> Result<Row, String> {
+        let has_direction = row.len() == ROW_WITH_AXIS;
+        row.iter().enumerate().try_for_each(|(i, &number)| check_item(i, number, has_direction))?;
         if self.lengths.contains(&row.len()) { Ok(row) } else { Err(self.expected()) }
     }
 }
@@ -61,8 +67,7 @@ pub(crate) trait BatchRow: Sync {
 
 impl BatchRow for Row {
     fn numbers(&self, format: RowFormat) -> Result<Row, String> {
-        self.iter().enumerate().try_for_each(|(i, &number)| check_item(i, number))?;
-        format.with_accepted_length(self.clone())
+        format.checked(self.clone())
     }
 }
 
@@ -80,14 +85,16 @@ impl BatchRow for &RawValue {
                 .trim_ascii()
                 .parse()
                 .map_err(|_| format!("item {i} is not a number; {}", format.expected()))?;
-            check_item(i, number)?;
             row.try_push(number).map_err(|_| format.expected())?;
         }
-        format.with_accepted_length(row)
+        format.checked(row)
     }
 }
 
-fn check_item(i: usize, number: f64) -> Result<(), String> {
+fn check_item(i: usize, number: f64, has_direction: bool) -> Result<(), String> {
+    if i >= 3 && has_direction {
+        return if number.is_finite() { Ok(()) } else { Err(format!("item {i} must be a finite number")) };
+    }
     if i < 3 && !is_length(number) {
         return Err(format!("item {i} must be within ±{MAX_INPUT:e} mm"));
     }
@@ -114,7 +121,8 @@ pub(crate) fn outcome_of_solution(
     clearance: Option<&Clearance>,
 ) -> RowOutcome {
     let margins = Margins::above_table(machine, posture, table, clearance);
-    if margins.feasible() { RowOutcome::Ok } else { RowOutcome::Infeasible(margins.worst(machine)) }
+    let worst = margins.worst(machine);
+    if margins.feasible() { RowOutcome::Ok(worst) } else { RowOutcome::Infeasible(worst) }
 }
 
 /// The outcome of a row without a solution.
@@ -145,7 +153,7 @@ pub(crate) fn row_report(
     };
     for (row, outcome) in outcomes.enumerate() {
         let (status, margin) = match outcome {
-            RowOutcome::Ok => (Status::Ok, None),
+            RowOutcome::Ok(margin) => (Status::Ok, Some(margin)),
             RowOutcome::Unreachable(margin) => (Status::Unreachable, Some(margin)),
             RowOutcome::Infeasible(margin) => (Status::Infeasible, Some(margin)),
             RowOutcome::Invalid(detail) => {

@@ -5,6 +5,7 @@ use tokio::runtime::Handle;
 
 use crate::operations::question::Question;
 use crate::operations::results::{Record, Results};
+use crate::operations::stored_reader::StoredReader;
 use crate::wire::error::OperationError;
 use crate::wire::result_id::ResultId;
 
@@ -25,6 +26,22 @@ impl BlockingResults {
     /// Whether the store has a blob of a result.
     pub(crate) fn has_blob(&self, id: ResultId, name: &str) -> bool {
         self.runtime.block_on(self.results.find_blob(id, name)).is_some()
+    }
+
+    /// A reader of a blob of a result. It keeps the blob out of memory unless the blob is there already.
+    pub(crate) fn reader(&self, id: ResultId, name: &str) -> Option<StoredReader> {
+        let content = self.runtime.block_on(self.results.find_blob(id, name))?;
+        Some(StoredReader::new(&content, self.runtime.clone()))
+    }
+
+    /// See [`Results::put_uncached_blob`].
+    pub(crate) fn put_uncached_blob(
+        &self,
+        id: ResultId,
+        name: &str,
+        bytes: Vec<u8>,
+    ) -> Result<Bytes, OperationError> {
+        self.runtime.block_on(self.results.put_uncached_blob(id, name, bytes)).map(|content| content.bytes)
     }
 
     /// See [`Results::put_blob`].

@@ -21,7 +21,7 @@ pub(crate) fn answer_fk(request: &FkRequest, machines: &MachineRegistry) -> Resu
         faults.proportion(&format!("/joints/rho/{i}"), rho, &machine);
     }
     faults.into_result()?;
-    let complete = |posture| SolvedPosture { posture, table, requested: None };
+    let complete = |posture| SolvedPosture { posture, table, requested: None, windings: None };
     let mut set = SolutionSet::default();
     match request.solutions {
         SolutionFilter::All => set.add(forward(&machine, rho), complete),

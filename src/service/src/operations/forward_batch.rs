@@ -2,14 +2,15 @@
 
 use rayon::prelude::*;
 use serde_json::value::RawValue;
-use verne_solver::{Clearance, Machine, TableAngles, forward_working, part_pose};
+use verne_solver::axis::tool_axis;
+use verne_solver::{Clearance, Machine, PartPose, TableAngles, forward_working, part_pose};
 
 use crate::operations::batch_rows::{
     BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_refusal,
     outcome_of_solution, row_report,
 };
 use crate::operations::machine_registry::MachineRegistry;
-use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Row};
+use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Orientation, Row};
 use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
@@ -68,7 +69,7 @@ fn answer<R: BatchRow>(
         .items()
         .par_iter()
         .with_min_len(MIN_CHUNK)
-        .map(|row| answer_row(&machine, tool, clearance.as_ref(), row))
+        .map(|row| answer_row(&machine, tool, clearance.as_ref(), request.orientation, row))
         .collect();
     let (mut poses, mut parts) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
     let mut outcomes = Vec::with_capacity(rows.len());
@@ -88,6 +89,7 @@ fn answer_row(
     machine: &Machine,
     tool: Tool,
     clearance: Option<&Clearance>,
+    orientation: Orientation,
     row: &impl BatchRow,
 ) -> AnsweredRow {
     let format = if tool.table_clearance.is_none() { JOINTS } else { JOINTS_WITH_TABLE };
@@ -104,14 +106,20 @@ fn answer_row(
         }
     };
     let pose = &posture.pose;
-    let part = table.map(|table| {
-        let part = part_pose(machine, pose, table, tool.length);
-        [part.x, part.y, part.z, to_degrees(part.phi1), to_degrees(part.phi2)].into()
-    });
+    let part = table.map(|table| part_row(&part_pose(machine, pose, table, tool.length), orientation));
     AnsweredRow {
         pose: Some([pose.x, pose.y, pose.z, to_degrees(pose.alpha)].into_iter().collect()),
         part,
         outcome: outcome_of_solution(machine, &posture, table, clearance),
         has_theta1: table.is_some(),
     }
+}
+
+fn part_row(part: &PartPose, orientation: Orientation) -> Row {
+    let mut row: Row = [part.x, part.y, part.z].into_iter().collect();
+    match orientation {
+        Orientation::Rotary => row.extend([part.phi1, part.phi2].map(to_degrees)),
+        Orientation::Vector => row.extend(tool_axis(part.phi1, part.phi2).map(|cosine| cosine + 0.0)),
+    }
+    row
 }

@@ -85,9 +85,10 @@ fn in_part(
     for &[phi1, phi2] in &requested.each {
         let orientation = ToolOrientation::of_radians([phi1, phi2]);
         let target = orientation.at(point);
+        let windings = Some(orientation.windings(machine));
         let complete = |posture: Posture| {
             let table = orientation.table(machine, posture.pose.alpha, request.near.as_ref());
-            SolvedPosture { posture, table: Some(table), requested: Some([phi1, phi2]) }
+            SolvedPosture { posture, table: Some(table), requested: Some([phi1, phi2]), windings }
         };
         let solve = if request.solutions == SolutionFilter::All { part } else { part_every_working };
         set.add(solve(machine, &target, request.tool_length), complete);
@@ -97,7 +98,7 @@ fn in_part(
 
 fn in_base(machine: &Machine, request: &IkRequest, point: Point) -> SolutionSet {
     let (all, length) = (request.solutions == SolutionFilter::All, request.tool_length);
-    let complete = |posture| SolvedPosture { posture, table: None, requested: None };
+    let complete = |posture| SolvedPosture { posture, table: None, requested: None, windings: None };
     let mut set = SolutionSet::default();
     match (request.frame == Frame::Tool, all) {
         (true, true) => set.add(tool(machine, point, length), complete),

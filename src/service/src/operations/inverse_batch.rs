@@ -3,27 +3,34 @@
 use rayon::prelude::*;
 use serde_json::value::RawValue;
 use verne_solver::{
-    Clearance, KinematicsError, Machine, PartPose, Point, Posture, Postures, part_every_working,
-    part_working, platform_working, tool_every_working, tool_working,
+    Clearance, KinematicsError, Machine, PartPose, Point, Posture, Postures, forward_working,
+    part_every_working, part_working, platform_working, tool_every_working, tool_working,
 };
 
 use crate::operations::batch_rows::{
-    BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_refusal,
+    BatchRow, MIN_CHUNK, ROW_BYTES, ROW_WITH_AXIS, RowFormat, RowOutcome, check_batch, outcome_of_refusal,
     outcome_of_solution, row_report,
 };
+use crate::operations::continuation::{Setting, Standing};
+use crate::operations::continuous_rows::answer_continuous;
 use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::part_row::PartRow;
 use crate::operations::table_angles::{TablePosition, ToolOrientation};
-use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, Row};
-use crate::wire::error::OperationError;
+use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, Row, RowReport};
+use crate::wire::error::{FieldError, OperationError};
+use crate::wire::field_errors::FieldErrors;
+use crate::wire::fixed_array::FixedArray;
 use crate::wire::json::write_json;
 use crate::wire::parse::{parse_body, parse_expected};
 use crate::wire::request::Frame;
 
 /// A row in frame `part`.
-const PART_POSE: RowFormat = RowFormat { lengths: &[5], description: "[x, y, z, phi1, phi2]" };
+const PART_POSE: RowFormat =
+    RowFormat { lengths: &[5, ROW_WITH_AXIS], description: "[x, y, z, phi1, phi2] or [x, y, z, i, j, k]" };
 
 /// A row in the other frames.
-const POSITION: RowFormat = RowFormat { lengths: &[3], description: "[x, y, z]" };
+const POSITION: RowFormat =
+    RowFormat { lengths: &[3], description: "[x, y, z]: only rows of frame part have an orientation" };
 
 /// Answers a batch: from the JSON of the request to the JSON of the answer. Call it on the compute pool.
 pub(crate) fn answer_ik_batch(
@@ -45,31 +52,73 @@ fn answer<R: BatchRow>(
 ) -> Result<Vec<u8>, OperationError> {
     let (tool, frame) = (request.tool(), request.frame);
     check_batch(tool, frame.without_tilt(), request.poses.len(), max_rows)?;
+    check_continuous(request)?;
     let machine = machines.resolve(&request.machine)?;
     let clearance = tool.clearance(&machine).filter(|_| frame == Frame::Part);
-    let (joints, outcomes): (Vec<_>, Vec<_>) = request
-        .poses
-        .items()
-        .par_iter()
-        .with_min_len(MIN_CHUNK)
-        .map(|row| answer_row(&machine, frame, tool.length, clearance.as_ref(), row))
-        .unzip();
-    let report = row_report(outcomes.into_iter(), clearance.is_some());
-    let answer = IkBatchAnswer { machine: machine.id.clone(), joints, report };
+    let setting = Setting { machine: &machine, tool_length: tool.length, clearance: clearance.as_ref() };
+    let mut answer = IkBatchAnswer {
+        machine: machine.id.clone(),
+        joints: Vec::new(),
+        jump: None,
+        jumps: None,
+        report: RowReport::default(),
+    };
+    let rows = request.poses.items();
+    let outcomes: Vec<RowOutcome>;
+    if request.continuous {
+        let start = request.start.map(|start| standing_at(&setting, &start.0)).transpose()?;
+        let answered = answer_continuous(setting, PART_POSE, rows, start);
+        let jumps: Vec<_> = answered.iter().map(|row| row.jump).collect();
+        answer.jumps = Some(jumps.iter().filter(|jump| **jump == Some(true)).count());
+        answer.jump = Some(jumps);
+        (answer.joints, outcomes) = answered.into_iter().map(|row| (row.joints, row.outcome)).unzip();
+    } else {
+        let answered = rows.par_iter().with_min_len(MIN_CHUNK);
+        (answer.joints, outcomes) = answered.map(|row| answer_row(setting, frame, row)).unzip();
+    }
+    answer.report = row_report(outcomes.into_iter(), clearance.is_some());
     write_json(&answer, ROW_BYTES * answer.joints.len())
 }
 
-fn answer_row(
-    machine: &Machine,
-    frame: Frame,
-    tool_length: f64,
-    clearance: Option<&Clearance>,
-    row: &impl BatchRow,
-) -> (Option<Row>, RowOutcome) {
+/// Checks `continuous` and `start`.
+fn check_continuous<R>(request: &IkBatchRequest<R>) -> Result<(), OperationError> {
+    let mut faults = FieldErrors::default();
+    if request.continuous && request.frame != Frame::Part {
+        faults.add("/continuous", "is allowed only in frame part: the table has the windings and preimages");
+    }
+    if let Some(FixedArray([rho1, rho2, rho3, theta1, theta2])) = request.start {
+        if !request.continuous {
+            faults.add("/start", "is allowed only with `continuous: true`");
+        }
+        faults.lengths("/start", &[rho1, rho2, rho3]);
+        faults.angle("/start/3", Some(theta1));
+        faults.angle("/start/4", Some(theta2));
+    }
+    faults.into_result()
+}
+
+/// Where the machine stands at `start`.
+fn standing_at(
+    setting: &Setting<'_>,
+    &[rho1, rho2, rho3, theta1, theta2]: &[f64; 5],
+) -> Result<Standing, OperationError> {
+    let posture = forward_working(setting.machine, [rho1, rho2, rho3]).map_err(|_| {
+        let detail = "must be joints of the working mode: no platform pose in this mode has these sliders";
+        OperationError::Fields(vec![FieldError::new("/start", detail)])
+    })?;
+    let table = TablePosition::of_degrees([theta1, theta2]).angles;
+    Ok(Standing::at(setting.machine, &posture, table, setting.tool_length))
+}
+
+fn answer_row(setting: Setting<'_>, frame: Frame, row: &impl BatchRow) -> (Option<Row>, RowOutcome) {
     let row = match row.numbers(if frame == Frame::Part { PART_POSE } else { POSITION }) {
         Ok(row) => row,
         Err(detail) => return (None, RowOutcome::Invalid(detail)),
     };
+    if row.len() == ROW_WITH_AXIS {
+        return answer_axis(setting, &row);
+    }
+    let Setting { machine, tool_length, clearance } = setting;
     let point = [row[0], row[1], row[2]];
     let target = match frame {
         Frame::Platform => Target::Platform(point),
@@ -83,6 +132,16 @@ fn answer_row(
         Ok(first) => target.preferred(machine, clearance, &first),
         Err(refusal) => (None, outcome_of_refusal(machine, refusal)),
     }
+}
+
+/// Answers a row with a tool axis as if it were the first row of a continuous batch.
+fn answer_axis(setting: Setting<'_>, row: &Row) -> (Option<Row>, RowOutcome) {
+    let chosen = PartRow::of_numbers(row).map_err(RowOutcome::Invalid).and_then(|row| {
+        let candidates = row.candidates(setting.machine, setting.tool_length, 0.0);
+        setting.choose(None, &row, &candidates)
+    });
+    let answered = setting.answered(chosen);
+    (answered.joints, answered.outcome)
 }
 
 /// The pose of a row.
@@ -120,7 +179,11 @@ impl Target {
         }
         let mut others = self.every_working(machine);
         others.sort_by(|a, b| a.pose.alpha.total_cmp(&b.pose.alpha));
-        others.iter().map(answered).find(|(_, outcome)| matches!(outcome, RowOutcome::Ok)).unwrap_or(answer)
+        others
+            .iter()
+            .map(answered)
+            .find(|(_, outcome)| matches!(outcome, RowOutcome::Ok(_)))
+            .unwrap_or(answer)
     }
 
     fn every_working(&self, machine: &Machine) -> Postures {
@@ -145,3 +208,7 @@ fn joints(posture: &Posture, table: Option<TablePosition>) -> Row {
     row.extend(table.into_iter().flat_map(|table| table.degrees));
     row
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests;

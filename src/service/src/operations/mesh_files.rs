@@ -84,7 +84,7 @@ impl<'a> MeshDescription<'a> {
             FrameName::Part => glb::Up::PositiveZ,
         };
         let name = format!("{} workspace of {}", self.kind, self.machine.id.name);
-        glb::Options { name, up, crease: CREASE, extras }
+        glb::Options { name, up, extras }
     }
 
     /// A short title: the header of an STL file has 80 bytes.
@@ -109,7 +109,7 @@ pub(crate) fn write_mesh(
     let about = description.about(mesh, unit);
     let mut file = Vec::with_capacity(TRIANGLE_BYTES * mesh.triangles().len());
     let written = match format {
-        MeshFormat::Glb => glb::write(mesh, &description.options(about), &mut file),
+        MeshFormat::Glb => glb::write(mesh, CREASE, &description.options(about), &mut file),
         MeshFormat::Stl => stl::write(mesh, &description.title(), &mut file),
         MeshFormat::Ply => ply::write(mesh, &comments(&about), &mut file),
         MeshFormat::Json => verne_mesh::json::write(mesh, &about, &mut file),

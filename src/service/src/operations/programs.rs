@@ -4,11 +4,12 @@
 
 pub(crate) mod receiver;
 
-use std::io::BufReader;
+use std::io::{BufRead, BufReader};
 use std::sync::Arc;
 
 use flate2::read::GzDecoder;
 use serde::Deserialize;
+use tokio::runtime::Handle;
 use verne_program::{Format, Program, line_texts, packed};
 use verne_store::{Content, ContentReader};
 
@@ -16,6 +17,7 @@ use crate::operations::blocking_results::BlockingResults;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::programs::receiver::ReceivedProgram;
 use crate::operations::results::Results;
+use crate::operations::stored_reader::StoredReader;
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::result_id::ResultId;
@@ -63,8 +65,8 @@ pub(crate) async fn store_program(
         Ok::<_, OperationError>((pack(&received.program)?, write_json(&summary, SUMMARY_BYTES)?))
     })
     .await?;
-    results.put_blob(id, PROGRAM, packed).await?;
-    results.put_blob(id, SOURCE, source).await?;
+    results.put_uncached_blob(id, PROGRAM, packed).await?;
+    results.put_uncached_blob(id, SOURCE, source).await?;
     results.put_blob(id, SUMMARY, summary).await?;
     // The store drops what it has no room for without a word.
     let summary = complete_summary(results, id).await.ok_or(OperationError::ProgramTooLarge)?;
@@ -108,8 +110,9 @@ struct FormatField<'a> {
 ///
 /// [`OperationError::ProgramNotFound`]
 pub(crate) async fn load_program(results: &Results, id: ResultId) -> Result<Arc<Program>, OperationError> {
-    let packed = results.blob(id, PROGRAM).await.ok_or_else(|| unknown(id))?;
-    run_on_pool(move |_| unpack(id, &packed.bytes)).await
+    let packed = results.find_blob(id, PROGRAM).await.ok_or_else(|| unknown(id))?;
+    let packed = StoredReader::new(&packed, Handle::current());
+    run_on_pool(move |_| unpack(id, packed)).await
 }
 
 /// The same for the threads of the job queue.
@@ -117,7 +120,7 @@ pub(crate) fn load_program_in_job(
     results: &BlockingResults,
     id: ResultId,
 ) -> Result<Arc<Program>, OperationError> {
-    unpack(id, &results.blob(id, PROGRAM).ok_or_else(|| unknown(id))?)
+    unpack(id, results.reader(id, PROGRAM).ok_or_else(|| unknown(id))?)
 }
 
 /// The texts of some lines of a stored program, for the threads of the job queue. `numbers` are the lines from 1, in
@@ -135,8 +138,8 @@ pub(crate) fn program_lines_in_job(
     if matches!(format, Format::Csv | Format::Ndjson) {
         return Ok(Vec::new());
     }
-    let source = results.blob(id, SOURCE).ok_or_else(|| unknown(id))?;
-    line_texts(BufReader::new(GzDecoder::new(&*source)), numbers).map_err(|error| {
+    let source = results.reader(id, SOURCE).ok_or_else(|| unknown(id))?;
+    line_texts(BufReader::new(GzDecoder::new(source)), numbers).map_err(|error| {
         tracing::warn!(%id, %error, "cannot read the file of a stored program");
         unknown(id)
     })
@@ -157,7 +160,7 @@ fn pack(program: &Program) -> Result<Vec<u8>, OperationError> {
 }
 
 /// A blob that cannot be unpacked is damaged; the client replaces it when it sends the program again.
-fn unpack(id: ResultId, blob: &[u8]) -> Result<Arc<Program>, OperationError> {
+fn unpack(id: ResultId, blob: impl BufRead) -> Result<Arc<Program>, OperationError> {
     match packed::unpack(blob) {
         Ok(program) => Ok(Arc::new(program)),
         Err(error) => {

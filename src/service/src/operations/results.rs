@@ -119,7 +119,22 @@ impl Results {
         name: &str,
         bytes: impl Into<Bytes>,
     ) -> Result<Content, OperationError> {
-        match self.store.put(&id.key(name), bytes.into()).await {
+        self.stored(self.store.put(&id.key(name), bytes.into()).await)
+    }
+
+    /// Stores a blob that may never be read as [`Results::put_blob`] does, in memory only if there is no other place.
+    pub(crate) async fn put_uncached_blob(
+        &self,
+        id: ResultId,
+        name: &str,
+        bytes: impl Into<Bytes>,
+    ) -> Result<Content, OperationError> {
+        self.stored(self.store.put_uncached(&id.key(name), bytes.into()).await)
+    }
+
+    /// The content, unless other processes wait for it in vain.
+    fn stored(&self, outcome: (Content, Durability)) -> Result<Content, OperationError> {
+        match outcome {
             (_, Durability::MemoryOnly) if self.are_shared() => Err(OperationError::StoreUnavailable),
             (content, _) => Ok(content),
         }

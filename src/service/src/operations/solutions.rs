@@ -27,6 +27,8 @@ pub(crate) struct SolvedPosture {
     pub(crate) table: Option<TablePosition>,
     /// `[phi1, phi2]`, rad, as in the request.
     pub(crate) requested: Option<[f64; 2]>,
+    /// How many windings of theta2 are within its range, if the request has an orientation.
+    pub(crate) windings: Option<u32>,
 }
 
 /// The solver's postures for all orientations of a request.
@@ -109,6 +111,7 @@ impl AnswerBuilder<'_> {
             platform: posture.pose.into(),
             tool: tool_point(&posture.pose, self.tool_length).into(),
             part: solved.table.map(|table| self.part(solved, table.angles)),
+            windings: solved.windings,
             mode: ModeObject::new(posture, index),
             working: posture.working,
             merged: posture.merged,

@@ -2,13 +2,14 @@
 
 use std::f64::consts::PI;
 
-use verne_solver::{Machine, PartPose, SplitAngle, TableAngles, table_windings};
+use verne_solver::axis::tool_axis;
+use verne_solver::{Machine, PartPose, SplitAngle, TableAngles, Winding, rotary_windings, table_windings};
 
 use crate::wire::degrees::{from_degrees, from_degrees_of_turn, to_degrees, whole_turns};
 use crate::wire::request::Near;
 
 /// The orientation of a tool in the part frame: each angle as at most half a turn and a number of whole turns.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ToolOrientation {
     phi1: SplitAngle,
     phi2: SplitAngle,
@@ -54,21 +55,64 @@ impl ToolOrientation {
         PartPose { x, y, z, phi1: self.phi1.remainder, phi2: self.phi2.remainder }
     }
 
+    /// phi1 within half a turn of zero, rad.
+    pub(crate) fn inclination(&self) -> f64 {
+        self.phi1.remainder
+    }
+
+    /// The tool axis in the part frame, of length 1.
+    pub(crate) fn axis(&self) -> [f64; 3] {
+        tool_axis(self.phi1.remainder, self.phi2.remainder)
+    }
+
     /// The table's angles that go with a platform angle alpha, rad: on the windings within the table's ranges that are
     /// nearest to `near`. Without `near`, they are on the windings of this orientation.
     pub(crate) fn table(&self, machine: &Machine, alpha: f64, near: Option<&Near>) -> TablePosition {
-        let requested = [
-            SplitAngle { remainder: alpha - self.phi1.remainder, turns: -self.phi1.turns },
-            SplitAngle { remainder: -self.phi2.remainder, turns: -self.phi2.turns },
-        ];
         let near = match near {
             Some(Near::Joints(joints)) => [joints.theta1, joints.theta2].map(|theta| theta.map(from_degrees)),
             _ => [None; 2],
         };
-        let wound = table_windings(machine, requested, near);
-        let [theta1, theta2] = wound.map(|wound| wound.value);
-        let degrees = std::array::from_fn(|i| to_degrees(requested[i].remainder) + 360.0 * wound[i].turns);
-        TablePosition { angles: TableAngles { theta1, theta2 }, degrees }
+        self.wound(machine, alpha, near).into()
+    }
+
+    /// The same with the angles to be near to in radians: theta1 and theta2, each if it matters.
+    pub(crate) fn wound(&self, machine: &Machine, alpha: f64, near: [Option<f64>; 2]) -> WoundTable {
+        let requested = [
+            SplitAngle { remainder: alpha - self.phi1.remainder, turns: -self.phi1.turns },
+            SplitAngle { remainder: -self.phi2.remainder, turns: -self.phi2.turns },
+        ];
+        let windings = table_windings(machine, requested, near);
+        WoundTable { remainders: requested.map(|angle| angle.remainder), windings }
+    }
+
+    /// How many values of theta2, by whole turns apart, are within the machine's range.
+    pub(crate) fn windings(&self, machine: &Machine) -> u32 {
+        rotary_windings(machine, -self.phi2.remainder)
+    }
+}
+
+/// The table's angles on their windings. Only an answer needs them in degrees, and the conversion costs more than they
+/// do.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WoundTable {
+    /// theta1 and theta2 without whole turns, rad.
+    remainders: [f64; 2],
+    windings: [Winding; 2],
+}
+
+impl WoundTable {
+    /// theta1 and theta2.
+    pub(crate) fn angles(&self) -> TableAngles {
+        let [theta1, theta2] = self.windings.map(|winding| winding.value);
+        TableAngles { theta1, theta2 }
+    }
+}
+
+impl From<WoundTable> for TablePosition {
+    fn from(wound: WoundTable) -> Self {
+        let degrees =
+            std::array::from_fn(|i| to_degrees(wound.remainders[i]) + 360.0 * wound.windings[i].turns);
+        Self { angles: wound.angles(), degrees }
     }
 }
 

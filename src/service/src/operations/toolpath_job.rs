@@ -28,7 +28,7 @@ pub(crate) fn answer_toolpath(
     let program = load_program_in_job(store, id)?;
     computations.count();
     let texts = |lines: &[u32]| program_lines_in_job(store, id, lines);
-    let put = |chunk, rows| store.put_blob(question.id, &chunk_name(chunk), rows).map(drop);
+    let put = |chunk, rows| store.put_uncached_blob(question.id, &chunk_name(chunk), rows).map(drop);
     let report = compute_toolpath(question, &program, texts, put, observer)?;
     store.put_record(&Question::Toolpath(question.clone()), &report, None)
 }

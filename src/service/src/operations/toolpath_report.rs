@@ -14,6 +14,15 @@ use crate::wire::toolpath_report::{
     ToolpathLinks, ToolpathReport, TurningObject, Verdict,
 };
 
+/// Whether a report says that the machine can run the program.
+pub(crate) fn is_feasible(report: &[u8]) -> bool {
+    #[derive(Deserialize)]
+    struct VerdictField {
+        verdict: Verdict,
+    }
+    serde_json::from_slice(report).is_ok_and(|field: VerdictField| field.verdict == Verdict::Ok)
+}
+
 /// The number of rows that a report states.
 pub(crate) fn row_count(report: &[u8]) -> Option<u64> {
     #[derive(Deserialize)]
@@ -59,7 +68,12 @@ pub(crate) fn report(
         warnings: warnings.collect(),
         warning_count: planning + read.total,
         not_checked: Unchecked::beside(question.request.table_clearance.is_some()),
-        links: ToolpathLinks { itself: question.id.toolpath() },
+        links: ToolpathLinks {
+            itself: question.id.toolpath(),
+            rows: format!("{}/rows", question.id.toolpath()),
+            program: planned.is_feasible().then(|| format!("{}/program", question.id.toolpath())),
+            path: format!("{}/path", question.id.toolpath()),
+        },
     }
 }
 

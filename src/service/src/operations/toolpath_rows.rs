@@ -3,6 +3,8 @@
 
 pub(crate) mod row_bytes;
 
+use std::ops::Range;
+
 use crate::operations::toolpath_rows::row_bytes::{ROW_BYTES, StoredRow, read_row, write_row};
 use crate::wire::error::OperationError;
 
@@ -61,9 +63,19 @@ impl<F: FnMut(u64, Vec<u8>) -> Result<(), OperationError>> RowWriter<F> {
 }
 
 /// The rows of a chunk. A row that another version wrote is [`OperationError::OtherVersion`].
-#[cfg_attr(not(test), expect(dead_code, reason = "no operation returns rows yet"))]
 pub(crate) fn read_chunk(chunk: &[u8]) -> impl Iterator<Item = Result<StoredRow, OperationError>> {
     chunk.chunks(ROW_BYTES).map(|bytes| read_row(bytes).ok_or(OperationError::OtherVersion))
+}
+
+/// Some rows of a chunk, by their numbers in the chunk from 0.
+pub(crate) fn rows_of_chunk(
+    chunk: &[u8],
+    rows: Range<u64>,
+) -> impl Iterator<Item = Result<StoredRow, OperationError>> {
+    let at = |row: u64| usize::try_from(row).map_or(chunk.len(), |row| row.saturating_mul(ROW_BYTES));
+    let wanted = chunk.get(at(rows.start)..at(rows.end)).ok_or(OperationError::OtherVersion);
+    let (missing, wanted) = wanted.map_or_else(|error| (Some(Err(error)), &[][..]), |rows| (None, rows));
+    missing.into_iter().chain(read_chunk(wanted))
 }
 
 #[cfg(test)]

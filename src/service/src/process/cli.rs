@@ -6,10 +6,12 @@ pub(crate) mod key;
 pub(crate) mod kinematics;
 pub(crate) mod progress;
 pub(crate) mod store;
+pub(crate) mod toolpath;
 pub(crate) mod workspace;
 
 use std::ffi::OsString;
 use std::io::Write;
+use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -18,6 +20,7 @@ use crate::process::cli::health::HealthCommand;
 use crate::process::cli::key::KeyCommand;
 use crate::process::cli::kinematics::KinematicsCommand;
 use crate::process::cli::store::StoreCommand;
+use crate::process::cli::toolpath::ToolpathCommand;
 use crate::process::cli::workspace::WorkspaceCommand;
 use crate::process::config::ServeConfig;
 use crate::process::config::worker::WorkerConfig;
@@ -56,6 +59,9 @@ enum Command {
     Store(StoreCommand),
     /// Compute a workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
     Workspace(WorkspaceCommand),
+    /// Plan the joint motion of a program: its rows (-o FILE), and a report on the limits that it breaks. The exit
+    /// status is 3 if the machine cannot run the program.
+    Toolpath(Box<ToolpathCommand>),
     #[command(flatten)]
     Kinematics(KinematicsCommand),
 }
@@ -69,24 +75,29 @@ impl Cli {
         Ok(Self { printed_settings: read.printed, ..Self::from_arg_matches(&read.matches)? })
     }
 
-    /// Runs the command. Results go to `out`, with line breaks if `pretty`; the key of `verne key new` goes to `err`.
-    /// The error is a message for people.
-    pub fn run(self, out: &mut impl Write, err: &mut impl Write, pretty: bool) -> Result<(), String> {
+    /// Runs the command, and returns the exit status. Results go to `out`, with line breaks if `pretty`; the key of
+    /// `verne key new` and the summary of `verne toolpath` go to `err`. The error is a message for people.
+    pub fn run(self, out: &mut impl Write, err: &mut impl Write, pretty: bool) -> Result<ExitCode, String> {
         if let Some(settings) = self.printed_settings {
-            return write!(out, "{settings}").map_err(|error| format!("cannot print the settings: {error}"));
+            return match write!(out, "{settings}") {
+                Ok(()) => Ok(ExitCode::SUCCESS),
+                Err(error) => Err(format!("cannot print the settings: {error}")),
+            };
         }
-        match self.command.unwrap_or(Command::Serve(Box::new(self.serve))) {
+        let done = match self.command.unwrap_or(Command::Serve(Box::new(self.serve))) {
             Command::Serve(config) => on_runtime(&config.telemetry, service::serve(&config)),
             Command::Worker(config) => on_runtime(&config.telemetry, worker_process::run(&config)),
             Command::Health(command) => command.run(),
             Command::Key(command) => command.run(out, err),
             Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, pretty),
+            Command::Toolpath(command) => return command.run(out, err, pretty),
             Command::Kinematics(command) => {
                 let answer = command.answer(pretty)?;
                 writeln!(out, "{answer}").map_err(|error| format!("cannot write the answer: {error}"))
             }
-        }
+        };
+        done.map(|()| ExitCode::SUCCESS)
     }
 }
 

@@ -84,6 +84,11 @@ pub(crate) struct Solution {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub part: Option<PartObject>,
+    /// How many values theta2 + 360 n, n a whole number, are within the machine's rotary range; 0 if none is. Only
+    /// answers of /ik in frame `part` have it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub windings: Option<u32>,
     /// The solution's label.
     pub mode: ModeObject,
     /// Whether the solution is in the working mode: the slider end of every rod is above its platform end, and leg I is

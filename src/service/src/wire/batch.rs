@@ -7,6 +7,7 @@ use utoipa::ToSchema;
 use crate::wire::answer::MachineId;
 use crate::wire::bounded_list::BoundedList;
 use crate::wire::constraint::{ConstraintName, ElementName};
+use crate::wire::fixed_array::FiveJoints;
 use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::request::Frame;
@@ -41,10 +42,24 @@ pub(crate) struct IkBatchRequest<R> {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Rows `[x, y, z, phi1, phi2]` in frame `part`, `[x, y, z]` in the other frames. A malformed row has the status
-    /// `invalid`.
+    /// Rows `[x, y, z, phi1, phi2]` or `[x, y, z, i, j, k]` in frame `part`, `[x, y, z]` in the other frames. i, j, k
+    /// is the tool axis in the part frame, from the tool end to the holder, of any length. Both orientations that have
+    /// the axis are solved. A malformed row has the status `invalid`.
     #[schema(value_type = Vec<Option<Vec<Option<f64>>>>)]
     pub poses: BoundedList<R>,
+    /// Whether each row continues from the row before: on the same preimage (phi1, phi2) of its tool axis, with theta2
+    /// within half a turn, in the same working solution. A row that cannot has `jump`. Only frame `part` has it.
+    ///
+    /// A row then states the tool's end and its axis, by phi1 and phi2 or by i, j, k. The service decides row by row;
+    /// it does not look ahead.
+    #[serde(default)]
+    #[schema(default = false)]
+    pub continuous: bool,
+    /// `[rho1, rho2, rho3, theta1, theta2]` from which the first row continues. Only with `continuous`. Without it the
+    /// first row has the least |theta2|, or phi1 >= 0 if two are equal.
+    #[serde(default)]
+    #[schema(inline, nullable = false)]
+    pub start: Option<FiveJoints>,
 }
 
 /// The working solution for many joint positions.
@@ -69,13 +84,28 @@ pub(crate) struct FkBatchRequest<R> {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
+    /// Orientation of the rows of `parts`.
+    #[serde(default)]
+    pub orientation: Orientation,
     /// Rows `[rho1, rho2, rho3]` or `[rho1, rho2, rho3, theta1, theta2]`. A malformed row has the status `invalid`.
     #[schema(value_type = Vec<Option<Vec<Option<f64>>>>)]
     pub joints: BoundedList<R>,
 }
 
+/// Orientation of a pose in the part frame: `rotary` (default), phi1 and phi2 in degrees; `vector`, the tool axis i, j,
+/// k, a unit vector from the tool end to the holder.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Orientation {
+    /// phi1 and phi2.
+    #[default]
+    Rotary,
+    /// i, j, k.
+    Vector,
+}
+
 /// Numbers of one row.
-pub(crate) type Row = ArrayVec<f64, 5>;
+pub(crate) type Row = ArrayVec<f64, 6>;
 
 /// An [`IkBatchRequest`] whose rows are arrays of numbers.
 pub(crate) type IkBatchNumbers = IkBatchRequest<Row>;
@@ -94,9 +124,20 @@ pub(crate) struct IkBatchAnswer {
     /// `[rho1, rho2, rho3]`, in frame `part` `[rho1, rho2, rho3, theta1, theta2]`; null for a row without a solution.
     /// Joints that break a limit have the status `infeasible`. If a pose has several working solutions, the service
     /// returns the first one that the solver finds from a level platform, if it is feasible; otherwise the feasible one
-    /// with the least alpha; otherwise the first one.
+    /// with the least alpha; otherwise the first one. A row `[x, y, z, i, j, k]` has two preimages (phi1, phi2): the
+    /// service prefers a feasible solution, then the least |theta2|, then phi1 >= 0. With `continuous` the row before
+    /// decides.
     #[schema(value_type = Vec<Option<Vec<f64>>>)]
     pub joints: Vec<Option<Row>>,
+    /// Whether each row does not continue from the row before, or from `start`: it needs another preimage (phi1, phi2),
+    /// winding or working solution. null for a row without a solution. Only with `continuous`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub jump: Option<Vec<Option<bool>>>,
+    /// How many rows have `jump`. Only with `continuous`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub jumps: Option<usize>,
     /// Status of each row.
     #[serde(flatten)]
     pub report: RowReport,
@@ -110,7 +151,8 @@ pub(crate) struct FkBatchAnswer {
     /// `[x, y, z, alpha]` of the platform in the base frame; null for a row without a solution.
     #[schema(value_type = Vec<Option<Vec<f64>>>)]
     pub poses: Vec<Option<Row>>,
-    /// `[x, y, z, phi1, phi2]` of the tool in the part frame, for rows with theta1 and theta2.
+    /// `[x, y, z, phi1, phi2]` of the tool in the part frame, for rows with theta1 and theta2; `[x, y, z, i, j, k]` if
+    /// `orientation` is `vector`. null for other rows.
     #[schema(value_type = Vec<Option<Vec<f64>>>)]
     pub parts: Vec<Option<Row>>,
     /// Status of each row.
@@ -123,9 +165,11 @@ pub(crate) struct FkBatchAnswer {
 pub(crate) struct RowReport {
     /// Status of each row.
     pub status: Vec<Status>,
-    /// The worst violated constraint of each row that is not `ok`; null for `ok` and `invalid`.
+    /// The constraint with the least margin of each row, as a fraction of its own range: the nearest limit of an `ok`
+    /// row, the limit that prevents another one. null for `invalid`.
     pub constraint: Vec<Option<ConstraintName>>,
-    /// Margin of this constraint: negative, in its unit (mm, degrees or a pure number).
+    /// Margin of this constraint in its unit (mm, degrees or a pure number): at least zero for `ok`, otherwise
+    /// negative.
     pub margin: Vec<Option<f64>>,
     /// The part of the machine with this margin, such as `slider2.max`.
     #[schema(value_type = Vec<Option<String>>)]

@@ -60,6 +60,8 @@ pub(crate) enum OperationError {
     ProgramNotFound(String),
     #[error("The program is larger than the whole storage for results. Split it into several programs.")]
     ProgramTooLarge,
+    #[error("There is no joint program: {0}.")]
+    NoJointProgram(String),
     #[error("The computation was cancelled.")]
     Cancelled,
     #[error("Another version created the job. Repeat the request for a new id.")]

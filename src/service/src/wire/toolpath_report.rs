@@ -1,6 +1,6 @@
 //! The report on a tool path.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use verne_solver::{Margin, PartPose};
 
@@ -69,7 +69,7 @@ pub(crate) struct ToolpathReport {
 }
 
 /// Whether the machine can run a program: `ok`, or `fails`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Verdict {
     /// The machine can run it.
@@ -102,7 +102,8 @@ pub(crate) struct FailureObject {
     pub at: FailurePlace,
 }
 
-/// A place of a program: /ik reproduces the failure for this pose in frame `part` with this tool.
+/// A place of a program. /ik reproduces the failure for this pose in frame `part` with this tool. A failure of `rotary`
+/// is one of the winding: theta2 is -phi2 there, while /ik takes a winding within the range.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct FailurePlace {
     /// The line.
@@ -204,6 +205,12 @@ pub(crate) struct ToolpathLinks {
     /// This report.
     #[serde(rename = "self")]
     pub itself: String,
+    /// The rows.
+    pub rows: String,
+    /// The joint program; null if the machine cannot run the program.
+    pub program: Option<String>,
+    /// The tool's path as a GLB.
+    pub path: String,
 }
 
 impl ToolpathReport {

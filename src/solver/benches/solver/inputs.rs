@@ -6,6 +6,7 @@ use verne_solver::{
 };
 
 use crate::polynomial::{Octic, octic};
+use crate::random::Random;
 
 /// Number of poses: too many for a branch predictor to learn.
 const COUNT: usize = 768;
@@ -31,7 +32,7 @@ pub(crate) struct Inputs {
 
 impl Inputs {
     pub(crate) fn random(machine: &Machine) -> Self {
-        let mut random = Random(0x5EED);
+        let mut random = Random::new(0x5EED);
         let tables: Vec<_> =
             std::iter::from_fn(|| Some(reachable(machine, &mut random))).take(COUNT).collect();
         let postures: Vec<Posture> = tables.iter().map(|(posture, _)| *posture).collect();
@@ -66,9 +67,11 @@ impl Inputs {
 /// A posture in the working mode within all margins, and table angles in their ranges.
 fn reachable(machine: &Machine, random: &mut Random) -> (Posture, TableAngles) {
     let limits = &machine.data().limits;
+    let ([tilt_low, tilt_high], [rotary_low, rotary_high]) = (limits.tilt, limits.rotary);
     loop {
-        let point = BOX.map(|range| random.within(range));
-        let table = TableAngles { theta1: random.within(limits.tilt), theta2: random.within(limits.rotary) };
+        let point = BOX.map(|[low, high]| random.between(low, high));
+        let theta1 = random.between(tilt_low, tilt_high);
+        let table = TableAngles { theta1, theta2: random.between(rotary_low, rotary_high) };
         if let Ok(posture) = platform_working(machine, point)
             && Margins::of(machine, &posture, Some(table)).feasible()
         {
@@ -80,7 +83,7 @@ fn reachable(machine: &Machine, random: &mut Random) -> (Posture, TableAngles) {
 /// The machine's pose at a point that lies [`OFF`] away in a random direction.
 fn start(machine: &Machine, pose: &PlatformPose, random: &mut Random) -> PlatformPose {
     loop {
-        let direction: [f64; 3] = std::array::from_fn(|_| random.within([-1.0, 1.0]));
+        let direction: [f64; 3] = std::array::from_fn(|_| random.between(-1.0, 1.0));
         let length = direction.iter().map(|c| c * c).sum::<f64>().sqrt();
         if !(0.1..=1.0).contains(&length) {
             continue;
@@ -89,19 +92,5 @@ fn start(machine: &Machine, pose: &PlatformPose, random: &mut Random) -> Platfor
         if let Ok(posture) = platform_working(machine, [pose.x + dx, pose.y + dy, pose.z + dz]) {
             return posture.pose;
         }
-    }
-}
-
-/// `SplitMix64`: seeded, and the same on every machine.
-struct Random(u64);
-
-impl Random {
-    fn within(&mut self, [low, high]: [f64; 2]) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        let bits = (z ^ (z >> 31)) >> 11;
-        low + (high - low) * (bits as f64 / (1_u64 << 53) as f64)
     }
 }

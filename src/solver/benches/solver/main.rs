@@ -18,6 +18,8 @@ mod harness;
 mod inputs;
 mod newton;
 mod polynomial;
+#[path = "../../tests/support/random.rs"]
+mod random;
 mod report;
 mod root_finders;
 

@@ -8,9 +8,10 @@ use super::platform::{platform, platform_working};
 use super::platform_locus::PlatformLocus;
 use super::solutions::{add_postures, working_posture};
 use crate::error::KinematicsError;
-use crate::fast_math::wrapped;
-use crate::loop_closure::{Root, Roots, find_roots, from_level_platform};
+use crate::fast_math::{sin_cos, wrapped};
+use crate::loop_closure::{Root, Roots, find_roots, from_level_platform, polish};
 use crate::machine::Machine;
+use crate::pose::PlatformPose;
 use crate::posture::{Posture, Postures, postures_or_error};
 
 /// All postures along the locus.
@@ -46,6 +47,22 @@ pub(super) fn working(machine: &Machine, locus: &PlatformLocus) -> Result<Postur
         }
     }
     working_among_all(machine, locus, &closure, level).map(|postures| postures[0])
+}
+
+/// The posture in the working mode that Newton's method finds from another pose and its rho1.
+#[inline]
+pub(super) fn working_near(
+    machine: &Machine,
+    locus: &PlatformLocus,
+    (before, rho1): (PlatformPose, f64),
+) -> Option<Posture> {
+    if let Some(p) = locus.fixed_point() {
+        return platform_working(machine, p).ok();
+    }
+    let closure = LegOneClosure::new(&machine.mechanism, locus);
+    let (s, c) = sin_cos(before.alpha);
+    let root = polish(&closure, Root::at(before.alpha, [c, s], before.z - rho1))?;
+    working_posture(machine, &locus.pose(&machine.mechanism, &root)).ok()
 }
 
 /// All postures in the working mode along the locus, that of [`working`] first. There is at least one, or the function

@@ -1,11 +1,11 @@
 //! The whole machine: the tool's pose is given in the part frame.
 
-use super::locus_solver::{every, every_working, working};
+use super::locus_solver::{every, every_working, working, working_near};
 use super::platform_locus::PlatformLocus;
 use crate::error::KinematicsError;
 use crate::fast_math::sin_cos;
 use crate::machine::Machine;
-use crate::pose::PartPose;
+use crate::pose::{PartPose, PlatformPose};
 use crate::posture::{Posture, Postures};
 use crate::request_range::{check_numbers, check_proportion};
 
@@ -124,12 +124,38 @@ pub fn part_every_working(
     every_working(machine, &locus(machine, target, tool_length)?)
 }
 
-/// Eq (26) solved for P with theta2 = -phi2 (9) and theta1 = a - phi1 (14).
+/// The posture of [`part_every_working`] near another one, of which P, alpha and rho1 are given, by Newton's method.
+/// `turns` are sine and cosine of the target's phi1 and phi2. `None` if the method does not converge to a posture in
+/// the working mode.
+pub(crate) fn part_working_near(
+    machine: &Machine,
+    target: &PartPose,
+    turns: [[f64; 2]; 2],
+    tool_length: f64,
+    before: (PlatformPose, f64),
+) -> Option<Posture> {
+    let locus = turned_locus(machine, target, turns, tool_length).ok()?;
+    working_near(machine, &locus, before)
+}
+
 fn locus(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<PlatformLocus, KinematicsError> {
+    let turns = [target.phi1, target.phi2].map(|angle| {
+        let (sine, cosine) = sin_cos(angle);
+        [sine, cosine]
+    });
+    turned_locus(machine, target, turns, tool_length)
+}
+
+/// Eq (26) solved for P with theta2 = -phi2 (9) and theta1 = a - phi1 (14).
+fn turned_locus(
+    machine: &Machine,
+    target: &PartPose,
+    [[s1, c1], [s2, c2]]: [[f64; 2]; 2],
+    tool_length: f64,
+) -> Result<PlatformLocus, KinematicsError> {
     let PartPose { x, y, z, phi1, phi2 } = *target;
     check_numbers(&machine.mechanism, &[x, y, z, tool_length], &[phi1, phi2])?;
     let table = machine.table();
-    let ((s1, c1), (s2, c2)) = (sin_cos(phi1), sin_cos(phi2));
     // theta2 = -phi2.
     let v1 = y * c2 - x * s2;
     let a = tool_length * s1 - v1;

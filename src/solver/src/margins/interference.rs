@@ -94,13 +94,12 @@ fn compare_parallelograms(nearest: &mut NearestPair, g: &Geometry, rods: &Rods) 
 #[inline]
 fn compare_between_legs(nearest: &mut NearestPair, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
     let half = g.parallelogram_half_width;
-    for i in [0, 1] {
-        for j in [2, 4] {
-            if !is_farther(nearest, &to_middle(ends, i, j, half), rods, [i, j], half) {
-                compare_pair(nearest, ends, rods, [i, j]);
-                compare_pair(nearest, ends, rods, [i, j + 1]);
-            }
-        }
+    let pairs = [[0, 2], [0, 4], [1, 2], [1, 4]];
+    // Without branches, because nearly always all are farther.
+    let farther = pairs.map(|[i, j]| is_farther(nearest, &to_middle(ends, i, j, half), rods, [i, j], half));
+    for ([i, j], _) in pairs.into_iter().zip(farther).filter(|(_, is_farther)| !is_farther) {
+        compare_pair(nearest, ends, rods, [i, j]);
+        compare_pair(nearest, ends, rods, [i, j + 1]);
     }
     if !is_farther(nearest, &difference(ends[2], ends[4]), rods, [2, 4], 2.0 * half) {
         for pair in [[2, 4], [2, 5], [3, 4]] {
@@ -116,8 +115,8 @@ fn compare_between_legs(nearest: &mut NearestPair, g: &Geometry, ends: &[[f64; 3
 fn is_farther(nearest: &NearestPair, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
     let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
     let square_gap = dot(gap, gap);
-    let apart = square_gap - dot(a, gap).max(0.0) + dot(b, gap).min(0.0) - shift * gap[0].abs();
-    apart > 0.0 && apart * apart >= nearest.square * square_gap
+    let apart = square_gap - greater(dot(a, gap), 0.0) + lesser(dot(b, gap), 0.0) - shift * gap[0].abs();
+    (apart > 0.0) & (apart * apart >= nearest.square * square_gap)
 }
 
 #[inline]

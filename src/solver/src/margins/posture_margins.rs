@@ -77,20 +77,30 @@ impl Margins {
         rho: [f64; 3],
         table: Option<TableAngles>,
     ) -> Self {
+        Self::of_closed(machine, pose, rho, &Rods::of(&machine.mechanism, pose, rho), table)
+    }
+
+    #[inline]
+    fn of_closed(
+        machine: &Machine,
+        pose: &PlatformPose,
+        rho: [f64; 3],
+        rods: &Rods,
+        table: Option<TableAngles>,
+    ) -> Self {
         let (g, limits, home) = (machine.geometry(), machine.limits(), &machine.home);
-        let rods = Rods::of(&machine.mechanism, pose, rho);
-        let (distance, nearest_rods) = interference::least_distance(g, &rods);
+        let (distance, nearest_rods) = interference::least_distance(g, rods);
         let directions = cone::columns(&rods.directions);
         Self {
             stroke: std::array::from_fn(|i| range_margins(limits.stroke[i], rho[i])),
-            leg_length: heights(g, pose, rho, &rods),
+            leg_length: heights(g, pose, rho, rods),
             serial_singularity: rods.directions.map(|direction| direction[2] - limits.serial_margin),
-            parallel_singularity: det_margin(machine, &rods),
+            parallel_singularity: det_margin(machine, rods),
             slider_joint: cone::margins(limits.slider_cone, &home.slider_axes, &directions),
             platform_joint: cone::margins(
                 limits.platform_cone,
                 &home.platform_axes,
-                &cone::in_platform(&rods, &directions),
+                &cone::in_platform(rods, &directions),
             ),
             rod_crossing: g.R1 * rods.c - g.r1,
             rod_interference: distance - 2.0 * g.rod_radius,
@@ -137,17 +147,18 @@ impl Margins {
         Self { table_clearance: above, ..Self::of(machine, posture, table) }
     }
 
-    /// [`Self::above_table`] from the platform's pose, the sliders and the table's angles.
+    /// [`Self::above_table`] from the platform's pose, the sliders, the rods and the table's angles.
     #[inline]
-    pub(crate) fn of_joints(
+    pub(crate) fn of_rods(
         machine: &Machine,
         pose: &PlatformPose,
         rho: [f64; 3],
+        rods: &Rods,
         table: TableAngles,
         clearance: Option<&Clearance>,
     ) -> Self {
         let above = clearance.map(|clearance| clearance.margin(machine, pose, table));
-        Self { table_clearance: above, ..Self::of_solution(machine, pose, rho, Some(table)) }
+        Self { table_clearance: above, ..Self::of_closed(machine, pose, rho, rods, Some(table)) }
     }
 
     /// Whether every margin is at least zero.

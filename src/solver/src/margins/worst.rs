@@ -7,12 +7,11 @@ use crate::machine::Machine;
 use crate::pose::TableAngles;
 
 /// The rod that represents each family.
-pub(crate) const FAMILY_ROD: [Element; 4] =
-    [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
+const FAMILY_ROD: [Element; 4] = [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
 
 /// The least number and its index.
 #[inline]
-pub(crate) fn least(margins: &[f64]) -> (usize, f64) {
+fn least(margins: &[f64]) -> (usize, f64) {
     let mut found = (0, f64::INFINITY);
     for (i, &margin) in margins.iter().enumerate() {
         if margin < found.1 {
@@ -42,31 +41,19 @@ impl WorstMargin {
         worst.compare_strokes(machine, &[0, 1, 2].map(|i| range_margins(limits.stroke[i], rho[i])));
         if let Some(TableAngles { theta1, theta2 }) = table {
             let (tilt, rotary) = (range_margins(limits.tilt, theta1), range_margins(limits.rotary, theta2));
-            worst.compare_table(machine, Some(tilt), Some(rotary));
+            each_range(machine, Some(tilt), Some(rotary), &mut |constraint, element, value, factor| {
+                worst.compare(constraint, element, value, factor);
+            });
         }
         worst
     }
 
-    /// The worst of all margins except that of the table's plane.
+    /// The worst of all margins.
     pub(super) fn of(machine: &Machine, margins: &Margins) -> Self {
-        let factors = &machine.normalization;
-        let mut worst = Self::new(margins.rod_crossing, factors.rod_crossing);
-        worst.compare_strokes(machine, &margins.stroke);
-        worst.compare_legs(machine, &margins.leg_length);
-        let families = [
-            (Constraint::SerialSingularity, &margins.serial_singularity, factors.serial_singularity),
-            (Constraint::SliderJoint, &margins.slider_joint, factors.slider_joint),
-            (Constraint::PlatformJoint, &margins.platform_joint, factors.platform_joint),
-        ];
-        for (constraint, margins, factor) in families {
-            let (family, value) = least(margins);
-            worst.compare(constraint, FAMILY_ROD[family], value, factor);
-        }
-        let (det, gap) = (margins.parallel_singularity, margins.rod_interference);
-        worst.compare(Constraint::ParallelSingularity, Element::Platform, det, factors.parallel_singularity);
-        let [a, b] = margins.nearest_rods;
-        worst.compare(Constraint::RodInterference, Element::Rods(a, b), gap, factors.rod_interference);
-        worst.compare_table(machine, margins.tilt, margins.rotary);
+        let mut worst = Self::new(margins.rod_crossing, machine.normalization.rod_crossing);
+        each_margin(machine, margins, |constraint, element, value, factor| {
+            worst.compare(constraint, element, value, factor);
+        });
         worst
     }
 
@@ -109,24 +96,90 @@ impl WorstMargin {
             *self = Self { margin: Margin { constraint, element, value: values[i] }, fraction: fractions[i] };
         }
     }
+}
 
-    #[inline]
-    fn compare_legs(&mut self, machine: &Machine, leg_length: &[f64; 3]) {
-        for (i, (value, factor)) in (1..).zip(leg_length.iter().zip(machine.normalization.leg_length)) {
-            self.compare(Constraint::LegLength, Element::Leg(i), *value, factor);
+/// Calls `found` with the margins of every constraint but crossed rods and with their factors: of every slider and leg,
+/// and the least one of rods and of ends of a range.
+#[inline]
+fn each_margin(machine: &Machine, margins: &Margins, mut found: impl FnMut(Constraint, Element, f64, f64)) {
+    let factors = &machine.normalization;
+    for (slider, (ends, factor)) in (1..).zip(margins.stroke.iter().zip(factors.stroke)) {
+        let element = Element::Stroke { slider, high: ends[1] < ends[0] };
+        found(Constraint::Stroke, element, lesser(ends[0], ends[1]), factor);
+    }
+    for (leg, (value, factor)) in (1..).zip(margins.leg_length.iter().zip(factors.leg_length)) {
+        found(Constraint::LegLength, Element::Leg(leg), *value, factor);
+    }
+    let families = [
+        (Constraint::SerialSingularity, &margins.serial_singularity, factors.serial_singularity),
+        (Constraint::SliderJoint, &margins.slider_joint, factors.slider_joint),
+        (Constraint::PlatformJoint, &margins.platform_joint, factors.platform_joint),
+    ];
+    for (constraint, margins, factor) in families {
+        let (family, value) = least(margins);
+        found(constraint, FAMILY_ROD[family], value, factor);
+    }
+    let (det, gap) = (margins.parallel_singularity, margins.rod_interference);
+    found(Constraint::ParallelSingularity, Element::Platform, det, factors.parallel_singularity);
+    let [a, b] = margins.nearest_rods;
+    found(Constraint::RodInterference, Element::Rods(a, b), gap, factors.rod_interference);
+    each_range(machine, margins.tilt, margins.rotary, &mut found);
+    if let Some(Margin { constraint, element, value }) = margins.table_clearance {
+        found(constraint, element, value, factors.table_clearance);
+    }
+}
+
+/// The same for the table's ranges.
+#[inline]
+fn each_range(
+    machine: &Machine,
+    tilt: Option<[f64; 2]>,
+    rotary: Option<[f64; 2]>,
+    found: &mut impl FnMut(Constraint, Element, f64, f64),
+) {
+    let factors = &machine.normalization;
+    let ranges = [(Constraint::Tilt, tilt, factors.tilt), (Constraint::Rotary, rotary, factors.rotary)];
+    for (constraint, ends, factor) in ranges {
+        if let Some(ends) = ends {
+            let (end, value) = least(&ends);
+            found(constraint, Element::Range { high: end == 1 }, value, factor);
         }
     }
+}
 
-    #[inline]
-    fn compare_table(&mut self, machine: &Machine, tilt: Option<[f64; 2]>, rotary: Option<[f64; 2]>) {
+impl Margin {
+    /// The margin as a fraction of its constraint's own range (stroke, rod length, cone half-angle, value at home,
+    /// ...): by it, margins of different units compare.
+    ///
+    /// ```
+    /// use verne_solver::{Constraint, Element, Machine, Margin};
+    ///
+    /// let element = Element::Stroke { slider: 2, high: false };
+    /// let margin = Margin { constraint: Constraint::Stroke, element, value: 75.0 };
+    /// assert_eq!(margin.fraction(&Machine::verne()), 75.0 / 750.0);
+    /// ```
+    pub fn fraction(&self, machine: &Machine) -> f64 {
         let factors = &machine.normalization;
-        let ranges = [(Constraint::Tilt, tilt, factors.tilt), (Constraint::Rotary, rotary, factors.rotary)];
-        for (constraint, ends, factor) in ranges {
-            if let Some(ends) = ends {
-                let (end, value) = least(&ends);
-                self.compare(constraint, Element::Range { high: end == 1 }, value, factor);
-            }
-        }
+        let of = |number: u8, factors: &[f64; 3]| {
+            let index = usize::from(number.saturating_sub(1));
+            factors[index.min(2)]
+        };
+        let factor = match (self.constraint, self.element) {
+            (Constraint::Stroke, Element::Stroke { slider, .. }) => of(slider, &factors.stroke),
+            (Constraint::Stroke, _) => factors.stroke[0],
+            (Constraint::LegLength, Element::Leg(leg)) => of(leg, &factors.leg_length),
+            (Constraint::LegLength, _) => factors.leg_length[0],
+            (Constraint::SerialSingularity, _) => factors.serial_singularity,
+            (Constraint::ParallelSingularity, _) => factors.parallel_singularity,
+            (Constraint::SliderJoint, _) => factors.slider_joint,
+            (Constraint::PlatformJoint, _) => factors.platform_joint,
+            (Constraint::RodCrossing, _) => factors.rod_crossing,
+            (Constraint::RodInterference, _) => factors.rod_interference,
+            (Constraint::Tilt, _) => factors.tilt,
+            (Constraint::Rotary, _) => factors.rotary,
+            (Constraint::TableClearance, _) => factors.table_clearance,
+        };
+        self.value * factor
     }
 }
 
@@ -161,7 +214,19 @@ impl Margins {
 
     /// [`Self::worst`] and its fraction of its constraint's range, by which solutions compare.
     pub(crate) fn worst_with_fraction(&self, machine: &Machine) -> (Margin, f64) {
-        let worst = WorstMargin::of(machine, self).with_clearance(machine, self.table_clearance);
+        let worst = WorstMargin::of(machine, self);
+        (worst.margin, worst.fraction)
+    }
+
+    /// The same; calls `found` with margins among which is the least one of every constraint.
+    #[inline]
+    pub(crate) fn worst_of_each(&self, machine: &Machine, mut found: impl FnMut(Margin)) -> (Margin, f64) {
+        let mut worst = WorstMargin::new(self.rod_crossing, machine.normalization.rod_crossing);
+        found(worst.margin);
+        each_margin(machine, self, |constraint, element, value, factor| {
+            found(Margin { constraint, element, value });
+            worst.compare(constraint, element, value, factor);
+        });
         (worst.margin, worst.fraction)
     }
 

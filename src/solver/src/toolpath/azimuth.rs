@@ -4,23 +4,24 @@ use std::f64::consts::{PI, TAU};
 
 use super::motion::Motion;
 use super::path::Path;
-use crate::fast_math::{angle_of_vector, sin_cos};
+use crate::fast_math::{angle_of, angle_of_vector};
 
 /// Width of the strip beside an azimuth of half a turn whose sign is rounding, rad.
 const SEAM: f64 = 1e-9;
 /// Sine of the inclination below which an axis has no azimuth.
 const LEAST_SINE: f64 = 1e-9;
 
-/// The axis of an orientation `[phi1, phi2]`.
-pub(super) fn axis_of([phi1, phi2]: [f64; 2]) -> [f64; 3] {
-    let ((s1, c1), (s2, c2)) = (sin_cos(phi1), sin_cos(phi2));
-    [s1 * s2, -s1 * c2, c1]
-}
-
-/// phi1 of an axis on the meridian phi2, rad: of its component there, if phi2 is not its own.
-pub(super) fn inclination([i, j, k]: [f64; 3], phi2: f64) -> f64 {
-    let (sin, cos) = sin_cos(phi2);
-    angle_of_vector(k, i * sin - j * cos)
+/// phi1 of an axis on the meridian of this sine and cosine, rad: of its component there, if phi2 is not its own. Also
+/// sine and cosine of phi1.
+pub(super) fn inclination([i, j, k]: [f64; 3], [sin, cos]: [f64; 2]) -> (f64, [f64; 2]) {
+    let across = i * sin - j * cos;
+    let length = (k * k + across * across).sqrt();
+    if length > 0.0 {
+        let direction = [across / length, k / length];
+        (angle_of(direction[1], direction[0]), direction)
+    } else {
+        (0.0, [0.0, 1.0])
+    }
 }
 
 /// phi2 of an axis with phi1 >= 0, rad, in (-π, π] but for rounding; `None` at the pole.
@@ -33,15 +34,33 @@ fn direction_azimuth(i: f64, j: f64) -> f64 {
     if azimuth <= SEAM - PI { azimuth + TAU } else { azimuth }
 }
 
-/// The azimuths at both ends of a part of a path outside the cap. At the pole itself it is that of the way from it.
-pub(super) fn azimuths(path: &Path, ends: [f64; 2]) -> [f64; 2] {
-    let at = |s: f64, sign: f64| {
-        azimuth(path.at(s).axis).unwrap_or_else(|| {
-            let (_, [_, rate]) = path.with_rates(s);
-            direction_azimuth(sign * rate.x, sign * rate.y)
-        })
-    };
-    [at(ends[0], 1.0), at(ends[1], -1.0)]
+/// The azimuths of the paths of a program, which begin where the ones before them end.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Azimuths {
+    /// The last axis at the end of a path, with its azimuth.
+    last: Option<([f64; 3], f64)>,
+}
+
+impl Azimuths {
+    /// The azimuths at both ends of a part of a path outside the cap. At the pole itself it is that of the way from it.
+    pub(super) fn of(&mut self, path: &Path, ends: [f64; 2]) -> [f64; 2] {
+        let [start, end] = self.between(ends.map(|s| path.at(s).axis));
+        [start.unwrap_or_else(|| way(path, ends[0], 1.0)), end.unwrap_or_else(|| way(path, ends[1], -1.0))]
+    }
+
+    /// The azimuths of two axes; `None` at the pole.
+    pub(super) fn between(&mut self, [start, end]: [[f64; 3]; 2]) -> [Option<f64>; 2] {
+        let known = self.last.filter(|(axis, _)| *axis == start).map(|(_, azimuth)| azimuth);
+        let found = azimuth(end);
+        self.last = found.map(|azimuth| (end, azimuth));
+        [known.or_else(|| azimuth(start)), found]
+    }
+}
+
+/// The azimuth of the way from the pole.
+fn way(path: &Path, s: f64, sign: f64) -> f64 {
+    let (_, [_, rate]) = path.with_rates(s);
+    direction_azimuth(sign * rate.x, sign * rate.y)
 }
 
 /// The difference modulo `period` that is nearest to zero; of two, the positive one.

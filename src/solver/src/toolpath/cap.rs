@@ -28,12 +28,23 @@ impl Cap {
         axis[2] > 0.0 && axis[0] * axis[0] + axis[1] * axis[1] <= self.sine * self.sine
     }
 
+    /// Whether an axis that turns by at most `turn` between two axes certainly stays outside.
+    pub(super) fn is_clear(&self, ends: [[f64; 3]; 2], turn: f64) -> bool {
+        let [a, b] = ends.map(|[i, j, _]| i * i + j * j);
+        let reach = self.sine + turn;
+        a.min(b) > reach * reach
+    }
+
     pub(super) fn measure(&self, path: &Path) -> f64 {
         path.length() + self.scale * path.turn()
     }
 
     /// Calls `found` with the parts of a path: both ends of each, and whether it is inside the cap.
-    pub(super) fn split(&self, path: &Path, found: impl FnMut([f64; 2], bool)) {
+    pub(super) fn split(&self, path: &Path, mut found: impl FnMut([f64; 2], bool)) {
+        if path.is_great_circle() && self.is_clear(path.end_axes(), path.turn()) {
+            found([0.0, 1.0], false);
+            return;
+        }
         let steps = if path.is_great_circle() { 1 } else { count_of(path.turn() / STEP) };
         let mut parts = Parts { begun: 0.0, is_inside: self.has(path.at(0.0).axis), found };
         for step in 0..steps {
@@ -60,23 +71,23 @@ impl Cap {
 
     /// A parameter inside the cap between two outside, if the path passes through it.
     fn least(&self, path: &Path, low: f64, high: f64) -> Option<f64> {
-        let sine = |s: f64| {
+        let square = |s: f64| {
             let [i, j, k] = path.at(s).axis;
-            if k > 0.0 { (i * i + j * j).sqrt() } else { 1.0 }
+            if k > 0.0 { i * i + j * j } else { 1.0 }
         };
-        if sine(low).min(sine(high)) > self.sine + path.turn() * (high - low) {
-            return None;
+        if path.is_great_circle() {
+            return path.nearest_to_pole().filter(|&s| self.has(path.at(s).axis));
         }
         let (mut a, mut b) = (low, high);
         for _ in 0..GOLDEN_STEPS {
             let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-            if sine(c) < sine(d) {
+            if square(c) < square(d) {
                 b = d;
             } else {
                 a = c;
             }
-            if sine(c).min(sine(d)) <= self.sine {
-                return Some(if sine(c) < sine(d) { c } else { d });
+            if square(c).min(square(d)) <= self.sine * self.sine {
+                return Some(if square(c) < square(d) { c } else { d });
             }
         }
         None

@@ -7,37 +7,27 @@
 
 mod cost;
 mod stages;
+mod state;
 
 use std::cmp::Ordering;
 
 use self::cost::Cost;
 use self::stages::Stages;
 pub(super) use self::stages::{Choice, Chosen};
+use self::state::{Reserve, State, advance, is_wound};
 use super::cap::Cap;
 use super::meridian::{Meridian, Span};
 use super::motion::{Motion, MotionKind, Motions, ToolPosition};
 use super::node::{Node, Setting};
 use super::path::{Path, places};
 use super::stretches::Place;
-use crate::margins::Margins;
 
 /// Angle and fraction of the machine's longest dimension between two ends of motions: ends that are closer to the last
 /// place are not examined.
-const LEAST_ANGLE: f64 = 0.005;
-const LEAST_LENGTH: f64 = 1.0 / 512.0;
+const LEAST_ANGLE: f64 = 0.01;
+const LEAST_LENGTH: f64 = 1.0 / 256.0;
 /// Greatest number of states at a place.
 const MOST_STATES: usize = 64;
-
-/// A state: h now and, inside a stretch, at its end.
-#[derive(Clone, Copy, Debug)]
-struct State {
-    h: [i32; 2],
-    node: Option<Node>,
-    /// Whether all limits but the rotary axis' hold.
-    holds: bool,
-    cost: Cost,
-    parent: usize,
-}
 
 /// Chooses the states of a program.
 pub(super) struct Chooser<'a> {
@@ -53,7 +43,7 @@ pub(super) struct Chooser<'a> {
 /// A place that has not been examined, with the length and the angles of the path to it.
 #[derive(Clone, Copy)]
 struct Skipped {
-    motion: Motion,
+    tool_length: f64,
     span: Span,
     at: ToolPosition,
     length: f64,
@@ -79,9 +69,10 @@ impl<'a> Chooser<'a> {
                 return None;
             }
             let motion = motions.motion(index);
-            match meridian.advance(&motion) {
+            meridian.advance(&motion);
+            match &meridian.path {
                 Some(path) if motion.kind == MotionKind::Feed => {
-                    self.feed(index, &motion, &path, &meridian.spans);
+                    self.feed(index, &motion, path, &meridian.spans);
                 }
                 _ => self.jump(&motion, meridian.spans.last()),
             }
@@ -95,13 +86,21 @@ impl<'a> Chooser<'a> {
         self.examine_skipped();
         let before = std::mem::take(&mut self.states);
         let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
+        // The nodes of both preimages; whole turns change theta2 alone.
+        let mut known: [Option<Vec<(Option<Node>, Reserve)>>; 2] = [None, None];
         for h in self.setting.half_turns(phi2) {
             let target = self.setting.target(span, 1.0, &motion.end, [h, h]);
-            let nodes = self.setting.nodes(&target, motion.tool_length).unwrap_or_default();
-            let none = nodes.is_empty().then_some(None);
-            let nodes = nodes.into_iter().map(Some).chain(none);
-            for node in nodes {
-                let state = self.entered(&before, [h, h], node, motion);
+            let nodes = known[usize::from(h.rem_euclid(2) == 1)].get_or_insert_with(|| {
+                let nodes = self.setting.nodes(&target, motion.tool_length).unwrap_or_default();
+                let none = nodes.is_empty().then_some(None);
+                let nodes = nodes.into_iter().map(Some).chain(none);
+                nodes
+                    .map(|node| (node, Reserve::of(&self.setting, node.as_ref(), motion.tool_length)))
+                    .collect()
+            });
+            for (node, reserve) in nodes {
+                let node = node.map(|node| node.wound_to(target.pose.phi2));
+                let state = self.entered(&before, [h, h], node, *reserve);
                 self.states.push(state);
             }
             if self.states.len() >= MOST_STATES {
@@ -111,9 +110,8 @@ impl<'a> Chooser<'a> {
         self.stage();
     }
 
-    fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, motion: &Motion) -> State {
-        let holds = self.holds(node.as_ref(), motion.tool_length);
-        let own = self.place_cost(node.as_ref(), holds);
+    fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, reserve: Reserve) -> State {
+        let own = reserve.place_cost(&self.setting, node.as_ref());
         if before.is_empty() {
             let turning = node.zip(self.start).map_or(0.0, |(node, [theta1, theta2])| {
                 self.weights[0] * (node.table.theta1 - theta1).abs()
@@ -121,7 +119,7 @@ impl<'a> Chooser<'a> {
             });
             let start = node.map_or(f64::INFINITY, |node| node.table.theta2.abs());
             let cost = Cost { turning, start, is_turned: h[1].rem_euclid(2) == 1, ..own };
-            return State { h, node, holds, cost, parent: 0 };
+            return State { h, node, reserve, cost, parent: 0, twin: None };
         }
         let mut best: Option<(Cost, usize)> = None;
         for (parent, state) in before.iter().enumerate() {
@@ -133,23 +131,7 @@ impl<'a> Chooser<'a> {
             }
         }
         let (cost, parent) = best.map_or((own, 0), |best| best);
-        State { h, node, holds, cost, parent }
-    }
-
-    /// Whether all limits but the rotary axis' hold.
-    fn holds(&self, node: Option<&Node>, tool_length: f64) -> bool {
-        node.is_some_and(|node| {
-            Margins { rotary: None, ..self.setting.margins(node, tool_length) }.feasible()
-        })
-    }
-
-    /// The cost of one place, where the limits but the rotary axis' hold or not.
-    fn place_cost(&self, node: Option<&Node>, holds: bool) -> Cost {
-        let [low, high] = self.setting.machine.limits().rotary;
-        let rotary_margin =
-            node.map_or(f64::NEG_INFINITY, |node| (node.table.theta2 - low).min(high - node.table.theta2));
-        let failing = if holds && rotary_margin >= 0.0 { 0.0 } else { 1.0 };
-        Cost { failing, turning: 0.0, rotary_margin, start: 0.0, is_turned: false }
+        State { h, node, reserve, cost, parent, twin: None }
     }
 
     fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
@@ -167,7 +149,7 @@ impl<'a> Chooser<'a> {
             for place in 1..=count {
                 let part = f64::from(place) / f64::from(count);
                 let s = if place == count { span.to } else { span.from + (span.to - span.from) * part };
-                self.advance(motion, span, s, &path.at(s));
+                self.advance(motion.tool_length, span, s, &path.at(s));
             }
             if bounded.is_some_and(|stretch| stretch.end == Place { motion: index, s: span.to }) {
                 self.gather();
@@ -179,17 +161,22 @@ impl<'a> Chooser<'a> {
     fn skips(&mut self, motion: &Motion, span: &Span, path: &Path) -> bool {
         let part = span.to - span.from;
         let (length, angle) = (path.length() * part, (path.turn() + path.sweep()) * part);
-        let before = self.skipped.map_or((0.0, 0.0), |skipped| (skipped.length, skipped.angle));
+        let before = self.skipped.as_ref().map_or((0.0, 0.0), |skipped| (skipped.length, skipped.angle));
         let (length, angle) = (before.0 + length, before.1 + angle);
         let is_near = length < LEAST_LENGTH * self.setting.machine.longest() && angle < LEAST_ANGLE;
-        let at = path.at(span.to);
-        self.skipped = is_near.then_some(Skipped { motion: *motion, span: *span, at, length, angle });
+        self.skipped = is_near.then(|| Skipped {
+            tool_length: motion.tool_length,
+            span: *span,
+            at: path.at(span.to),
+            length,
+            angle,
+        });
         is_near
     }
 
     fn examine_skipped(&mut self) {
-        if let Some(Skipped { motion, span, at, .. }) = self.skipped.take() {
-            self.advance(&motion, &span, span.to, &at);
+        if let Some(Skipped { tool_length, span, at, .. }) = self.skipped.take() {
+            self.advance(tool_length, &span, span.to, &at);
         }
     }
 
@@ -232,32 +219,18 @@ impl<'a> Chooser<'a> {
         self.stage();
     }
 
-    /// Moves every state to a place.
-    fn advance(&mut self, motion: &Motion, span: &Span, s: f64, at: &ToolPosition) {
-        let before = std::mem::take(&mut self.states);
-        for (i, state) in before.iter().enumerate() {
-            let target = self.setting.target(span, s, at, state.h);
-            // Whole turns change theta2 alone.
-            let twin = (0..i).find(|&j| is_wound(&before[j], state));
-            let node = match twin.and_then(|j| self.states[j].node) {
-                Some(node) => Some(node.wound_to(target.phi2)),
-                None if twin.is_some() => None,
-                None => {
-                    let alpha = state.node.map(|node| node.pose.alpha);
-                    self.setting.node(&target, motion.tool_length, alpha).ok()
-                }
-            };
-            let holds =
-                twin.map_or_else(|| self.holds(node.as_ref(), motion.tool_length), |j| self.states[j].holds);
-            let own = self.place_cost(node.as_ref(), holds);
-            let turning =
-                node.zip(state.node).map_or(0.0, |(node, from)| node.turning_from(&from, self.weights));
-            self.states.push(State { node, holds, cost: state.cost.and(&own, turning), ..*state });
-        }
+    fn advance(&mut self, tool_length: f64, span: &Span, s: f64, at: &ToolPosition) {
+        advance(&mut self.states, &self.setting, self.weights, tool_length, |h| {
+            self.setting.target(span, s, at, h)
+        });
     }
 
     /// Notes the states, so that the chosen ones can be traced back.
     fn stage(&mut self) {
+        for i in 0..self.states.len() {
+            let twin = (0..i).find(|&j| is_wound(&self.states[j], &self.states[i]));
+            self.states[i].twin = twin.map(|j| self.states[j].twin.unwrap_or(j));
+        }
         let states = self.states.iter().map(|state| {
             let alpha = state.node.map(|node| node.pose.alpha);
             (Chosen { h: state.h, alpha }, state.parent)
@@ -271,11 +244,4 @@ impl<'a> Chooser<'a> {
         let last = best.map_or(0, |(index, _)| index);
         self.stages.traced(last)
     }
-}
-
-/// Whether two states differ by whole turns of theta2 only.
-fn is_wound(a: &State, b: &State) -> bool {
-    let turns = [0, 1].map(|end| a.h[end] - b.h[end]);
-    let alpha = |state: &State| state.node.map(|node| node.pose.alpha.to_bits());
-    turns[0] == turns[1] && turns[0] % 2 == 0 && alpha(a) == alpha(b)
 }

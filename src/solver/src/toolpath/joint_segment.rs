@@ -1,33 +1,23 @@
 //! The motion between two rows: all joints change linearly, and the tool leaves the path.
 
-use nalgebra::{Matrix4, Vector3, Vector4};
+use nalgebra::Vector3;
 
-use super::azimuth::axis_of;
+use super::differential::Differential;
 use super::meridian::Span;
+use super::nearby_pose::{hermite_middle, parabola, solved};
 use super::node::{Node, Setting};
 use super::path::Path;
+use super::tool_motion::ToolMotion;
 use crate::machine::Machine;
 use crate::margins::Margins;
-use crate::parallel_matrix::matrix;
 use crate::pose::{PlatformPose, TableAngles};
-use crate::residual::{errors, largest};
-use crate::rods::Rods;
-use crate::table::part_pose;
 
-/// The fractions of a segment where the forward problem is solved.
-const QUARTERS: [f64; 3] = [0.25, 0.5, 0.75];
-/// Number of intervals between the places where the deviation is interpolated or solved.
+/// Number of intervals between the places where the forward problem is solved, if the deviation is not interpolated.
 const FINE_INTERVALS: u32 = 16;
 /// Part of the tolerance that the last term of an interpolated deviation may be.
 const SMALL: f64 = 0.02;
 /// The greatest value of t (1 - t) (1 - 2 t).
 const GREATEST_ODD: f64 = 0.096_225_1;
-/// Newton steps at one place.
-const STEPS: u32 = 8;
-/// Error of a rod's length at which a pose is accurate enough, relative to the machine's longest dimension. The tool's
-/// end is then off by some 1e-5 mm on a machine of one metre.
-const ACCURACY: f64 = 2e-9;
-
 /// Greatest deviations from a path: of the tool's end, mm, and of its axis, rad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Deviation {
@@ -66,32 +56,46 @@ pub(super) struct Stop {
     pub(super) node: Node,
 }
 
-/// The poses of the platform along a segment.
-pub(super) struct JointSegment {
-    /// At 1/4, 1/2 and 3/4.
-    poses: [PlatformPose; 3],
-    ends: [Node; 2],
+/// What the segments on both sides of a stop need of it.
+pub(super) struct Surroundings {
+    pub(super) differential: Differential,
+    tool: ToolMotion,
+    /// The rates of the path by its parameter.
+    path: [Vector3<f64>; 2],
 }
 
-impl JointSegment {
-    /// Solves the forward problem along the segment, from pose to pose. `None` if there is a parallel singularity on
-    /// it, or nearly.
-    pub(super) fn new(machine: &Machine, a: &Node, b: &Node) -> Option<Self> {
-        let middle_joints = between(a, b, 0.5);
-        let (middle, inverse) = newton(machine, middle_joints.rho, blended(&a.pose, &b.pose, 0.5))?;
-        let mut poses = [middle; 3];
-        for (i, t) in [(0, 0.25), (2, 0.75)] {
-            let guess = parabola(&a.pose, &middle, &b.pose, t);
-            let rho = between(a, b, t).rho;
-            poses[i] = solved(machine, rho, guess, &inverse)?;
-        }
-        Some(Self { poses, ends: [*a, *b] })
+impl Surroundings {
+    /// `None` at a parallel singularity.
+    pub(super) fn of(track: &Track<'_>, stop: &Stop, path: [Vector3<f64>; 2]) -> Option<Self> {
+        let machine = track.setting.machine;
+        let differential = Differential::of(machine, &stop.node.rods(machine))?;
+        let tool = ToolMotion::at(machine, &stop.node, track.tool_length);
+        Some(Self { differential, tool, path })
     }
+}
 
-    /// The joints and the pose at one of the [`QUARTERS`].
-    fn quarter(&self, index: usize) -> Node {
-        let t = QUARTERS[index];
-        Node { pose: self.poses[index], ..between(&self.ends[0], &self.ends[1], t) }
+/// The motion between two rows.
+pub(super) struct JointSegment<'a> {
+    ends: [&'a Node; 2],
+    differentials: [&'a Differential; 2],
+    /// The rates of the platform's pose at both ends, by the fraction of the segment.
+    rates: [PlatformPose; 2],
+    middle: PlatformPose,
+}
+
+impl<'a> JointSegment<'a> {
+    /// Solves the forward problem in the middle. `None` if there is a parallel singularity on the segment, or nearly.
+    pub(super) fn new(
+        machine: &Machine,
+        ends: [&'a Node; 2],
+        differentials: [&'a Differential; 2],
+    ) -> Option<Self> {
+        let change = std::array::from_fn(|i| ends[1].rho[i] - ends[0].rho[i]);
+        let rates = differentials.map(|differential| differential.pose_rates(change));
+        let guess = hermite_middle(ends.map(|end| &end.pose), &rates);
+        let (rho, _) = between(ends, 0.5);
+        let middle = solved(machine, rho, guess, differentials[0])?;
+        Some(Self { ends, differentials, rates, middle })
     }
 
     /// The joints and the pose at places between the ends, with their fraction of the segment. `None` where the
@@ -99,53 +103,73 @@ impl JointSegment {
     pub(super) fn places(&self, machine: &Machine) -> impl Iterator<Item = Option<(f64, Node)>> {
         (1..FINE_INTERVALS).map(move |i| {
             let t = f64::from(i) / f64::from(FINE_INTERVALS);
-            let joints = between(&self.ends[0], &self.ends[1], t);
-            let guess = parabola(&self.ends[0].pose, &self.poses[1], &self.ends[1].pose, t);
-            let (pose, _) = newton(machine, joints.rho, guess)?;
-            Some((t, Node { pose, ..joints }))
+            let (rho, table) = between(self.ends, t);
+            let guess = parabola([&self.ends[0].pose, &self.middle, &self.ends[1].pose], t);
+            let pose = solved(machine, rho, guess, self.differentials[usize::from(2 * i > FINE_INTERVALS)])?;
+            Some((t, Node::new(pose, rho, table)))
         })
     }
 
     /// The greatest deviation from the track between two stops. At each place one path parameter is compared for both
     /// the tool's end and its axis: that which fits both best in proportion to their tolerances.
     ///
-    /// The deviations at the quarters determine a polynomial of degree four, which vanishes at both ends. Where its
-    /// last terms are small, its greatest value at fifteen places is the answer, with these terms added. Elsewhere the
-    /// forward problem is solved at all fifteen places. `None` if it has no solution there.
+    /// The deviation in the middle and its rates at the ends determine a polynomial of degree four, which vanishes at
+    /// both ends. Where its last term is small, its greatest value is the answer, with this term added. Elsewhere the
+    /// forward problem is solved at fifteen places. `None` if it has no solution there.
     pub(super) fn deviation(
         &self,
         track: &Track<'_>,
-        ends: [f64; 2],
+        parameters: [f64; 2],
+        surroundings: [&Surroundings; 2],
         tolerance: &Deviation,
     ) -> Option<Deviation> {
+        let machine = track.setting.machine;
         let at = |t: f64, node: &Node| {
-            let tool = tool_position(track.setting.machine, node, track.tool_length);
-            from_path(track.path, ends, t, tool, tolerance)
+            let tool = ToolMotion::at(machine, node, track.tool_length).position();
+            from_path(track.path, parameters, t, tool, tolerance)
         };
-        let offsets = [0, 1, 2].map(|index| at(QUARTERS[index], &self.quarter(index)));
+        let (rho, table) = between(self.ends, 0.5);
+        let middle = at(0.5, &Node::new(self.middle, rho, table));
         // Inside a cap the axis is off its path at the ends, too.
         let held = if track.span.stretch().is_some() {
-            [at(0.0, &self.ends[0])[1], at(1.0, &self.ends[1])[1]]
+            [at(0.0, self.ends[0])[1], at(1.0, self.ends[1])[1]]
         } else {
             [Vector3::zeros(); 2]
         };
-        let tips = Interpolated::new(offsets.map(|[tip, _]| tip));
-        let axes = Interpolated::new(std::array::from_fn(|i| {
-            let t = QUARTERS[i];
-            offsets[i][1] - (held[0] * (1.0 - t) + held[1] * t)
-        }));
+        let width = parameters[1] - parameters[0];
+        let rates = [0, 1].map(|end| {
+            let [tip, axis] = self.rates_from_path(surroundings[end], width, end, tolerance);
+            [tip, axis - (held[1] - held[0])]
+        });
+        let tips = Interpolated::new(middle[0], [rates[0][0], rates[1][0]]);
+        let axes = Interpolated::new(middle[1] - (held[0] + held[1]) * 0.5, [rates[0][1], rates[1][1]]);
         let last = Deviation { tip: tips.last(), axis: axes.last() };
         if last.ratio(tolerance) <= SMALL {
             let [tip, axis] = [tips.greatest() + last.tip, axes.greatest() + last.axis];
             return Some(Deviation { tip, axis: axis + held[0].norm().max(held[1].norm()) });
         }
         let mut found = Deviation::default();
-        for place in self.places(track.setting.machine) {
+        for place in self.places(machine) {
             let (t, node) = place?;
             let [tip, axis] = at(t, &node).map(|offset| offset.norm());
             found = found.with(Deviation { tip, axis });
         }
         Some(found)
+    }
+
+    /// The rates at which the tool leaves the path at an end, by the fraction of the segment.
+    fn rates_from_path(
+        &self,
+        &Surroundings { tool, path, .. }: &Surroundings,
+        width: f64,
+        end: usize,
+        tolerance: &Deviation,
+    ) -> [Vector3<f64>; 2] {
+        let [a, b] = self.ends;
+        let turn = [b.table.theta1 - a.table.theta1, b.table.theta2 - a.table.theta2];
+        let tool = tool.rates(&self.rates[end], turn);
+        let off = [tool[0] - path[0] * width, tool[1] - path[1] * width];
+        across_path(off, path, tolerance, [f64::NEG_INFINITY, f64::INFINITY])
     }
 
     /// The place of the worst margin along the segment, as a fraction of its constraint's range, and the margins there.
@@ -158,143 +182,69 @@ impl JointSegment {
     }
 }
 
-/// The joints between two nodes; the pose is the first one's.
-fn between(a: &Node, b: &Node, t: f64) -> Node {
+/// The joints between two nodes.
+fn between([a, b]: [&Node; 2], t: f64) -> ([f64; 3], TableAngles) {
     let mix = |a: f64, b: f64| a + (b - a) * t;
-    Node {
-        pose: a.pose,
-        rho: std::array::from_fn(|i| mix(a.rho[i], b.rho[i])),
-        table: TableAngles {
-            theta1: mix(a.table.theta1, b.table.theta1),
-            theta2: mix(a.table.theta2, b.table.theta2),
-        },
-    }
+    let table = TableAngles {
+        theta1: mix(a.table.theta1, b.table.theta1),
+        theta2: mix(a.table.theta2, b.table.theta2),
+    };
+    (std::array::from_fn(|i| mix(a.rho[i], b.rho[i])), table)
 }
 
-fn blended(a: &PlatformPose, b: &PlatformPose, t: f64) -> PlatformPose {
-    let mix = |a: f64, b: f64| a + (b - a) * t;
-    PlatformPose { x: mix(a.x, b.x), y: mix(a.y, b.y), z: mix(a.z, b.z), alpha: mix(a.alpha, b.alpha) }
-}
-
-/// A vector that is known at the quarters of a segment and vanishes at its ends.
+/// A vector along a segment that vanishes at its ends.
 struct Interpolated {
-    /// The parts of t (1 - t), t (1 - t) (1 - 2 t) and t (1 - t) (1 - 2 t)² / 4.
+    /// The parts of t (1 - t), t (1 - t) (1 - 2 t) and t (1 - t) (1 - 2 t)².
     terms: [Vector3<f64>; 3],
 }
 
 impl Interpolated {
-    fn new([first, middle, last]: [Vector3<f64>; 3]) -> Self {
-        let even = (first + last) * (8.0 / 3.0);
-        let odd = (first - last) * (16.0 / 3.0);
-        let square = middle * 4.0;
-        Self { terms: [square, odd, (even - square) * 16.0] }
+    /// From the value in the middle and the rates at both ends.
+    fn new(middle: Vector3<f64>, [start, end]: [Vector3<f64>; 2]) -> Self {
+        let bump = middle * 4.0;
+        Self { terms: [bump, (start + end) * 0.5, (start - end) * 0.5 - bump] }
     }
 
-    /// The greatest value of the last term and of the one before it: t (1 - t) (1 - 2 t)² is at most 1/16.
+    /// The greatest value of the last term.
     fn last(&self) -> f64 {
-        self.terms[2].norm() / 64.0
+        self.terms[2].norm() / 16.0
     }
 
-    /// The greatest value at the places; more than it by at most the term that changes its sign.
+    /// An upper bound of the other two: (1 + b x) (1 - x²) is at most 1 + b²/4 for x = 1 - 2 t.
     fn greatest(&self) -> f64 {
-        let [even, odd] = [self.terms[0].norm() / 4.0, self.terms[1].norm() * GREATEST_ODD];
-        if odd <= SMALL * even {
-            return even + odd;
-        }
-        let square = (1..FINE_INTERVALS).fold(0.0_f64, |greatest, i| {
-            let t = f64::from(i) / f64::from(FINE_INTERVALS);
-            let (bump, slant) = (t * (1.0 - t), 1.0 - 2.0 * t);
-            let [a, b, c] = self.terms;
-            let value = (a + b * slant + c * (0.25 * slant * slant)) * bump;
-            greatest.max(value.norm_squared())
-        });
-        square.sqrt()
+        let [even, odd] = [self.terms[0].norm(), self.terms[1].norm()];
+        let slant = odd * GREATEST_ODD;
+        0.25 * even + if odd < even { slant.min(odd * odd / (16.0 * even)) } else { slant }
     }
-}
-
-/// The tool's end and axis in the part frame.
-fn tool_position(machine: &Machine, node: &Node, tool_length: f64) -> [Vector3<f64>; 2] {
-    let tool = part_pose(machine, &node.pose, node.table, tool_length);
-    [Vector3::new(tool.x, tool.y, tool.z), axis_of([tool.phi1, tool.phi2]).into()]
 }
 
 /// Offsets of a tool position from the path at the parameter that fits best.
 fn from_path(
     path: &Path,
-    ends: [f64; 2],
+    parameters: [f64; 2],
     t: f64,
     [tip, axis]: [Vector3<f64>; 2],
     tolerance: &Deviation,
 ) -> [Vector3<f64>; 2] {
+    let s = parameters[0] + (parameters[1] - parameters[0]) * t;
+    let ([at_tip, at_axis], rates) = path.with_rates(s);
+    across_path([tip - at_tip, axis - at_axis], rates, tolerance, parameters.map(|end| end - s))
+}
+
+/// The offset less the step along the path that makes it smallest in proportion to the tolerances. The path is
+/// straight as far as the parameter moves.
+fn across_path(
+    [tip, axis]: [Vector3<f64>; 2],
+    [tip_rate, axis_rate]: [Vector3<f64>; 2],
+    tolerance: &Deviation,
+    [least, most]: [f64; 2],
+) -> [Vector3<f64>; 2] {
     let squares = [tolerance.tip, tolerance.axis].map(|tolerance| 1.0 / (tolerance * tolerance));
-    let s = ends[0] + (ends[1] - ends[0]) * t;
-    let ([at_tip, at_axis], [tip_rate, axis_rate]) = path.with_rates(s);
-    let (tip, axis) = (tip - at_tip, axis - at_axis);
     let square = tip_rate.norm_squared() * squares[0] + axis_rate.norm_squared() * squares[1];
     if square <= 0.0 {
         return [tip, axis];
     }
-    // The path is straight as far as the parameter moves.
     let along = tip_rate.dot(&tip) * squares[0] + axis_rate.dot(&axis) * squares[1];
-    let step = (along / square).clamp(ends[0] - s, ends[1] - s);
+    let step = (along / square).max(least).min(most);
     [tip - tip_rate * step, axis - axis_rate * step]
-}
-
-/// The parabola through the poses at the ends and the middle.
-fn parabola(a: &PlatformPose, middle: &PlatformPose, b: &PlatformPose, t: f64) -> PlatformPose {
-    let weights = [(1.0 - t) * (1.0 - 2.0 * t), 4.0 * t * (1.0 - t), t * (2.0 * t - 1.0)];
-    let mix = |f: fn(&PlatformPose) -> f64| weights[0] * f(a) + weights[1] * f(middle) + weights[2] * f(b);
-    PlatformPose { x: mix(|p| p.x), y: mix(|p| p.y), z: mix(|p| p.z), alpha: mix(|p| p.alpha) }
-}
-
-/// The pose for given sliders near `guess`, from a known inverse of the parallel matrix nearby if that converges.
-fn solved(
-    machine: &Machine,
-    rho: [f64; 3],
-    guess: PlatformPose,
-    inverse: &Matrix4<f64>,
-) -> Option<PlatformPose> {
-    corrected(machine, rho, guess, inverse).or_else(|| newton(machine, rho, guess).map(|(pose, _)| pose))
-}
-
-/// The pose for given sliders near `guess`, and the inverse of the parallel matrix nearby.
-fn newton(machine: &Machine, rho: [f64; 3], guess: PlatformPose) -> Option<(PlatformPose, Matrix4<f64>)> {
-    let mut pose = guess;
-    for _ in 0..STEPS {
-        let rows = matrix(machine.geometry(), &Rods::of(&machine.mechanism, &pose, rho));
-        let inverse = Matrix4::from_fn(|row, column| rows[row][column]).try_inverse()?;
-        if let Some(pose) = corrected(machine, rho, pose, &inverse) {
-            return Some((pose, inverse));
-        }
-        pose = stepped(machine, pose, &inverse, errors(&machine.mechanism, &pose, rho));
-    }
-    None
-}
-
-/// The same with a known inverse of the parallel matrix nearby; `None` if that does not converge.
-fn corrected(
-    machine: &Machine,
-    rho: [f64; 3],
-    guess: PlatformPose,
-    inverse: &Matrix4<f64>,
-) -> Option<PlatformPose> {
-    let mut pose = guess;
-    for _ in 0..3 {
-        let now = errors(&machine.mechanism, &pose, rho);
-        if largest(&now) <= ACCURACY * machine.longest() {
-            return Some(pose);
-        }
-        pose = stepped(machine, pose, inverse, now);
-    }
-    None
-}
-
-fn stepped(machine: &Machine, pose: PlatformPose, inverse: &Matrix4<f64>, errors: [f64; 4]) -> PlatformPose {
-    let step = inverse * Vector4::from(errors);
-    PlatformPose {
-        x: pose.x - step[0],
-        y: pose.y - step[1],
-        z: pose.z - step[2],
-        alpha: pose.alpha - step[3] / machine.geometry().R1,
-    }
 }

@@ -1,19 +1,22 @@
 //! The rows between two stops: so few that between any two of them the joints may change linearly.
 
-use super::bound::BoundEnd;
-use super::joint_segment::{Deviation, JointSegment, Stop, Track};
-use super::node::Node;
+use super::bound::{InverseBound, second_derivatives};
+use super::joint_segment::{Deviation, JointSegment, Stop, Surroundings, Track};
+use super::motion::ToolPosition;
+use super::node::{Node, Target};
 use crate::error::KinematicsError;
-use crate::pose::PartPose;
+use crate::machine::Machine;
 
 /// The fraction of the tolerance that is used: the greatest deviation may lie between the places that are examined.
 const USED: f64 = 0.97;
 /// The fraction of the tolerance that a step aims at.
 const AIM: f64 = 0.88;
+/// Expected fraction of the tolerance above which the bound, which is several times as great, is not tried.
+const BOUNDABLE: f64 = 0.1;
 /// Greatest and least ratio of a step to the one before.
 const RATIOS: [f64; 2] = [0.2, 2.5];
-/// The remaining path is halved if it is shorter than this many steps.
-const LAST: f64 = 1.9;
+/// Part of a step by which the rest of a path may be longer than whole steps.
+const ROUNDING: f64 = 1e-6;
 /// Least step, as a fraction of a motion.
 const LEAST_STEP: f64 = 1e-9;
 
@@ -26,55 +29,82 @@ pub(super) enum LineariseError {
     Jump(f64),
 }
 
+/// What the segments before tell about the next one: the deviation grows with the square of a segment.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Bend {
+    /// Fraction of the tolerance over the square of the joints' way, in the last segment.
+    known: Option<f64>,
+    inverse: Option<InverseBound>,
+}
+
 /// Divides the path between two stops into segments, and calls `found` with the end of each.
 pub(super) fn linearise(
     track: &Track<'_>,
     start: Stop,
-    end: Stop,
+    end: &Stop,
     tolerance: &Deviation,
-    mut found: impl FnMut(&Stop, Option<&JointSegment>, Deviation),
+    bend: &mut Bend,
+    mut found: impl FnMut(&Stop, Option<&JointSegment<'_>>, Deviation),
 ) -> Result<(), LineariseError> {
-    if let Some(deviation) = bounded(track, &start, &end).filter(|bound| bound.ratio(tolerance) <= USED) {
-        found(&end, None, deviation);
+    let machine = track.setting.machine;
+    let way = square_way(machine, &start.node, &end.node);
+    let expected = bend.known.map(|known| known * way);
+    if expected.is_none_or(|expected| expected <= BOUNDABLE)
+        && let Some(deviation) = bounded(track, [&start, end], &mut bend.inverse)
+        && deviation.ratio(tolerance) <= USED
+    {
+        found(end, None, deviation);
         return Ok(());
     }
-    let mut now = start;
-    let mut step = end.s - start.s;
+    let surroundings = |stop: &Stop| Surroundings::of(track, stop, track.path.with_rates(stop.s).1);
+    let (mut now, mut here) = (start, surroundings(&start));
+    // Fraction of the tolerance over the square of the parameter.
+    let mut curvature = expected.map_or(0.0, |expected| expected / (end.s - start.s).powi(2));
     while now.s < end.s {
         let rest = end.s - now.s;
-        let (next, is_last) = if step >= rest {
-            (end, true)
-        } else {
-            let width = if step * LAST > rest { 0.5 * rest } else { step };
-            (stop_at(track, now.s + width, &now.node)?, false)
-        };
-        let width = next.s - now.s;
-        let segment = JointSegment::new(track.setting.machine, &now.node, &next.node);
-        let deviation =
-            segment.as_ref().and_then(|segment| segment.deviation(track, [now.s, next.s], tolerance));
-        let ratio = deviation.map_or(f64::INFINITY, |deviation| deviation.ratio(tolerance));
-        // The deviation grows with the square of the step.
-        let scale = if ratio > 0.0 { (AIM / ratio).sqrt() } else { RATIOS[1] };
-        let scale = scale.clamp(RATIOS[0], RATIOS[1]);
-        match (segment, deviation) {
-            (Some(segment), Some(deviation)) if ratio <= USED => {
+        let count = (rest * (curvature / AIM).sqrt() - ROUNDING).ceil().max(1.0);
+        let width = rest / count;
+        let (next, there) =
+            if count == 1.0 { (*end, surroundings(end)) } else { stop_at(track, now.s + width, &now.node)? };
+        let segment = here.as_ref().zip(there.as_ref()).and_then(|(here, there)| {
+            let differentials = [&here.differential, &there.differential];
+            let segment = JointSegment::new(machine, [&now.node, &next.node], differentials)?;
+            let deviation = segment.deviation(track, [now.s, next.s], [here, there], tolerance)?;
+            Some((segment, deviation))
+        });
+        let ratio = segment.as_ref().map_or(f64::INFINITY, |(_, deviation)| deviation.ratio(tolerance));
+        let bounds = RATIOS.map(|ratio| AIM / (ratio * ratio));
+        curvature = ratio.clamp(bounds[1], bounds[0]) / (width * width);
+        match segment {
+            Some((segment, deviation)) if ratio <= USED => {
                 found(&next, Some(&segment), deviation);
-                now = next;
-                step = if is_last { step } else { width * scale };
+                let way = square_way(machine, &now.node, &next.node);
+                bend.known = (way > 0.0).then(|| ratio / way).or(bend.known);
+                (now, here) = (next, there);
             }
             _ if width < LEAST_STEP => return Err(LineariseError::Jump(now.s)),
-            _ => step = width * scale.min(0.9),
+            _ => {}
         }
     }
     Ok(())
 }
 
+/// The square of the joints' way between two nodes; an angle of a radian counts as much as the machine's longest
+/// dimension.
+fn square_way(machine: &Machine, a: &Node, b: &Node) -> f64 {
+    let sliders = (0..3).map(|i| (b.rho[i] - a.rho[i]) / machine.longest());
+    let table = [b.table.theta1 - a.table.theta1, b.table.theta2 - a.table.theta2];
+    sliders.chain(table).map(|way| way * way).sum()
+}
+
 /// An upper bound of the deviation of a single segment between two stops.
-fn bounded(track: &Track<'_>, start: &Stop, end: &Stop) -> Option<Deviation> {
-    let machine = track.setting.machine;
-    let (a, b) = (&start.node, &end.node);
-    let ends = [a, b].map(|node| BoundEnd::new(machine, node));
-    let joints = ends[0].second_derivatives(machine, [a, b], &ends[1], track.tool_length)?;
+fn bounded(
+    track: &Track<'_>,
+    [start, end]: [&Stop; 2],
+    inverse: &mut Option<InverseBound>,
+) -> Option<Deviation> {
+    let ends = [&start.node, &end.node];
+    let joints = second_derivatives(track.setting.machine, ends, track.tool_length, inverse)?;
     let width = end.s - start.s;
     let [tip, axis] = track.path.second_derivatives().map(|second| second * width * width);
     // Inside a cap the axis is off its path at the ends, too.
@@ -82,20 +112,28 @@ fn bounded(track: &Track<'_>, start: &Stop, end: &Stop) -> Option<Deviation> {
     Some(Deviation { tip: 0.125 * (joints.tip + tip), axis: off + 0.125 * (joints.axis + axis) })
 }
 
-fn stop_at(track: &Track<'_>, s: f64, before: &Node) -> Result<Stop, LineariseError> {
-    let node =
-        track.node(s, Some(before.pose.alpha)).map_err(|refusal| LineariseError::Refused(s, refusal))?;
-    Ok(Stop { s, node })
+fn stop_at(track: &Track<'_>, s: f64, before: &Node) -> Result<(Stop, Option<Surroundings>), LineariseError> {
+    let ([tip, axis], rates) = track.path.with_rates(s);
+    let at = ToolPosition { tip: tip.into(), axis: axis.into() };
+    let target = track.setting.target(&track.span, s, &at, track.h);
+    let node = track.setting.node_near(&target, track.tool_length, before);
+    let stop = Stop { s, node: node.map_err(|refusal| LineariseError::Refused(s, refusal))? };
+    let surroundings = Surroundings::of(track, &stop, rates);
+    Ok((stop, surroundings))
 }
 
 impl Track<'_> {
-    /// The joints at a parameter.
-    pub(super) fn node(&self, s: f64, alpha: Option<f64>) -> Result<Node, KinematicsError> {
-        self.setting.node(&self.target(s), self.tool_length, alpha)
+    /// The joints at a parameter, in the working solution that continues that of another place.
+    pub(super) fn node(&self, s: f64, before: Option<&Node>) -> Result<Node, KinematicsError> {
+        let target = self.target(s);
+        match before {
+            Some(before) => self.setting.node_near(&target, self.tool_length, before),
+            None => self.setting.node(&target, self.tool_length, None),
+        }
     }
 
     /// The pose of the tool at a parameter.
-    pub(super) fn target(&self, s: f64) -> PartPose {
+    pub(super) fn target(&self, s: f64) -> Target {
         self.setting.target(&self.span, s, &self.path.at(s), self.h)
     }
 }

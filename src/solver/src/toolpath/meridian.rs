@@ -10,7 +10,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::azimuth::{azimuth, azimuths, continued, of_arrival, to_nearest};
+use super::azimuth::{Azimuths, azimuth, continued, of_arrival, to_nearest};
 use super::cap::Cap;
 use super::motion::{Motion, MotionKind, ToolPosition};
 use super::path::Path;
@@ -54,12 +54,8 @@ impl Span {
     pub(super) fn phi2(&self, stretches: &[Stretch], s: f64, axis: [f64; 3], h: [i32; 2]) -> f64 {
         match self.rule {
             Rule::Follow { azimuth: [start, end], phi2 } => {
-                let is_first_half = s - self.from < self.to - s;
-                let now = match azimuth(axis) {
-                    Some(azimuth) => azimuth,
-                    None if is_first_half => start,
-                    None => end,
-                };
+                let nearer = if s - self.from < self.to - s { start } else { end };
+                let now = if s == self.to { end } else { azimuth(axis).unwrap_or(nearer) };
                 phi2 + to_nearest(now - start, TAU) + PI * f64::from(h[1])
             }
             Rule::Linear { stretch, share } => {
@@ -85,6 +81,10 @@ pub(super) struct Meridian<'a> {
     phi2: Option<f64>,
     /// The end of the last motion.
     position: Option<ToolPosition>,
+    azimuths: Azimuths,
+    /// The path of the last motion; `None`: the program has no path to its end.
+    pub(super) path: Option<Path>,
+    /// The parts of the path, or the end of the motion.
     pub(super) spans: Vec<Span>,
 }
 
@@ -98,20 +98,23 @@ impl<'a> Meridian<'a> {
             is_inside: false,
             phi2: None,
             position: None,
+            azimuths: Azimuths::default(),
+            path: None,
             spans: Vec::new(),
         }
     }
 
-    /// Moves to the end of a motion; `spans` then contains the parts of its path. `None`: the program has no path to
-    /// this position.
-    pub(super) fn advance(&mut self, motion: &Motion) -> Option<Path> {
+    /// Moves to the end of a motion.
+    pub(super) fn advance(&mut self, motion: &Motion) {
         let start = self.position.replace(motion.end).filter(|_| motion.kind != MotionKind::Arrive);
-        let path = start.map(|start| Path::new(start, motion));
-        match &path {
-            Some(path) => self.pass(motion.kind, path),
-            None => self.arrive(motion),
+        self.path = start.map(|start| {
+            let path = Path::new(start, motion);
+            self.pass(motion.kind, &path);
+            path
+        });
+        if self.path.is_none() {
+            self.arrive(motion);
         }
-        path
     }
 
     /// Arrives at a position from anywhere: a single span at parameter 1.
@@ -130,9 +133,9 @@ impl<'a> Meridian<'a> {
         self.spans.push(Span { from: 1.0, to: 1.0, rule });
     }
 
-    /// Moves along a path; `spans` then contains its parts.
+    /// Finds the parts of a path.
     fn pass(&mut self, kind: MotionKind, path: &Path) {
-        let (cap, mut spans) = (self.cap, std::mem::take(&mut self.spans));
+        let (cap, mut spans, mut azimuths) = (self.cap, std::mem::take(&mut self.spans), self.azimuths);
         spans.clear();
         cap.split(path, |[from, to], inside| {
             let rule = if inside {
@@ -147,14 +150,14 @@ impl<'a> Meridian<'a> {
                 Rule::Linear { stretch: self.next, share }
             } else {
                 self.leave();
-                let [start, end] = azimuths(path, [from, to]);
+                let [start, end] = azimuths.of(path, [from, to]);
                 let phi2 = continued(self.phi2, start);
                 self.phi2 = Some(phi2 + to_nearest(end - start, TAU));
                 Rule::Follow { azimuth: [start, end], phi2 }
             };
             spans.push(Span { from, to, rule });
         });
-        self.spans = spans;
+        (self.spans, self.azimuths) = (spans, azimuths);
     }
 
     fn leave(&mut self) {

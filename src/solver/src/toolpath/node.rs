@@ -9,11 +9,13 @@ use super::motion::ToolPosition;
 use super::stretches::Stretch;
 use crate::clearance::Clearance;
 use crate::error::KinematicsError;
-use crate::inverse::{part_every_working, part_working};
+use crate::fast_math::sin_cos;
+use crate::inverse::{part_every_working, part_working, part_working_near};
 use crate::machine::Machine;
 use crate::margins::Margins;
 use crate::pose::{PartPose, PlatformPose, TableAngles};
 use crate::posture::Posture;
+use crate::rods::Rods;
 
 /// The difference of alpha to the place before above which other working solutions are looked for, rad.
 const NEAR: f64 = 0.05;
@@ -38,28 +40,69 @@ pub(super) struct Node {
     pub(super) pose: PlatformPose,
     pub(super) rho: [f64; 3],
     pub(super) table: TableAngles,
+    pub(super) turns: Turns,
+}
+
+/// Sine and cosine of alpha, theta1 and theta2.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turns {
+    pub(super) platform: [f64; 2],
+    pub(super) tilt: [f64; 2],
+    pub(super) rotary: [f64; 2],
+}
+
+impl Turns {
+    pub(super) fn of(alpha: f64, table: TableAngles) -> Self {
+        let [platform, tilt, rotary] = [alpha, table.theta1, table.theta2].map(direction);
+        Self { platform, tilt, rotary }
+    }
+
+    /// Sine and cosine of phi1.
+    pub(super) fn inclination(&self) -> [f64; 2] {
+        difference(self.platform, self.tilt)
+    }
+}
+
+/// Sine and cosine of an angle.
+fn direction(angle: f64) -> [f64; 2] {
+    let (sine, cosine) = sin_cos(angle);
+    [sine, cosine]
+}
+
+/// Sine and cosine of the difference of two angles.
+fn difference([sa, ca]: [f64; 2], [sb, cb]: [f64; 2]) -> [f64; 2] {
+    [sa * cb - ca * sb, ca * cb + sa * sb]
+}
+
+/// A pose of the tool in the part frame, with sine and cosine of phi1 and phi2.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Target {
+    pub(super) pose: PartPose,
+    turns: [[f64; 2]; 2],
 }
 
 impl Setting<'_> {
     /// The pose of the tool at a place, for h half turns at the beginning and the end of a stretch.
-    pub(super) fn target(&self, span: &Span, s: f64, at: &ToolPosition, h: [i32; 2]) -> PartPose {
+    pub(super) fn target(&self, span: &Span, s: f64, at: &ToolPosition, h: [i32; 2]) -> Target {
         let phi2 = span.phi2(self.stretches, s, at.axis, h);
+        let meridian = direction(phi2);
+        let (phi1, inclination) = inclination(at.axis, meridian);
         let [x, y, z] = at.tip;
-        PartPose { x, y, z, phi1: inclination(at.axis, phi2), phi2 }
+        Target { pose: PartPose { x, y, z, phi1, phi2 }, turns: [inclination, meridian] }
     }
 
     /// The joints at a place in the working solution that continues `alpha`.
     pub(super) fn node(
         &self,
-        target: &PartPose,
+        target: &Target,
         tool_length: f64,
         alpha: Option<f64>,
     ) -> Result<Node, KinematicsError> {
-        let posture = part_working(self.machine, target, tool_length)?;
+        let posture = part_working(self.machine, &target.pose, tool_length)?;
         let distance = |posture: &Posture, alpha: f64| (posture.pose.alpha - alpha).abs();
         match alpha {
             Some(alpha) if distance(&posture, alpha) > NEAR => {
-                let all = part_every_working(self.machine, target, tool_length)?;
+                let all = part_every_working(self.machine, &target.pose, tool_length)?;
                 let nearest = all.iter().min_by(|a, b| distance(a, alpha).total_cmp(&distance(b, alpha)));
                 Ok(Node::of(nearest.unwrap_or(&posture), target))
             }
@@ -67,16 +110,31 @@ impl Setting<'_> {
         }
     }
 
+    /// The joints at a place in the working solution that continues that of another place.
+    pub(super) fn node_near(
+        &self,
+        target: &Target,
+        tool_length: f64,
+        before: &Node,
+    ) -> Result<Node, KinematicsError> {
+        let (start, alpha) = ((before.pose, before.rho[0]), before.pose.alpha);
+        match part_working_near(self.machine, &target.pose, target.turns, tool_length, start) {
+            Some(posture) if (posture.pose.alpha - alpha).abs() <= NEAR => Ok(Node::of(&posture, target)),
+            _ => self.node(target, tool_length, Some(alpha)),
+        }
+    }
+
     /// The joints of every working solution at a place.
-    pub(super) fn nodes(&self, target: &PartPose, tool_length: f64) -> Result<Vec<Node>, KinematicsError> {
-        let all = part_every_working(self.machine, target, tool_length)?;
+    pub(super) fn nodes(&self, target: &Target, tool_length: f64) -> Result<Vec<Node>, KinematicsError> {
+        let all = part_every_working(self.machine, &target.pose, tool_length)?;
         Ok(all.iter().map(|posture| Node::of(posture, target)).collect())
     }
 
     /// All margins of a place.
     pub(super) fn margins(&self, node: &Node, tool_length: f64) -> Margins {
         let clearance = Clearance::of(self.machine, self.table_clearance, tool_length, self.tool_radius);
-        Margins::of_joints(self.machine, &node.pose, node.rho, node.table, clearance.as_ref())
+        let rods = node.rods(self.machine);
+        Margins::of_rods(self.machine, &node.pose, node.rho, &rods, node.table, clearance.as_ref())
     }
 
     /// h for which theta2 is within its range, or nearest to it.
@@ -96,14 +154,36 @@ impl Setting<'_> {
 }
 
 impl Node {
-    fn of(posture: &Posture, target: &PartPose) -> Self {
-        let table = TableAngles { theta1: posture.pose.alpha - target.phi1, theta2: -target.phi2 };
-        Self { pose: posture.pose, rho: posture.rho, table }
+    pub(super) fn new(pose: PlatformPose, rho: [f64; 3], table: TableAngles) -> Self {
+        Self { pose, rho, table, turns: Turns::of(pose.alpha, table) }
+    }
+
+    fn of(posture: &Posture, target: &Target) -> Self {
+        let PartPose { phi1, phi2, .. } = target.pose;
+        let [inclination, [sine, cosine]] = target.turns;
+        let table = TableAngles { theta1: posture.pose.alpha - phi1, theta2: -phi2 };
+        let platform = direction(posture.pose.alpha);
+        let turns = Turns { platform, tilt: difference(platform, inclination), rotary: [-sine, cosine] };
+        Self { pose: posture.pose, rho: posture.rho, table, turns }
+    }
+
+    pub(super) fn rods(&self, machine: &Machine) -> Rods {
+        let [sine, cosine] = self.turns.platform;
+        Rods::with_angle(&machine.mechanism, &self.pose, self.rho, (sine, cosine))
     }
 
     /// The same joints but for whole turns of the table.
     pub(super) fn wound_to(self, phi2: f64) -> Self {
         Self { table: TableAngles { theta2: -phi2, ..self.table }, ..self }
+    }
+
+    /// How far the platform and the sliders are from another node, as a fraction of the machine's longest dimension,
+    /// with the angles that the platform and the table tilt through.
+    pub(super) fn way_from(&self, other: &Self, longest: f64) -> f64 {
+        let (a, b) = (&self.pose, &other.pose);
+        let platform = (a.x - b.x).abs().max((a.y - b.y).abs()).max((a.z - b.z).abs());
+        let length = (0..3).fold(platform, |way, i| way.max((self.rho[i] - other.rho[i]).abs()));
+        length / longest + (a.alpha - b.alpha).abs() + (self.table.theta1 - other.table.theta1).abs()
     }
 
     /// The angle that the table's axes turn through from another node, weighted by `weights`.

@@ -171,6 +171,18 @@ impl Path {
         !matches!(self.axis, AxisPath::Angles { .. })
     }
 
+    /// The axis at both ends.
+    pub(super) fn end_axes(&self) -> [[f64; 3]; 2] {
+        [self.start.axis, self.end.axis]
+    }
+
+    /// The parameter between 0 and 1 at which a great circle is nearest to the pole; `None` if that is an end.
+    pub(super) fn nearest_to_pole(&self) -> Option<f64> {
+        let AxisPath::GreatCircle { towards, angle } = &self.axis else { return None };
+        let s = angle_of_vector(self.start.axis[2], towards.z) / angle;
+        (s > 0.0 && s < 1.0).then_some(s)
+    }
+
     /// Whether neither the tool's end nor its axis moves.
     pub(super) fn is_point(&self) -> bool {
         self.turn() == 0.0 && self.length() == 0.0
@@ -196,13 +208,11 @@ fn great_circle(start: [f64; 3], end: [f64; 3]) -> AxisPath {
     }
     let (a, b) = (Vector3::from(start), Vector3::from(end));
     let (cross, dot) = (a.cross(&b), a.dot(&b));
-    let angle = angle_of_vector(dot, cross.norm());
-    let across = b - a * dot;
-    let norm = across.norm();
-    if norm == 0.0 {
+    let sine = cross.norm();
+    if sine == 0.0 {
         return AxisPath::Fixed;
     }
-    AxisPath::GreatCircle { towards: across / norm, angle }
+    AxisPath::GreatCircle { towards: (b - a * dot) / sine, angle: angle_of_vector(dot, sine) }
 }
 
 fn rotated(frame: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {

@@ -2,12 +2,10 @@
 
 use super::joint_segment::Deviation;
 use super::node::Node;
-use crate::limit::{Constraint, Element, Margin};
+use crate::limit::{Constraint, Margin};
 use crate::machine::Machine;
 use crate::margins::Margins;
-use crate::margins::worst::{FAMILY_ROD, least};
 use crate::pose::PartPose;
-use crate::table::part_pose;
 
 /// Greatest number of failures that a report lists.
 pub const MOST_FAILURES: usize = 1_000;
@@ -36,6 +34,26 @@ pub struct LeastMargin {
     pub margin: Margin,
     /// Index of the motion where it is.
     pub motion: usize,
+}
+
+/// The least margin of each constraint so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LeastMargins([Option<LeastMargin>; Constraint::COUNT]);
+
+impl LeastMargins {
+    /// Notes the margins of a place. The answer is the worst of them, and its fraction of its constraint's range.
+    pub(super) fn meet(&mut self, machine: &Machine, motion: usize, margins: &Margins) -> (Margin, f64) {
+        margins.worst_of_each(machine, |margin| {
+            let least = &mut self.0[margin.constraint as usize];
+            if least.is_none_or(|least| margin.value < least.margin.value) {
+                *least = Some(LeastMargin { margin, motion });
+            }
+        })
+    }
+
+    pub(super) fn found(&self) -> Vec<LeastMargin> {
+        self.0.iter().copied().flatten().collect()
+    }
 }
 
 /// A rapid whose joints move straight to its end, because preimage or winding change, or on request.
@@ -121,31 +139,6 @@ impl Report {
         }
     }
 
-    /// Notes the margins of a place, which is given by its joints and the tool's length; those of limits that are
-    /// broken are failures.
-    pub(super) fn meet(
-        &mut self,
-        machine: &Machine,
-        motion: usize,
-        place: (&Node, f64),
-        margins: &Margins,
-    ) -> (Margin, f64) {
-        for margin in each(margins) {
-            let same = self.least.iter_mut().find(|least| least.margin.constraint == margin.constraint);
-            match same {
-                Some(least) if margin.value < least.margin.value => *least = LeastMargin { margin, motion },
-                Some(_) => {}
-                None => self.least.push(LeastMargin { margin, motion }),
-            }
-        }
-        let (margin, fraction) = margins.worst_with_fraction(machine);
-        if margin.value < 0.0 {
-            let (node, tool_length) = place;
-            self.fail(motion, part_pose(machine, &node.pose, node.table, tool_length), margin, fraction);
-        }
-        (margin, fraction)
-    }
-
     /// Notes a row's joints.
     pub(super) fn add_row(&mut self, node: &Node, before: Option<&Node>, inclination: f64) {
         self.rows += 1;
@@ -161,45 +154,4 @@ impl Report {
         let least = self.least_inclination.get_or_insert(inclination.abs());
         *least = least.min(inclination.abs());
     }
-}
-
-/// The least margin of each constraint of one place.
-fn each(margins: &Margins) -> impl Iterator<Item = Margin> {
-    let of_rods = |constraint, values: &[f64; 4]| {
-        let (i, value) = least(values);
-        Margin { constraint, element: FAMILY_ROD[i], value }
-    };
-    let strokes: [f64; 6] = std::array::from_fn(|i| margins.stroke[i / 2][i % 2]);
-    let (stroke, value) = least(&strokes);
-    let slider = [1, 2, 3][stroke / 2];
-    let stroke = Margin {
-        constraint: Constraint::Stroke,
-        element: Element::Stroke { slider, high: stroke % 2 == 1 },
-        value,
-    };
-    let (leg, value) = least(&margins.leg_length);
-    let leg = Margin { constraint: Constraint::LegLength, element: Element::Leg([1, 2, 3][leg]), value };
-    let [a, b] = margins.nearest_rods;
-    let single = |constraint, element, value| Margin { constraint, element, value };
-    let range = |constraint, ends: Option<[f64; 2]>| {
-        ends.map(|ends| {
-            let (end, value) = least(&ends);
-            Margin { constraint, element: Element::Range { high: end == 1 }, value }
-        })
-    };
-    [
-        Some(stroke),
-        Some(leg),
-        Some(of_rods(Constraint::SerialSingularity, &margins.serial_singularity)),
-        Some(single(Constraint::ParallelSingularity, Element::Platform, margins.parallel_singularity)),
-        Some(of_rods(Constraint::SliderJoint, &margins.slider_joint)),
-        Some(of_rods(Constraint::PlatformJoint, &margins.platform_joint)),
-        Some(single(Constraint::RodCrossing, Element::Leg(1), margins.rod_crossing)),
-        Some(single(Constraint::RodInterference, Element::Rods(a, b), margins.rod_interference)),
-        range(Constraint::Tilt, margins.tilt),
-        range(Constraint::Rotary, margins.rotary),
-        margins.table_clearance,
-    ]
-    .into_iter()
-    .flatten()
 }

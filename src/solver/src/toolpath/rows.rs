@@ -3,19 +3,20 @@
 mod feed;
 mod rapid;
 
-use std::f64::consts::PI;
-
-use super::azimuth::axis_of;
 use super::choice::Chosen;
 use super::joint_segment::{Deviation, JointSegment, Track};
+use super::linearise::Bend;
 use super::meridian::{Meridian, Span};
 use super::motion::{MotionKind, Motions, ToolPosition};
 use super::node::{Node, Setting};
 use super::path::{Path, places};
-use super::report::Report;
+use super::report::{LeastMargins, Report};
 use crate::error::KinematicsError;
+use crate::fast_math::angle_of;
 use crate::limit::{Constraint, Element, Margin};
+use crate::margins::Margins;
 use crate::pose::{PartPose, TableAngles};
+use crate::table::part_pose;
 
 /// The purpose of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,9 +62,14 @@ pub(super) struct Rower<'a, F> {
     choice: std::slice::Iter<'a, Chosen>,
     emit: F,
     report: Report,
+    least: LeastMargins,
+    /// Where the machine stands.
     now: Option<Node>,
     h: [i32; 2],
+    /// The worst margin of the last row, as a fraction of its range.
     margin: Option<f64>,
+    /// Of the last segment of a feed motion, and of a rapid.
+    bends: [Bend; 2],
 }
 
 impl<'a, F: FnMut(&Row)> Rower<'a, F> {
@@ -73,8 +79,18 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         choice: &'a [Chosen],
         emit: F,
     ) -> Self {
-        let choice = choice.iter();
-        Self { setting, settings, choice, emit, report: Report::new(), now: None, h: [0; 2], margin: None }
+        Self {
+            setting,
+            settings,
+            choice: choice.iter(),
+            emit,
+            report: Report::new(),
+            least: LeastMargins::default(),
+            now: None,
+            h: [0; 2],
+            margin: None,
+            bends: Default::default(),
+        }
     }
 
     /// Makes the rows of all motions; `go_on` is asked before each and ends the work by `false`.
@@ -89,14 +105,16 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
                 return None;
             }
             let motion = motions.motion(index);
-            match meridian.advance(&motion) {
+            meridian.advance(&motion);
+            match &meridian.path {
                 Some(path) if motion.kind == MotionKind::Rapid => {
-                    self.rapid(index, &motion, &path, &meridian.spans);
+                    self.rapid(index, &motion, path, &meridian.spans);
                 }
-                Some(path) => self.feed(index, &motion, &path, &meridian.spans),
+                Some(path) => self.feed(index, &motion, path, &meridian.spans),
                 None => self.arrive(index, &motion, &meridian.spans),
             }
         }
+        self.report.least = self.least.found();
         Some(self.report)
     }
 
@@ -120,9 +138,9 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
             match track.node(s, None) {
                 Ok(node) => {
                     let margins = self.setting.margins(&node, track.tool_length);
-                    self.report.meet(self.setting.machine, index, (&node, track.tool_length), &margins);
+                    self.meet(index, (&node, track.tool_length), &margins);
                 }
-                Err(refusal) => self.refuse(index, track.target(s), refusal),
+                Err(refusal) => self.refuse(index, track.target(s).pose, refusal),
             }
         }
     }
@@ -143,10 +161,22 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
     }
 
     /// Examines the margins between the ends of a segment.
-    pub(super) fn examine(&mut self, index: usize, segment: &JointSegment, tool_length: f64) {
+    pub(super) fn examine(&mut self, index: usize, segment: &JointSegment<'_>, tool_length: f64) {
         if let Some((node, margins)) = segment.worst(&self.setting, tool_length) {
-            self.report.meet(self.setting.machine, index, (&node, tool_length), &margins);
+            self.meet(index, (&node, tool_length), &margins);
         }
+    }
+
+    /// Notes the margins of a place, which is given by its joints and the tool's length; those of limits that are
+    /// broken are failures. The answer is the worst margin and its fraction of its constraint's range.
+    pub(super) fn meet(&mut self, index: usize, place: (&Node, f64), margins: &Margins) -> (Margin, f64) {
+        let (margin, fraction) = self.least.meet(self.setting.machine, index, margins);
+        if margin.value < 0.0 {
+            let (node, tool_length) = place;
+            let pose = part_pose(self.setting.machine, &node.pose, node.table, tool_length);
+            self.report.fail(index, pose, margin, fraction);
+        }
+        (margin, fraction)
     }
 
     pub(super) fn track<'p>(&self, path: &'p Path, span: Span, tool_length: f64) -> Track<'p>
@@ -165,10 +195,11 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         tool_length: f64,
     ) {
         let margins = self.setting.margins(node, tool_length);
-        let (margin, fraction) = self.report.meet(self.setting.machine, index, (node, tool_length), &margins);
-        let phi = [node.pose.alpha - node.table.theta1, -node.table.theta2];
-        let position = ToolPosition { tip: at.tip, axis: axis_of(phi) };
-        let inclination = (phi[0] + PI).rem_euclid(2.0 * PI) - PI;
+        let (margin, fraction) = self.meet(index, (node, tool_length), &margins);
+        let ([s1, c1], [s2, c2]) = (node.turns.inclination(), node.turns.rotary);
+        // phi2 = -theta2.
+        let position = ToolPosition { tip: at.tip, axis: [-s1 * s2, -s1 * c2, c1] };
+        let inclination = angle_of(c1, s1);
         self.report.add_row(node, self.now.as_ref(), inclination);
         (self.emit)(&Row { motion: index, kind, position, rho: node.rho, table: node.table, margin });
         (self.now, self.margin) = (Some(*node), Some(fraction));

@@ -1,10 +1,10 @@
 //! The stretches of a program inside the cap around the pole.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::azimuth::{azimuths, continued, of_arrival, to_nearest};
+use super::azimuth::{Azimuths, continued, of_arrival, to_nearest};
 use super::cap::Cap;
-use super::motion::{Motion, MotionKind, Motions, ToolPosition};
+use super::motion::{Motion, MotionKind, Motions, ToolPosition, Turning};
 use super::path::Path;
 
 /// Measure, relative to the machine's longest dimension, of a stretch that is a point.
@@ -48,13 +48,22 @@ struct Open {
 
 /// Finds the stretches of a program inside the cap. `fallback` is phi2 where nothing determines it.
 pub(super) fn stretches<M: Motions + ?Sized>(motions: &M, cap: &Cap, fallback: f64) -> Vec<Stretch> {
-    let mut survey = Survey { stretches: Vec::new(), phi2: None, open: None, fallback, scale: cap.scale };
+    let mut survey = Survey {
+        stretches: Vec::new(),
+        phi2: None,
+        open: None,
+        fallback,
+        scale: cap.scale,
+        azimuths: Azimuths::default(),
+    };
     let mut start: Option<ToolPosition> = None;
     for index in 0..motions.count() {
         let motion = motions.motion(index);
         match start {
             Some(start) if motion.kind != MotionKind::Arrive => {
-                survey.pass(index, motion.kind, &Path::new(start, &motion), cap);
+                if survey.open.is_some() || !survey.stays_outside(&start, &motion, cap) {
+                    survey.pass(index, motion.kind, &Path::new(start, &motion), cap);
+                }
             }
             _ => survey.arrive(index, &motion, cap),
         }
@@ -72,6 +81,7 @@ struct Survey {
     open: Option<Open>,
     fallback: f64,
     scale: f64,
+    azimuths: Azimuths,
 }
 
 impl Survey {
@@ -83,6 +93,24 @@ impl Survey {
         } else {
             self.phi2 = Some(continued(self.phi2, of_arrival(motion)));
         }
+    }
+
+    /// Follows phi2 along a motion that clearly stays outside the cap, as most do; otherwise nothing happens.
+    fn stays_outside(&mut self, start: &ToolPosition, motion: &Motion, cap: &Cap) -> bool {
+        let axes = [start.axis, motion.end.axis];
+        let chord = (0..3).map(|i| (axes[1][i] - axes[0][i]).powi(2)).sum::<f64>().sqrt();
+        // The arc of a great circle is at most π/2 times its chord.
+        if motion.turning != Turning::GreatCircle || !cap.is_clear(axes, FRAC_PI_2 * chord) {
+            return false;
+        }
+        let [Some(start), Some(end)] = self.azimuths.between(axes) else { return false };
+        self.follow(start, end);
+        true
+    }
+
+    fn follow(&mut self, start: f64, end: f64) {
+        let begun = continued(self.phi2, start);
+        self.phi2 = Some(begun + to_nearest(end - start, TAU));
     }
 
     fn pass(&mut self, index: usize, kind: MotionKind, path: &Path, cap: &Cap) {
@@ -101,10 +129,9 @@ impl Survey {
                     open.rapid += measure;
                 }
             } else {
-                let [start, end] = azimuths(path, [from, to]);
+                let [start, end] = self.azimuths.of(path, [from, to]);
                 self.close(Place { motion: index, s: from }, Some(start));
-                let begun = continued(self.phi2, start);
-                self.phi2 = Some(begun + to_nearest(end - start, TAU));
+                self.follow(start, end);
             }
         });
     }

@@ -6,7 +6,8 @@ use verne_solver::axis::tool_axis;
 use verne_solver::toolpath::{Motion, MotionKind, PlanOptions, RowKind};
 use verne_solver::{Constraint, Machine, Margins, PartPose, TableAngles, part_working};
 
-use super::support::{Random, arrive, feed, planned, rapid, worst_deviation};
+use super::random::Random;
+use super::support::{arrive, feed, planned, rapid, worst_deviation};
 
 fn tilted(tilt: f64, azimuth: f64) -> [f64; 3] {
     tool_axis(tilt.to_radians(), azimuth.to_radians())
@@ -124,15 +125,16 @@ fn the_choice_equals_brute_force_over_all_combinations() {
     let mut random = Random::new(7);
     let mut feasible = 0;
     for _ in 0..60 {
-        let mut axis = [random.within(10.0, 30.0), random.within(-180.0, 180.0)];
-        let mut tip = [random.within(-60.0, 60.0), random.within(-60.0, 60.0), random.within(250.0, 350.0)];
+        let mut axis = [random.between(10.0, 30.0), random.between(-180.0, 180.0)];
+        let mut tip =
+            [random.between(-60.0, 60.0), random.between(-60.0, 60.0), random.between(250.0, 350.0)];
         let mut program = vec![arrive(tip, tilted(axis[0], axis[1]))];
         for i in 0..9 {
             let is_rapid = i % 3 == 2;
             let reach = if is_rapid { 170.0 } else { 5.0 };
-            axis[1] += random.within(-reach, reach);
-            axis[0] = (axis[0] + random.within(-2.0, 2.0)).clamp(10.0, 30.0);
-            tip = tip.map(|c| c + random.within(-5.0, 5.0));
+            axis[1] += random.between(-reach, reach);
+            axis[0] = (axis[0] + random.between(-2.0, 2.0)).clamp(10.0, 30.0);
+            tip = tip.map(|c| c + random.between(-5.0, 5.0));
             let motion = if is_rapid { rapid } else { feed };
             program.push(motion(tip, tilted(axis[0], axis[1])));
         }
@@ -160,15 +162,16 @@ fn rows_of_random_programs_stay_within_the_tolerance() {
     let machine = Machine::verne();
     let mut random = Random::new(11);
     for _ in 0..6 {
-        let mut axis = [random.within(-25.0, 25.0), random.within(-180.0, 180.0)];
-        let mut tip = [random.within(-60.0, 60.0), random.within(-60.0, 60.0), random.within(250.0, 350.0)];
+        let mut axis = [random.between(-25.0, 25.0), random.between(-180.0, 180.0)];
+        let mut tip =
+            [random.between(-60.0, 60.0), random.between(-60.0, 60.0), random.between(250.0, 350.0)];
         let mut program = vec![arrive(tip, tilted(axis[0], axis[1]))];
         for _ in 0..6 {
             axis = [
-                (axis[0] + random.within(-15.0, 15.0)).clamp(-25.0, 25.0),
-                axis[1] + random.within(-40.0, 40.0),
+                (axis[0] + random.between(-15.0, 15.0)).clamp(-25.0, 25.0),
+                axis[1] + random.between(-40.0, 40.0),
             ];
-            tip = tip.map(|c| c + random.within(-30.0, 30.0));
+            tip = tip.map(|c| c + random.between(-30.0, 30.0));
             program.push(feed(tip, tilted(axis[0], axis[1])));
         }
         let options = PlanOptions::default();

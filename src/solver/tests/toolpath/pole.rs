@@ -4,7 +4,8 @@ use verne_solver::Machine;
 use verne_solver::axis::tool_axis;
 use verne_solver::toolpath::{Motion, PlanOptions, RowKind};
 
-use super::support::{Random, arrive, feed, planned, rapid, worst_deviation};
+use super::random::Random;
+use super::support::{arrive, feed, planned, rapid, worst_deviation};
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
@@ -38,7 +39,7 @@ fn noise_along_the_pole_does_not_turn_the_table() {
     let mut random = Random::new(3);
     let mut program = vec![arrive([0.0, 0.0, 300.0], UP)];
     for i in 1..200 {
-        let axis = [random.within(-1e-7, 1e-7), random.within(-1e-7, 1e-7), 1.0];
+        let axis = [random.between(-1e-7, 1e-7), random.between(-1e-7, 1e-7), 1.0];
         program.push(feed([f64::from(i) * 0.2, 0.0, 300.0], axis));
     }
     let (turning, turns) = check(&program, &PlanOptions::default());

@@ -6,23 +6,6 @@ use verne_solver::toolpath::{
 };
 use verne_solver::{Machine, TableAngles, forward_working, part_pose};
 
-/// Numbers that look random and are the same in every run (SplitMix64).
-pub(crate) struct Random(u64);
-
-impl Random {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
-
 pub(crate) fn unit(v: [f64; 3]) -> [f64; 3] {
     let norm = v.iter().map(|c| c * c).sum::<f64>().sqrt();
     v.map(|c| c / norm)

@@ -4,7 +4,9 @@ use verne_solver::Machine;
 use verne_solver::workspace::{Kind, Surface, Unobserved, Volume, measure, slice, surface};
 
 use crate::column_lattice;
-use crate::machines::{Random, changed, request};
+use crate::machines::changed;
+use crate::random::Random;
+use crate::requests::request;
 use crate::topology::Topology;
 
 /// The reference machine with other legs: D1, d1, D2, d2, R1, r1, R2, r4, L1, L2 = L3, half width, rod radius.
@@ -139,7 +141,7 @@ fn holes_of_the_workspace_are_holes_of_surface_and_slice() {
 /// Legs of every kind, including those that cross: every surface that is returned is a manifold.
 #[test]
 fn surfaces_of_random_machines_are_manifolds() {
-    let mut numbers = Random(7_046_029_254_386_353_131);
+    let mut numbers = Random::new(7_046_029_254_386_353_131);
     let (mut several, mut count) = (0, 0);
     for _ in 0..220 {
         let ranges = [

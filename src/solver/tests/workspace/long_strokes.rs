@@ -5,8 +5,10 @@ use verne_solver::workspace::{
     Kind, Request, Unobserved, WorkspaceError, expected_triangles, surface, surface_within,
 };
 
-use crate::machines::{Random, changed, random, request};
+use crate::machines::{changed, random};
 use crate::observer::CallLimit;
+use crate::random::Random;
+use crate::requests::request;
 use crate::surface::open_edges;
 
 fn with_strokes(length: f64) -> Machine {
@@ -33,9 +35,9 @@ fn no_vertex_has_very_many_triangles() {
 /// Any machine with any strokes. The tolerance is a fraction of them, so that there are not too many triangles.
 fn any(numbers: &mut Random) -> Option<(Machine, Request)> {
     let mut data = random(numbers)?.data().clone();
-    let longest = 200.0 * 450_f64.powf(numbers.next());
+    let longest = 200.0 * 450_f64.powf(numbers.fraction());
     data.limits.stroke = [(); 3].map(|()| [0.0, longest * numbers.between(0.5, 1.0)]);
-    let kind = match numbers.next() {
+    let kind = match numbers.fraction() {
         n if n < 1.0 / 3.0 => Kind::Platform,
         n if n < 2.0 / 3.0 => Kind::Tool,
         _ => Kind::Part,
@@ -48,7 +50,7 @@ fn any(numbers: &mut Random) -> Option<(Machine, Request)> {
 
 #[test]
 fn the_estimate_is_close_to_the_number_of_triangles() {
-    let mut numbers = Random(0x1357_9bdf);
+    let mut numbers = Random::new(0x1357_9bdf);
     let mut checked = 0;
     while checked < 80 {
         let Some((machine, question)) = any(&mut numbers) else { continue };

@@ -6,8 +6,14 @@
 // Shared code.
 /// Columns on a lattice, computed by the inverse solution and the margins alone.
 mod column_lattice;
-/// Machines, requests and pseudo-random numbers. The tests inside the crate use them too.
+#[path = "../support/lengths.rs"]
+mod lengths;
+#[path = "../support/machines.rs"]
 mod machines;
+#[path = "../support/random.rs"]
+mod random;
+/// Requests.
+mod requests;
 /// Components, genus and faults of a surface.
 mod topology;
 

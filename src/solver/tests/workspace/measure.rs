@@ -4,7 +4,8 @@ use verne_solver::Machine;
 use verne_solver::workspace::{Kind, Measure, Request, Unobserved, Volume, measure};
 
 use crate::column_lattice;
-use crate::machines::{changed, others, request};
+use crate::machines::{changed, others};
+use crate::requests::request;
 
 fn measured(machine: &Machine, request: &Request) -> Measure {
     measure(machine, request, &Unobserved).unwrap()

@@ -6,12 +6,14 @@ use verne_solver::{
     platform_working, table_angles, tool_every_working,
 };
 
-use crate::machines::{Random, above, changed, others, random, request};
+use crate::machines::{changed, others, random};
+use crate::random::Random;
+use crate::requests::{above, request};
 
 #[test]
 fn a_point_is_a_member_if_its_solution_keeps_all_margins() {
     let machine = Machine::verne();
-    let mut random = Random(0x9e37_79b9);
+    let mut random = Random::new(0x9e37_79b9);
     let points: Vec<[f64; 3]> = (0..100_000)
         .map(|_| {
             [random.between(-450.0, 450.0), random.between(-600.0, 600.0), random.between(800.0, 1_700.0)]
@@ -34,7 +36,7 @@ fn a_point_is_a_member_if_its_solution_keeps_all_margins() {
 fn membership_of_a_part_workspace_depends_on_the_table() {
     let machine = Machine::verne();
     let question = request(Kind::Part, 50.0, 60.0, 1.0);
-    let mut random = Random(0x1234_5678);
+    let mut random = Random::new(0x1234_5678);
     let points: Vec<[f64; 3]> = (0..5_000)
         .map(|_| {
             [random.between(-450.0, 450.0), random.between(-700.0, 400.0), random.between(-400.0, 950.0)]
@@ -73,7 +75,7 @@ fn worst_of_all(machine: &Machine, request: &Request, [x, y, z]: [f64; 3]) -> Ve
 /// last bit, whichever constraint that is. Of several solutions it is that of a feasible one.
 #[test]
 fn the_reported_margin_is_the_worst_of_one_solution() {
-    let mut numbers = Random(0x5851_f42d);
+    let mut numbers = Random::new(0x5851_f42d);
     let mut machines: Vec<Machine> = others().into_iter().map(|(_, machine)| machine).collect();
     machines.push(Machine::verne());
     machines.push(changed(|data| data.limits.parallel_margin = 0.9));

@@ -6,7 +6,7 @@ use verne_solver::Machine;
 use verne_solver::workspace::dexterity::{DexterityRequest, dexterity};
 use verne_solver::workspace::{Kind, Observer, WorkspaceError, contains, measure, slice, surface};
 
-use crate::machines::request;
+use crate::requests::request;
 
 /// Asks the computation to stop at the n-th call.
 pub(crate) struct CallLimit {

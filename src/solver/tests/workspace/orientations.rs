@@ -4,7 +4,8 @@ use verne_solver::workspace::Binding;
 use verne_solver::workspace::dexterity::{DexterityRequest, InclinationInterval, orientations};
 use verne_solver::{Clearance, Constraint, Machine, Margins, PartPose, part_working, table_angles};
 
-use crate::machines::{Random, changed, others, random};
+use crate::machines::{changed, others, random};
+use crate::random::Random;
 
 /// The margins of the working mode at an inclination.
 fn margins(machine: &Machine, [x, y, z]: [f64; 3], phi1: f64, asked: &DexterityRequest) -> Option<Margins> {
@@ -25,7 +26,7 @@ fn within(intervals: &[InclinationInterval], phi1: f64) -> bool {
 }
 
 fn machines() -> Vec<Machine> {
-    let mut numbers = Random(0x2545_f491);
+    let mut numbers = Random::new(0x2545_f491);
     let mut machines: Vec<Machine> = others().into_iter().map(|(_, machine)| machine).collect();
     machines.push(Machine::verne());
     machines.push(changed(|data| data.limits.tilt = [-0.4, 0.9]));
@@ -61,7 +62,7 @@ fn ends_hold(machine: &Machine, point: [f64; 3], asked: &DexterityRequest, inter
 #[test]
 fn intervals_agree_with_a_dense_scan_of_phi1() {
     const SCAN: u32 = 720;
-    let mut numbers = Random(0x6c07_8965);
+    let mut numbers = Random::new(0x6c07_8965);
     let (mut several, mut some, mut by_table) = (0, 0, 0);
     for machine in machines() {
         for (tool_length, table_clearance) in

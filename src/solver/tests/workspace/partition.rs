@@ -3,7 +3,9 @@
 use verne_solver::workspace::{Kind, Measure, Request, Unobserved, Volume, measure};
 use verne_solver::{Machine, MachineData};
 
-use crate::machines::{Random, request, spread};
+use crate::machines::spread;
+use crate::random::Random;
+use crate::requests::request;
 
 fn measured(machine: &Machine, request: &Request) -> Measure {
     measure(machine, request, &Unobserved).unwrap()
@@ -51,7 +53,7 @@ fn changed(machine: &Machine, change: impl FnOnce(&mut MachineData)) -> Machine 
 
 /// Machines with a workspace, and how it is measured as a whole.
 fn machines(seed: u64, count: usize) -> impl Iterator<Item = (Machine, Measure)> {
-    let mut numbers = Random(seed);
+    let mut numbers = Random::new(seed);
     std::iter::repeat_with(move || spread(&mut numbers))
         .flatten()
         .map(|machine| {
@@ -66,7 +68,7 @@ fn machines(seed: u64, count: usize) -> impl Iterator<Item = (Machine, Measure)>
 /// In the working mode |alpha| is below a right angle.
 #[test]
 fn bands_of_the_tilting_range_sum_to_the_whole() {
-    let mut numbers = Random(0x1d87_2b41);
+    let mut numbers = Random::new(0x1d87_2b41);
     for (number, (machine, whole)) in machines(0x9d5c_fb4a_0b73_11e9, 120).enumerate() {
         let most = whole.inclination.unwrap();
         let mut cuts: Vec<f64> = (0..3 + number % 8).map(|_| numbers.between(-most, most)).collect();
@@ -83,7 +85,7 @@ fn bands_of_the_tilting_range_sum_to_the_whole() {
 /// A tilting range of `width` and tools inclined by its multiples: adjacent bands of alpha. Most of them are empty.
 #[test]
 fn bands_of_phi1_sum_to_the_whole() {
-    let mut numbers = Random(0x77aa_0913);
+    let mut numbers = Random::new(0x77aa_0913);
     for (machine, whole) in machines(0x2c1b_3c6d_5511_aa07, 60) {
         let width = whole.inclination.unwrap() * numbers.between(0.3, 0.9);
         let start = numbers.between(-width, 0.0);
@@ -99,7 +101,7 @@ fn bands_of_phi1_sum_to_the_whole() {
 /// One slider's stroke in bands: each column is divided, and the volumes of its portions sum.
 #[test]
 fn bands_of_a_stroke_sum_to_the_whole() {
-    let mut numbers = Random(0x4432_9907);
+    let mut numbers = Random::new(0x4432_9907);
     let question = request(Kind::Platform, 0.0, 0.0, 1.0);
     for (number, (machine, _)) in machines(0x51ed_270b_a3c4_0f15, 100).enumerate() {
         let whole = Sum::of([measured(&machine, &question)]);

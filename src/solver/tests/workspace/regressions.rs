@@ -4,7 +4,9 @@ use verne_solver::Machine;
 use verne_solver::workspace::{Kind, Request, Unobserved, Volume, agree, contains, measure, surface};
 
 use crate::column_lattice;
-use crate::machines::{Random, changed, request, spread};
+use crate::machines::{changed, spread};
+use crate::random::Random;
+use crate::requests::request;
 
 fn volume(volume: Volume) -> [f64; 2] {
     match volume {
@@ -127,7 +129,7 @@ fn a_machine_with_legs_of_very_unlike_lengths_is_measured() {
 /// Columns over all that the legs reach, for machines of any kind: integration and mesh lose no component.
 #[test]
 fn measure_and_surface_of_random_machines_agree_with_columns() {
-    let mut numbers = Random(0x6a09_e667_f3bc_c909);
+    let mut numbers = Random::new(0x6a09_e667_f3bc_c909);
     let mut count = 0;
     while count < 25 {
         let Some(machine) = spread(&mut numbers) else { continue };

@@ -3,7 +3,9 @@
 use verne_solver::Machine;
 use verne_solver::workspace::{Kind, Slice, Unobserved, contains, slice};
 
-use crate::machines::{Random, changed, request};
+use crate::machines::changed;
+use crate::random::Random;
+use crate::requests::request;
 
 fn inside(slice: &Slice, [x, y]: [f64; 2]) -> bool {
     let crossings = |ring: &Vec<[f64; 2]>| {
@@ -33,7 +35,7 @@ fn points_of_a_slice_are_members_of_the_workspace() {
     ];
     for (machine, request, height) in cases {
         let cut = slice(machine, &request, height, &[0.1], &Unobserved).unwrap();
-        let mut random = Random(77);
+        let mut random = Random::new(77);
         let points: Vec<[f64; 3]> = (0..20_000)
             .map(|_| [random.between(-500.0, 500.0), random.between(-800.0, 800.0), height])
             .collect();

@@ -7,7 +7,9 @@ use verne_solver::workspace::{
 };
 use verne_solver::{Constraint, Element, Machine, Margins, platform_working};
 
-use crate::machines::{Random, changed, others, random, request};
+use crate::machines::{changed, others, random};
+use crate::random::Random;
+use crate::requests::request;
 
 fn made(machine: &Machine, request: &Request) -> Surface {
     surface(machine, request, &Unobserved).unwrap()
@@ -58,7 +60,7 @@ fn surfaces_are_closed_and_face_outwards() {
 
 #[test]
 fn surfaces_of_random_machines_are_closed() {
-    let mut numbers = Random(88_172_645_463_325_252);
+    let mut numbers = Random::new(88_172_645_463_325_252);
     for _ in 0..60 {
         let Some(machine) = random(&mut numbers) else { continue };
         for request in [request(Kind::Platform, 0.0, 0.0, 10.0), request(Kind::Part, 80.0, 20.0, 10.0)] {
@@ -113,7 +115,7 @@ fn surface_and_true_boundary_are_within_the_tolerance() {
         for question in kinds {
             let mesh = made(&machine, &question);
             let [low, high] = mesh.bounds().unwrap();
-            let mut numbers = Random(31_337);
+            let mut numbers = Random::new(31_337);
             let member = |point| is_member(&machine, &question, point);
             let middle = loop {
                 let point = [0, 1, 2].map(|i| numbers.between(low[i], high[i]));
@@ -129,7 +131,7 @@ fn surface_and_true_boundary_are_within_the_tolerance() {
             }
             for triangle in mesh.triangles.iter().step_by(mesh.triangles.len() / 400 + 1) {
                 let corners = triangle.map(|corner| mesh.positions[corner as usize]);
-                let parts = [numbers.next().sqrt(), numbers.next()];
+                let parts = [numbers.fraction().sqrt(), numbers.fraction()];
                 let weights = [1.0 - parts[0], parts[0] * (1.0 - parts[1]), parts[0] * parts[1]];
                 let point = [0, 1, 2].map(|i| (0..3).map(|n| weights[n] * corners[n][i]).sum());
                 assert!(is_mixed(&member, point, question.tolerance), "{name} {question:?}: {point:?}");

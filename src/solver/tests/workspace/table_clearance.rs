@@ -10,7 +10,9 @@ use verne_solver::{
 };
 
 use crate::column_lattice;
-use crate::machines::{Random, above, changed, others, random, request};
+use crate::machines::{changed, others, random};
+use crate::random::Random;
+use crate::requests::{above, request};
 use crate::table_clearance_margin::height;
 use crate::topology::Topology;
 
@@ -206,7 +208,7 @@ fn surfaces_end_at_the_table_and_name_it() {
 /// Random machines and requests. The table is vertical somewhere for many of them.
 #[test]
 fn surfaces_of_random_machines_above_the_table_are_closed() {
-    let mut numbers = Random(0x5eed_0013);
+    let mut numbers = Random::new(0x5eed_0013);
     let mut made_ones = 0;
     for _ in 0..60 {
         let Some(mut data) = random(&mut numbers).map(|machine| machine.data().clone()) else { continue };
@@ -230,7 +232,7 @@ fn surfaces_of_random_machines_above_the_table_are_closed() {
 /// above the floor.
 #[test]
 fn membership_above_the_table_agrees_with_the_margins() {
-    let mut numbers = Random(0xfeed_0007);
+    let mut numbers = Random::new(0xfeed_0007);
     let (mut inside, mut by_table) = (0, 0);
     for (machine, question) in cut_ones() {
         let Some([low, high]) = made(&machine, &Request { table_clearance: None, ..question }).bounds()

@@ -6,7 +6,8 @@ use verne_solver::{
     Clearance, Constraint, Element, Machine, Margins, PlatformPose, TableAngles, forward_working,
 };
 
-use crate::machines::{Random, changed, random};
+use crate::machines::{changed, random};
+use crate::random::Random;
 
 /// Z over the table of a point of the base frame: the inverses of trans(z, da) rot(x, theta1) trans(z, dt) rot(x,
 /// pi), one after the other.
@@ -51,7 +52,7 @@ fn lowest(machine: &Machine, pose: &PlatformPose, theta1: f64, tool: &Clearance)
 /// The margin is the height of the lowest point, whatever the table's tilt.
 #[test]
 fn the_margin_is_the_height_of_the_lowest_point() {
-    let mut numbers = Random(0x0bad_cafe);
+    let mut numbers = Random::new(0x0bad_cafe);
     let mut machines: Vec<Machine> =
         std::iter::repeat_with(|| random(&mut numbers)).take(100).flatten().collect();
     machines.push(changed(|data| data.geometry.R2 = 330.0));

@@ -9,7 +9,7 @@ use tokio::sync::Semaphore;
 use tokio::task::JoinSet;
 use verne_store::{Durability, Store};
 
-use crate::directory::{bytes, key};
+use crate::directory::{TestDirectory, bytes, key};
 
 /// A buffer that is counted while it is alive.
 struct Counted(Vec<u8>, Arc<AtomicU32>);
@@ -165,4 +165,18 @@ async fn another_caller_takes_over_from_a_dropped_one() {
     };
     first.abort();
     assert_eq!(second.await.unwrap().unwrap().bytes, bytes(1, 10));
+}
+
+#[tokio::test]
+async fn a_content_that_is_not_cached_takes_no_memory_beside_a_disk() {
+    let directory = TestDirectory::new();
+    let store = directory.open().await;
+    store.put(&key(1), bytes(1, 1000)).await;
+    let (content, durability) = store.put_uncached(&key(1), bytes(2, 100_000)).await;
+    assert_eq!((durability, store.stats().memory_bytes), (Durability::Durable, 0));
+    assert_eq!(store.get(&key(1)).await, Some(content), "and not the old one");
+    // Without a disk, memory is the only place.
+    let store = Store::in_memory(1 << 20);
+    store.put_uncached(&key(2), bytes(2, 1000)).await;
+    assert_eq!(store.get(&key(2)).await.map(|content| content.bytes), Some(bytes(2, 1000)));
 }

@@ -41,6 +41,9 @@ pub(crate) async fn fk_batch(
 ///
 /// Computes the working solution of each row, in order. If a row is malformed, has no solution or breaks a limit, the
 /// answer states this at the index of the row. The other rows are not affected.
+///
+/// With `continuous` the rows are a path: each row continues from the row before, and `jump` marks rows that cannot.
+/// POST /toolpath looks ahead, and adds the rows that keep the tool within a tolerance.
 #[utoipa::path(
     post, path = "/ik/batch", operation_id = "ik_batch", tag = "kinematics",
     request_body(content = IkBatchNumbers, description = "The rows of poses."),

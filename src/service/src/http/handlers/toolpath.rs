@@ -24,6 +24,7 @@ use crate::operations::question::Question;
 use crate::operations::question_text::QuestionKind;
 use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
 use crate::operations::toolpath_request::{ProgramSource, read_request};
+use crate::wire::error::OperationError;
 use crate::wire::program_query::ProgramQuery;
 use crate::wire::toolpath::ToolpathRequest;
 use crate::wire::toolpath_query::{ToolpathQuery, point_into_toolpath_query};
@@ -69,7 +70,7 @@ pub(crate) async fn post_toolpath(
         }
         ToolpathBody::File(file) => {
             let FileRequest { reading, query, body } = *file;
-            let format = reading.format(body.media_type())?;
+            let format = reading.format(body.media_type()).map_err(with_json)?;
             let checked = CheckedToolpath::new(&query.into_request(), &state.machines);
             let checked = checked.map_err(point_into_toolpath_query)?;
             let ProgramInMemory { program, memory } = body.receive(format, reading.options()).await?;
@@ -102,6 +103,15 @@ pub(crate) async fn get_report(
         return Err(LookupError::Result(record.id.to_string()).into());
     }
     summary(&state, record).cached(IMMUTABLE).respond(&conditions)
+}
+
+/// A body without a known type may be meant as JSON.
+fn with_json(error: OperationError) -> OperationError {
+    let OperationError::Fields(mut faults) = error else { return error };
+    for fault in &mut faults {
+        fault.detail.push_str("; a request in JSON needs Content-Type: application/json");
+    }
+    OperationError::Fields(faults)
 }
 
 /// The question, whose program is checked and stored unless the answer is known.

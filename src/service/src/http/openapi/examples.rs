@@ -145,14 +145,15 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
         ),
         post(
             "/fk/batch",
-            json!({"joints": [[674, 685, 250], [400, 400, 400, 10, 90], null, [0, 0, 5000]], "tool_length": 50}),
+            json!({"joints": [[674, 685, 250], [400, 400, 400, 10, 90], null, [0, 0, 5000]], "tool_length": 50,
+                   "orientation": "vector"}),
             |body| value_of(answer_fk_batch(body, machines, ROWS)),
         ),
         post(
             "/ik/batch",
-            json!({"frame": "part", "tool_length": 50,
-                   "poses": [[100, 50, 150, 0, 0], [100, 50, 150, 30, 90], [0, 0, 900, 0, 0], [1, 2],
-                             [5000, 0, 0, 0, 0]]}),
+            json!({"frame": "part", "tool_length": 50, "continuous": true, "start": [400, 450, 450, 0, 0],
+                   "poses": [[100, 50, 150, 0, 0], [100, 50, 150, 30, 90], [100, 50, 150, 0.3, -0.4, 1.2],
+                             [0, 0, 900, 0, 0], [1, 2], [5000, 0, 0, 0, 0]]}),
             |body| value_of(answer_ik_batch(body, machines, ROWS)),
         ),
     ]
@@ -224,7 +225,16 @@ fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
                          "tolerance": {"tip": 0.05}});
     let report = json_of(toolpath_report(&request, machines));
     let of_report = json!({"id": report["id"]});
-    vec![post("/toolpath", request, |_| Ok(&report)), get("/toolpath/{id}", of_report, Some(report.clone()))]
+    let of_path = json!({"id": report["id"], "least": 0, "greatest": 0.25});
+    let of_program = json!({"id": report["id"], "axes": "X,Y,Z,A,C", "feed_word": "inverse_time"});
+    let some_rows = json!({"id": report["id"], "format": "csv", "from": 0, "to": 3});
+    vec![
+        post("/toolpath", request, |_| Ok(&report)),
+        get("/toolpath/{id}", of_report, Some(report.clone())),
+        get("/toolpath/{id}/rows", some_rows, None),
+        get("/toolpath/{id}/program", of_program, None),
+        get("/toolpath/{id}/path", of_path, None),
+    ]
 }
 
 /// The report on a tool path whose request has points.

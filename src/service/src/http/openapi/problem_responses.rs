@@ -99,6 +99,11 @@ problems! {
     ToolpathProblems: BODY, JOB, PROGRAM;
     /// Problems of the report on a tool path.
     ReportProblems: RESULT;
+    /// Problems of the rows of a tool path. If the store evicted them, a job computes them again, which needs a role
+    /// and the program.
+    RowsProblems: RESULT, JOB, &[Code::Forbidden, Code::ProgramNotFound];
+    /// Problems of the joint program of a tool path.
+    JointProgramProblems: RESULT, JOB, &[Code::Forbidden, Code::ProgramNotFound, Code::NoJointProgram];
     /// Problems of a machine.
     MachineProblems: &[Code::NotFound, Code::MachineNotFound];
     /// Problems of the list of jobs.

@@ -102,6 +102,10 @@ problems! {
             => HttpError::NotAcceptable(vec!["application/json"]);
     JobCancelled, "job_cancelled", CONFLICT, "The job was cancelled while the request waited for it.";
         Job(JobError::Cancelled) | Operation(OperationError::Cancelled) => JobError::Cancelled;
+    NoJointProgram, "no_joint_program", CONFLICT,
+        "The machine cannot run the program, or a move of it has no duration.";
+        Operation(OperationError::NoJointProgram(_)) => OperationError::NoJointProgram(
+            "the machine cannot run the program; the report says why".to_owned());
     OtherVersion, "other_version", CONFLICT, "Another version of the service created the job.";
         Operation(OperationError::OtherVersion) => OperationError::OtherVersion;
     BodyTooLarge, "body_too_large", PAYLOAD_TOO_LARGE, "The decoded body is larger than the limit.";

@@ -30,7 +30,12 @@ pub(crate) fn machine(name: &str) -> Result<MachineRef, String> {
 
 /// An error of a request, with flags in place of fields.
 pub(crate) fn with_flags(error: OperationError) -> String {
-    let OperationError::Fields(faults) = point_into_query(error) else {
+    flags_of_query(point_into_query(error))
+}
+
+/// An error of a query, with flags in place of parameters.
+pub(crate) fn flags_of_query(error: OperationError) -> String {
+    let OperationError::Fields(faults) = error else {
         return "internal error of this program".to_owned();
     };
     let flags = faults.into_iter().map(|FieldError { pointer, detail }| {

@@ -44,19 +44,18 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let held = Path::new(position, &Motion { end: position, ..*motion });
         let turning = span.turning();
         let track = self.track(&held, turning, motion.tool_length);
-        let Ok(end) = track.node(1.0, Some(now.pose.alpha)) else { return };
+        let Ok(end) = track.node(1.0, Some(&now)) else { return };
         self.rows_between(index, motion, &track, [now, end], RowKind::Turn);
     }
 
     /// Follows a feed motion on one span.
     fn follow(&mut self, index: usize, motion: &Motion, path: &Path, span: &Span) {
         let track = self.track(path, *span, motion.tool_length);
-        let alpha = self.now.map(|node| node.pose.alpha);
-        let end = match track.node(span.to, alpha) {
+        let end = match track.node(span.to, self.now.as_ref()) {
             Ok(end) => end,
             Err(refusal) => {
                 self.survey(index, &track);
-                self.refuse(index, track.target(span.to), refusal);
+                self.refuse(index, track.target(span.to).pose, refusal);
                 self.now = None;
                 return;
             }
@@ -79,12 +78,12 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
     ) {
         let [start, end] = [track.span.from, track.span.to];
         let stops = [Stop { s: start, node: ends[0] }, Stop { s: end, node: ends[1] }];
-        let feed = self.settings.feed;
+        let (feed, mut bend) = (self.settings.feed, self.bends[0]);
         if track.path.is_point() && kind != RowKind::Turn {
             self.row(index, kind, &track.path.at(end), &ends[1], motion.tool_length);
             return;
         }
-        let result = linearise(track, stops[0], stops[1], &feed, |stop, segment, deviation| {
+        let result = linearise(track, stops[0], &stops[1], &feed, &mut bend, |stop, segment, deviation| {
             let is_end = stop.s >= 1.0;
             let kind = if kind == RowKind::Feed && !is_end { RowKind::Inserted } else { kind };
             self.report.deviation = self.report.deviation.with(deviation);
@@ -95,6 +94,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
                 self.examine(index, segment, motion.tool_length);
             }
         });
+        self.bends[0] = bend;
         match result {
             Ok(()) => {}
             Err(LineariseError::Refused(s, refusal)) => {
@@ -122,7 +122,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         end: &Node,
     ) {
         self.survey(index, track);
-        self.refuse(index, track.target(s), refusal);
+        self.refuse(index, track.target(s).pose, refusal);
         let position = track.path.at(track.span.to);
         self.row(index, RowKind::Feed, &position, end, motion.tool_length);
     }

@@ -4,6 +4,7 @@ use super::{Row, RowKind, Rower};
 use crate::pose::PartPose;
 use crate::table::part_pose;
 use crate::toolpath::choice::Chosen;
+use crate::toolpath::differential::Differential;
 use crate::toolpath::joint_segment::{JointSegment, Stop};
 use crate::toolpath::linearise::linearise;
 use crate::toolpath::meridian::Span;
@@ -22,18 +23,16 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
     }
 
     /// Moves all joints straight to the end of a motion.
-    fn go_straight(&mut self, index: usize, motion: &Motion, spans: &[Span], chosen: Chosen) -> Option<Node> {
-        let span = spans.last()?;
+    fn go_straight(&mut self, index: usize, motion: &Motion, spans: &[Span], chosen: Chosen) {
+        let Some(span) = spans.last() else { return };
         let target = self.setting.target(span, 1.0, &motion.end, chosen.h);
         match self.setting.node(&target, motion.tool_length, chosen.alpha) {
             Ok(node) => {
                 self.row(index, RowKind::Rapid, &motion.end, &node, motion.tool_length);
-                Some(node)
             }
             Err(refusal) => {
-                self.refuse(index, target, refusal);
+                self.refuse(index, target.pose, refusal);
                 self.now = None;
-                None
             }
         }
     }
@@ -47,8 +46,8 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             return;
         }
         let before = self.now;
-        let after = self.go_straight(index, motion, spans, chosen);
-        if let (Some(before), Some(after)) = (before, after) {
+        self.go_straight(index, motion, spans, chosen);
+        if let (Some(before), Some(after)) = (before, self.now) {
             self.depart(index, motion, path, &before, &after);
         }
     }
@@ -63,14 +62,15 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         chosen: Chosen,
     ) -> bool {
         let Some(mut now) = self.now else { return false };
-        let mut rows: Vec<(f64, Node)> = Vec::new();
+        let (mut rows, mut bend): (Vec<(f64, Node)>, _) = (Vec::new(), self.bends[1]);
         for span in spans {
             let track = self.track(path, *span, motion.tool_length);
-            let Ok(end) = track.node(span.to, Some(now.pose.alpha)) else { return false };
+            let Ok(end) = track.node(span.to, Some(&now)) else { return false };
             let stops = [Stop { s: span.from, node: now }, Stop { s: span.to, node: end }];
-            let result = linearise(&track, stops[0], stops[1], &self.settings.rapid, |stop, _, _| {
-                rows.push((stop.s, stop.node));
-            });
+            let result =
+                linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _| {
+                    rows.push((stop.s, stop.node));
+                });
             if result.is_err() {
                 return false;
             }
@@ -83,6 +83,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         if rows.is_empty() {
             rows.push((1.0, now));
         }
+        self.bends[1] = bend;
         for (s, node) in rows {
             self.row(index, RowKind::Rapid, &path.at(s), &node, motion.tool_length);
         }
@@ -95,7 +96,12 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         if self.report.departures.len() >= MOST_DEPARTURES {
             return;
         }
-        let segment = JointSegment::new(self.setting.machine, before, after);
+        let machine = self.setting.machine;
+        let differentials = [before, after].map(|node| Differential::of(machine, &node.rods(machine)));
+        let segment = match &differentials {
+            [Some(first), Some(last)] => JointSegment::new(machine, [before, after], [first, last]),
+            _ => None,
+        };
         let greatest = segment.map(|segment| {
             self.examine(index, &segment, motion.tool_length);
             let of =

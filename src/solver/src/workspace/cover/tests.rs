@@ -6,11 +6,15 @@ use crate::machine::Machine;
 use crate::workspace::domain::{Domain, Limit, LimitSet};
 use crate::workspace::request::{Kind, Request};
 
-#[path = "../../../tests/workspace/machines.rs"]
-#[allow(dead_code, reason = "the integration tests use the rest")]
+#[path = "../../../tests/support/lengths.rs"]
+mod lengths;
+#[path = "../../../tests/support/machines.rs"]
 mod machines;
+#[path = "../../../tests/support/random.rs"]
+mod random;
 
-use machines::{Random, spread};
+use machines::spread;
+use random::Random;
 
 /// Any machine, also with thin rods and with any tilting range.
 fn any_machine(numbers: &mut Random) -> Option<Machine> {
@@ -24,7 +28,7 @@ fn any_machine(numbers: &mut Random) -> Option<Machine> {
 /// Every limit's values at points of a box lie within its bounds, and rise or fall as the bounds say.
 #[test]
 fn the_bounds_over_a_box_contain_the_values_at_its_points() {
-    let mut numbers = Random(0x2545_f491_4f6c_dd1d);
+    let mut numbers = Random::new(0x2545_f491_4f6c_dd1d);
     let (mut inside, mut simple, mut outside) = (0, 0, 0);
     for _ in 0..3_000 {
         let Some(machine) = any_machine(&mut numbers) else { continue };

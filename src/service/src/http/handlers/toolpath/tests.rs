@@ -95,16 +95,23 @@ async fn equal_requests_have_equal_ids_in_every_form() {
     }
 }
 
+/// Asserts that a margin of an answer is that of a failure.
+fn assert_reproduced(found: &Value, failure: &Value) {
+    for name in ["constraint", "element", "unit"] {
+        assert_eq!(found[name], failure[name], "{found} {failure}");
+    }
+    let [found, stated] = [&found["value"], &failure["margin"]].map(|value| value.as_f64().unwrap());
+    assert!((found - stated).abs() <= 1e-6 * stated.abs().max(1.0), "{found} {failure}");
+}
+
 #[tokio::test]
 async fn ik_reproduces_a_failure() {
     let service = service().await;
-    let tilted = [0.0, -0.9, -0.4];
     let programs = [
-        // Past a stroke, out of reach, past a cone or a range, and turned about more than the rotary range allows.
+        // Past a stroke, out of reach, past a range of the tilting axis.
         json!([[0, 0, 300], [0, 0, 2000]]),
         json!([[0, 0, 300], [900, 0, 300]]),
-        json!([[0, 0, 300, 0, 0, 1], [0, 0, 300, tilted[0], tilted[1], tilted[2]]]),
-        json!([[100, 0, 400, 20, 0], [100, 0, 400, 20, 900]]),
+        json!([[0, 0, 300, 0, 0, 1], [0, 0, 300, 0, -0.9, -0.4]]),
     ];
     for points in programs {
         let request = json!({"program": {"points": points}, "tool_length": 80, "table_clearance": 0});
@@ -114,22 +121,30 @@ async fn ik_reproduces_a_failure() {
             let at = &failure["at"];
             let pose =
                 json!({"x": at["x"], "y": at["y"], "z": at["z"], "phi1": at["phi1"], "phi2": at["phi2"]});
-            let request = json!({"frame": "part", "pose": pose, "tool_length": at["tool_length"],
-                "table_clearance": 0});
+            let request = json!({"pose": pose, "tool_length": at["tool_length"], "table_clearance": 0});
             let (_, answer) = post(&service, "/ik", JSON, request.to_string()).await;
-            let solutions = answer["solutions"].as_array().unwrap();
-            let found = if solutions.is_empty() {
-                answer["constraint"].clone()
-            } else {
-                // The solution whose worst margin it is.
-                solutions[0]["margins"]["worst"].clone()
-            };
-            assert_eq!(found["constraint"], failure["constraint"], "{failure} {answer}");
-            assert_eq!(found["element"], failure["element"], "{failure} {answer}");
-            let [found, stated] = [&found["value"], &failure["margin"]].map(|value| value.as_f64().unwrap());
-            assert!((found - stated).abs() <= 1e-6 * stated.abs().max(1.0), "{failure} {answer}");
+            let worst = answer.pointer("/solutions/0/margins/worst").unwrap_or(&answer["constraint"]);
+            assert_reproduced(worst, failure);
         }
     }
+}
+
+/// /ik takes another winding of theta2.
+#[tokio::test]
+async fn fk_reproduces_a_failure_of_the_rotary_axis() {
+    let service = service().await;
+    let points = json!([[100, 0, 400, 20, 0], [100, 0, 400, 20, 900]]);
+    let report = plan(&service, &json!({"program": {"points": points}, "tool_length": 80})).await;
+    let failure = &report["failures"][0];
+    assert_eq!((&failure["constraint"], &report["failure_count"]), (&json!("rotary"), &json!(1)), "{report}");
+    let at = &failure["at"];
+    let pose = json!({"x": at["x"], "y": at["y"], "z": at["z"], "phi1": at["phi1"], "phi2": at["phi2"]});
+    let (_, answer) = post(&service, "/ik", JSON, json!({"pose": pose, "tool_length": 80}).to_string()).await;
+    let mut joints = answer["solutions"][0]["joints"].clone();
+    joints["theta2"] = json!(-at["phi2"].as_f64().unwrap());
+    let (_, answer) =
+        post(&service, "/fk", JSON, json!({"joints": joints, "tool_length": 80}).to_string()).await;
+    assert_reproduced(&answer["solutions"][0]["margins"]["worst"], failure);
 }
 
 #[tokio::test]

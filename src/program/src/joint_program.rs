@@ -1,0 +1,53 @@
+//! Writer of joint programs: rows of joints become blocks of G-code for a controller that interpolates the joints.
+//!
+//! A block has one word for each of five axes. The program knows nothing of the tool: tool lengths, set-up and
+//! tool-centre-point control are already in the joints, and the first block switches the controller's own off. The
+//! controller's work offsets must be zero, or those that the axes' offsets state.
+//!
+//! - Positions are absolute and in millimetres and degrees. A word that equals the last one written is left out.
+//! - A row of which all words equal the last ones makes no block: its duration counts in the next one. So inverse time
+//!   never divides by zero.
+//! - In inverse time every G1 block has an F word: one over its duration in minutes. Per minute, F is the speed of the
+//!   tip in mm/min; where the tip stands still, that of the rotary axes in deg/min.
+//! - Events stand before the block that they stand before in the program. The block after an event is complete.
+//! - Texts cannot end a comment: parentheses become brackets, and what is not printable ASCII is replaced.
+
+mod error;
+mod event_lines;
+mod numbers;
+mod options;
+mod text;
+mod words;
+mod writer;
+
+pub use error::{JointProgramError, OptionsError};
+pub use options::{FeedWord, JointAxis, JointProgramOptions, RapidWord};
+pub use writer::JointProgramWriter;
+
+/// One row: the joints to which the machine moves, all of them linearly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointRow {
+    /// The index of the program's move that the row belongs to: events that stand before this move come first.
+    pub step: usize,
+    /// The line of the program that states the move, from 1.
+    pub line: u32,
+    /// Whether the row is a place of a rapid.
+    pub rapid: bool,
+    /// rho1, rho2, rho3 in mm, theta1, theta2 in radians.
+    pub joints: [f64; 5],
+    /// The tip in the part frame, mm.
+    pub tip: [f64; 3],
+    /// The time from the row before to this one, s.
+    pub duration: Option<f64>,
+}
+
+/// What was written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct JointProgramSummary {
+    /// Number of G0 and G1 blocks.
+    pub blocks: u64,
+    /// Number of rows without a block, since all their words equal the last ones.
+    pub merged: u64,
+    /// Number of blocks whose F is the greatest one that is allowed, and not the one that the duration asks for.
+    pub limited: u64,
+}

@@ -1,0 +1,147 @@
+//! The joint program of a stored tool path.
+
+use verne_program::joint_program::{JointProgramError, JointProgramOptions, JointProgramWriter, JointRow};
+use verne_program::{Event, Program};
+use verne_solver::toolpath::RowKind;
+
+use crate::operations::toolpath_question::ToolpathQuestion;
+use crate::operations::toolpath_row_text::{RowText, StoredRows};
+use crate::operations::toolpath_rows::read_chunk;
+use crate::operations::toolpath_rows::row_bytes::StoredRow;
+use crate::wire::error::{FieldError, OperationError};
+
+/// Writes rows and the events of their program as a joint program.
+pub(crate) struct JointProgramText(JointProgramWriter<Vec<u8>>);
+
+impl JointProgramText {
+    /// A writer for the tool path that answers a question, with the events of its program.
+    pub(crate) fn new(
+        mut options: JointProgramOptions,
+        question: &ToolpathQuestion,
+        program: &Program,
+    ) -> Result<Self, OperationError> {
+        let machine = &question.machine.id;
+        options.comments = vec![
+            format!("verne {}, tool path {}", env!("CARGO_PKG_VERSION"), question.id),
+            format!("machine {}, hash {}", machine.name, machine.hash),
+            format!("program {}", question.request.program),
+        ];
+        let events: Vec<Event> = program.events().to_vec();
+        JointProgramWriter::new(Vec::new(), options, events).map(Self).map_err(operation_error)
+    }
+}
+
+impl RowText for JointProgramText {
+    fn rows(&mut self, rows: &mut StoredRows<'_>) -> Result<Vec<u8>, OperationError> {
+        for row in rows {
+            self.0.row(&joint_row(&row?)).map_err(operation_error)?;
+        }
+        Ok(std::mem::take(self.0.out()))
+    }
+
+    fn tail(self: Box<Self>) -> Result<Vec<u8>, OperationError> {
+        self.0.finish().map(|(text, _)| text).map_err(operation_error)
+    }
+}
+
+/// Whether a joint program can state the speed of every row of a chunk.
+///
+/// # Errors
+///
+/// [`OperationError::NoJointProgram`], with the line of a row without a duration.
+pub(crate) fn check_durations(chunk: &[u8]) -> Result<(), OperationError> {
+    for row in read_chunk(chunk) {
+        let row = row?;
+        if row.kind != RowKind::Rapid && row.duration.is_none() {
+            return Err(operation_error(JointProgramError::NoDuration { line: row.line }));
+        }
+    }
+    Ok(())
+}
+
+fn joint_row(row: &StoredRow) -> JointRow {
+    let ([rho1, rho2, rho3], table) = (row.rho, row.table);
+    JointRow {
+        step: row.index as usize,
+        line: row.line,
+        rapid: row.kind == RowKind::Rapid,
+        joints: [rho1, rho2, rho3, table.theta1, table.theta2],
+        tip: row.position.tip,
+        duration: row.duration,
+    }
+}
+
+fn operation_error(error: JointProgramError) -> OperationError {
+    match error {
+        JointProgramError::NoDuration { .. } => OperationError::NoJointProgram(error.to_string()),
+        JointProgramError::OutOfRange { .. } => {
+            OperationError::Fields(vec![FieldError::new("/query/length_decimals", error.to_string())])
+        }
+        JointProgramError::Options(error) => {
+            OperationError::Fields(vec![FieldError::new(format!("/query/{}", error.option), error.detail)])
+        }
+        JointProgramError::Write(_) => OperationError::Internal,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use verne_program::joint_program::{JointProgramOptions, JointProgramWriter};
+    use verne_solver::toolpath::{RowKind, ToolPosition};
+    use verne_solver::{Constraint, Element, Margin, TableAngles};
+
+    use super::{JointProgramText, check_durations};
+    use crate::operations::toolpath_row_text::RowText;
+    use crate::operations::toolpath_rows::row_bytes::{StoredRow, write_row};
+    use crate::wire::error::OperationError;
+
+    fn row(index: u32, kind: RowKind, duration: Option<f64>) -> StoredRow {
+        let rho = [600.0 + f64::from(index), 600.0, 600.0];
+        StoredRow {
+            line: index + 3,
+            index,
+            kind,
+            position: ToolPosition { tip: [f64::from(index), 0.0, 0.0], axis: [0.0, 0.0, 1.0] },
+            rho,
+            table: TableAngles { theta1: 0.0, theta2: 0.5_f64.to_radians() },
+            duration,
+            margin: Margin {
+                constraint: Constraint::Tilt,
+                element: Element::Range { high: true },
+                value: 1.0,
+            },
+        }
+    }
+
+    #[test]
+    fn rows_become_blocks_in_degrees_with_the_time_that_they_take() {
+        let writer = JointProgramWriter::new(Vec::new(), JointProgramOptions::default(), Vec::new());
+        let mut text = JointProgramText(writer.unwrap());
+        let rows = [
+            row(0, RowKind::Rapid, None),
+            row(1, RowKind::Feed, Some(0.5)),
+            row(2, RowKind::Turn, Some(1.0)),
+        ];
+        let first = text.rows(&mut rows[..2].iter().map(|row| Ok(*row))).unwrap();
+        let second = text.rows(&mut rows[2..].iter().map(|row| Ok(*row))).unwrap();
+        let tail = Box::new(text).tail().unwrap();
+        let all = String::from_utf8([first, second, tail].concat()).unwrap();
+        assert!(
+            all.ends_with("G0 X600.0 Y600.0 Z600.0 A0.0 C0.5\nG1 X601.0 F120.0\nX602.0 F60.0\nM30\n"),
+            "{all}"
+        );
+    }
+
+    #[test]
+    fn a_row_without_duration_is_refused_with_its_line() {
+        let mut chunk = Vec::new();
+        write_row(&row(0, RowKind::Rapid, None), &mut chunk);
+        assert_eq!(check_durations(&chunk), Ok(()));
+        write_row(&row(1, RowKind::Inserted, None), &mut chunk);
+        let Err(OperationError::NoJointProgram(reason)) = check_durations(&chunk) else {
+            unreachable!("the row has no duration")
+        };
+        assert!(reason.contains("line 4"), "{reason}");
+    }
+}

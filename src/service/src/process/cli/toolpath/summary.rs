@@ -1,0 +1,180 @@
+//! The verdict on a program in words.
+
+use std::io::{self, Write};
+
+use serde::Deserialize;
+
+/// Most failing stretches that the summary names.
+const MOST_FAILURES: usize = 10;
+
+/// A margin worse than this is no distance: the position is out of proportion to the machine.
+const OUT_OF_PROPORTION: f64 = 1e9;
+
+/// What the summary says, read from a report.
+#[derive(Debug, Deserialize)]
+pub(super) struct Summary {
+    verdict: String,
+    failures: Vec<Failure>,
+    failure_count: u64,
+    rows: u64,
+    margins: Vec<Margin>,
+    warnings: Vec<Warning>,
+    warning_count: u64,
+}
+
+#[derive(Debug, Deserialize)]
+struct Failure {
+    lines: [u32; 2],
+    #[serde(flatten)]
+    limit: Limit,
+}
+
+#[derive(Debug, Deserialize)]
+struct Margin {
+    line: u32,
+    #[serde(flatten)]
+    limit: Limit,
+}
+
+#[derive(Debug, Deserialize)]
+struct Warning {
+    line: u32,
+    detail: String,
+}
+
+#[derive(Debug, Deserialize)]
+struct Limit {
+    constraint: String,
+    element: String,
+    margin: f64,
+    unit: String,
+}
+
+impl Summary {
+    /// Reads a report.
+    pub(super) fn read(report: &[u8]) -> Result<Self, String> {
+        serde_json::from_slice(report).map_err(|error| format!("the report cannot be read: {error}"))
+    }
+
+    /// Whether the machine can run the program.
+    pub(super) fn is_ok(&self) -> bool {
+        self.verdict == "ok"
+    }
+
+    /// Writes the summary.
+    pub(super) fn write(&self, err: &mut impl Write) -> io::Result<()> {
+        for warning in &self.warnings {
+            writeln!(err, "warning: line {}: {}", warning.line, warning.detail)?;
+        }
+        let listed = self.warnings.len() as u64;
+        if self.warning_count > listed {
+            writeln!(err, "{} warnings in all; the report counts them.", self.warning_count)?;
+        }
+        if self.is_ok() {
+            writeln!(err, "The machine can run the program: {} rows.", self.rows)?;
+            let least = |margin: &&Margin| ["mm", "deg"].contains(&margin.limit.unit.as_str());
+            for Margin { line, limit } in self.margins.iter().filter(least) {
+                let Limit { constraint, element, margin, unit } = limit;
+                let (name, margin) = (constraint.replace('_', " "), rounded(*margin));
+                writeln!(err, "  least margin of {name}: {margin} {unit} ({element}, line {line})")?;
+            }
+            return Ok(());
+        }
+        writeln!(err, "The machine cannot run the program:")?;
+        for Failure { lines: [first, last], limit } in self.failures.iter().take(MOST_FAILURES) {
+            let lines =
+                if first == last { format!("line {first}") } else { format!("lines {first} to {last}") };
+            writeln!(err, "  {lines}: {}", limit.in_words())?;
+        }
+        let shown = self.failures.len().min(MOST_FAILURES) as u64;
+        match self.failure_count.saturating_sub(shown) {
+            0 => Ok(()),
+            more => writeln!(err, "  and {more} more stretches; the report lists them."),
+        }
+    }
+}
+
+impl Limit {
+    /// What is wrong, as a clause.
+    fn in_words(&self) -> String {
+        let (missing, element) = (-self.margin, self.element.as_str());
+        if missing > OUT_OF_PROPORTION {
+            return "the position is far out of reach".to_owned();
+        }
+        let amount = match self.unit.as_str() {
+            "1" => rounded(missing),
+            unit => format!("{} {}", rounded(missing), if unit == "deg" { "degrees" } else { unit }),
+        };
+        let (part, end) = element.split_once('.').unwrap_or((element, ""));
+        let end = if end == "max" { "high" } else { "low" };
+        match self.constraint.as_str() {
+            "stroke" => format!("slider {} is {amount} past the {end} end of its stroke", number(part)),
+            "leg_length" => format!("leg {} is {amount} too short", number(part)),
+            "slider_joint" => format!("the slider joint of rod {} is {amount} beyond its cone", number(part)),
+            "platform_joint" => {
+                format!("the platform joint of rod {} is {amount} beyond its cone", number(part))
+            }
+            "rod_crossing" => format!("the rods of leg I are crossed by {amount}"),
+            "rod_interference" => format!("the rods {} are {amount} too close", number(part)),
+            "tilt" | "rotary" => format!("{part} is {amount} past the {end} end of its range"),
+            "table_clearance" if part == "tool" => format!("the tool is {amount} too close to the table"),
+            "table_clearance" => format!("the joint {} is {amount} too close to the table", number(part)),
+            "serial_singularity" => {
+                format!("rod {} is too close to a serial singularity, by {amount}", number(part))
+            }
+            "parallel_singularity" => {
+                format!("the platform is too close to a parallel singularity, by {amount}")
+            }
+            other => format!("{other} ({element}) is exceeded by {amount}"),
+        }
+    }
+}
+
+/// The number in a name: `2` in `slider2`, `11-31` in `rods11-31`.
+fn number(part: &str) -> &str {
+    part.trim_start_matches(|c: char| c.is_ascii_alphabetic())
+}
+
+/// A number with three significant digits, or its whole part.
+fn rounded(number: f64) -> String {
+    let digits = if number.abs() >= 100.0 {
+        0
+    } else if number.abs() >= 10.0 {
+        1
+    } else if number.abs() >= 1.0 {
+        2
+    } else if number.abs() >= 0.001 {
+        4
+    } else {
+        return if number == 0.0 { "0".to_owned() } else { format!("{number:.1e}") };
+    };
+    format!("{number:.digits$}")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use super::Limit;
+
+    #[test]
+    fn limits_are_said_in_words() {
+        for (constraint, element, margin, unit, words) in [
+            ("stroke", "slider2.min", -12.34, "mm", "slider 2 is 12.3 mm past the low end of its stroke"),
+            ("rotary", "theta2.max", -5.0, "deg", "theta2 is 5.00 degrees past the high end of its range"),
+            ("rod_interference", "rods11-31", -0.5, "mm", "the rods 11-31 are 0.5000 mm too close"),
+            ("leg_length", "leg3", -1234.5, "mm", "leg 3 is 1234 mm too short"),
+            ("leg_length", "leg1", f64::MIN, "mm", "the position is far out of reach"),
+            ("table_clearance", "joint21", -2e-5, "mm", "the joint 21 is 2.0e-5 mm too close to the table"),
+            (
+                "parallel_singularity",
+                "platform",
+                -0.02,
+                "1",
+                "the platform is too close to a parallel singularity, by 0.0200",
+            ),
+        ] {
+            let [constraint, element, unit] = [constraint, element, unit].map(str::to_owned);
+            assert_eq!(Limit { constraint, element, margin, unit }.in_words(), words);
+        }
+    }
+}

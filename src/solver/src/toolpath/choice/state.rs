@@ -1,0 +1,99 @@
+//! The states at one place: their joints, limits and costs.
+
+use super::cost::Cost;
+use crate::margins::Margins;
+use crate::toolpath::node::{Node, Setting, Target};
+
+/// How far the machine may move for a worst margin of the whole range until the limits are examined again.
+const WAY: f64 = 0.125;
+
+/// A state: h now and, inside a stretch, at its end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct State {
+    pub(super) h: [i32; 2],
+    pub(super) node: Option<Node>,
+    pub(super) reserve: Reserve,
+    pub(super) cost: Cost,
+    pub(super) parent: usize,
+    /// An earlier state that differs by whole turns of theta2 alone.
+    pub(super) twin: Option<usize>,
+}
+
+/// The limits but the rotary axis'.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reserve {
+    /// Whether they hold.
+    holds: bool,
+    /// How far the machine may move until they are examined again, as [`Node::way_from`].
+    way: f64,
+}
+
+impl Reserve {
+    pub(super) fn of(setting: &Setting<'_>, node: Option<&Node>, tool_length: f64) -> Self {
+        let fraction = node.map_or(-1.0, |node| {
+            let margins = Margins { rotary: None, ..setting.margins(node, tool_length) };
+            margins.worst_with_fraction(setting.machine).1
+        });
+        Self { holds: fraction >= 0.0, way: WAY * fraction }
+    }
+
+    /// The reserve after the machine has moved.
+    fn moved(self, setting: &Setting<'_>, [before, node]: [Option<&Node>; 2], tool_length: f64) -> Self {
+        if let (Some(before), Some(node)) = (before, node)
+            && self.holds
+        {
+            let way = self.way - node.way_from(before, setting.machine.longest());
+            if way > 0.0 {
+                return Self { holds: true, way };
+            }
+        }
+        Self::of(setting, node, tool_length)
+    }
+
+    /// The cost of a place with these limits.
+    pub(super) fn place_cost(self, setting: &Setting<'_>, node: Option<&Node>) -> Cost {
+        let [low, high] = setting.machine.limits().rotary;
+        let rotary_margin =
+            node.map_or(f64::NEG_INFINITY, |node| (node.table.theta2 - low).min(high - node.table.theta2));
+        let failing = if self.holds && rotary_margin >= 0.0 { 0.0 } else { 1.0 };
+        Cost { failing, turning: 0.0, rotary_margin, start: 0.0, is_turned: false }
+    }
+}
+
+/// Moves every state to a place; `target` is the pose there.
+pub(super) fn advance(
+    states: &mut [State],
+    setting: &Setting<'_>,
+    weights: [f64; 2],
+    tool_length: f64,
+    target: impl Fn([i32; 2]) -> Target,
+) {
+    for i in 0..states.len() {
+        let state = &states[i];
+        let target = target(state.h);
+        let (node, reserve) = if let Some(twin) = state.twin {
+            let twin = &states[twin];
+            (twin.node.map(|node| node.wound_to(target.pose.phi2)), twin.reserve)
+        } else {
+            let node = match &state.node {
+                Some(before) => setting.node_near(&target, tool_length, before).ok(),
+                None => setting.node(&target, tool_length, None).ok(),
+            };
+            let ends = [state.node.as_ref(), node.as_ref()];
+            (node, state.reserve.moved(setting, ends, tool_length))
+        };
+        let own = reserve.place_cost(setting, node.as_ref());
+        let from = node.as_ref().zip(state.node.as_ref());
+        let turning = from.map_or(0.0, |(node, from)| node.turning_from(from, weights));
+        let cost = state.cost.and(&own, turning);
+        let state = &mut states[i];
+        (state.node, state.reserve, state.cost) = (node, reserve, cost);
+    }
+}
+
+/// Whether two states differ by whole turns of theta2 only.
+pub(super) fn is_wound(a: &State, b: &State) -> bool {
+    let turns = [0, 1].map(|end| a.h[end] - b.h[end]);
+    let alpha = |state: &State| state.node.map(|node| node.pose.alpha.to_bits());
+    turns[0] == turns[1] && turns[0] % 2 == 0 && alpha(a) == alpha(b)
+}

@@ -1,0 +1,44 @@
+//! Kinematics through the public functions: counts, coordinates, margins, velocities, refusals; against the published
+//! reference sets, all solutions by brute force, and laws of the machine.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+// Shared code.
+#[path = "../support/lengths.rs"]
+mod lengths;
+#[path = "../support/machines.rs"]
+mod machines;
+/// All solutions by brute force, from the plain data of a machine, and tests of the oracle itself.
+mod oracle;
+#[path = "../support/random.rs"]
+mod random;
+/// The published reference sets of `tests/reference`.
+mod reference_cases;
+/// Random poses and sliders.
+mod requests;
+
+// Tests.
+mod arbitrary_numbers;
+mod axis;
+mod common_lift;
+mod conditioning;
+mod degenerate_angles;
+mod interference;
+mod invalid_machines;
+mod leg_limits;
+mod level_leg;
+mod margins;
+mod parallel_singularity;
+mod proportional_machine;
+mod proportions;
+mod reference_sets;
+mod round_trip;
+mod several_working_postures;
+mod solution_counts;
+mod symmetric_sliders;
+mod symmetry_plane;
+mod unreachable;
+mod velocities;
+mod windings;
+mod working_mode;
+mod worst_margin;
