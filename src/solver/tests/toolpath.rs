@@ -6,6 +6,9 @@
 //! - `pole`: paths along, through and to the pole.
 //! - `machines`: programs on machines unlike the reference machine, arcs, and rapids.
 //! - `limits`: what happens at limits: retracting, and changes that heal.
+//! - `timing`: times of rows.
+//! - `single_slider`: times of motions that are known in closed form.
+//! - `random_programs`: programs on machines unlike the built-in one.
 //! - `support`: programs, and the check of rows by the forward problem.
 
 #![allow(
@@ -31,5 +34,11 @@ mod machines;
 mod pole;
 #[path = "support/random.rs"]
 mod random;
+#[path = "toolpath/random_programs.rs"]
+mod random_programs;
+#[path = "toolpath/single_slider.rs"]
+mod single_slider;
 #[path = "toolpath/support.rs"]
 mod support;
+#[path = "toolpath/timing.rs"]
+mod timing;

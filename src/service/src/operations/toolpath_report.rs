@@ -15,6 +15,7 @@ use crate::wire::toolpath_report::{
     ChangeObject, DepartureObject, DeviationObject, FailureObject, FailurePlace, JointRanges, MarginObject,
     PathLengths, ToolpathLinks, ToolpathReport, TurningObject, Verdict,
 };
+use crate::wire::toolpath_time::TimeObject;
 
 /// Whether a report says that the machine can run the program.
 pub(crate) fn is_feasible(report: &[u8]) -> bool {
@@ -40,6 +41,7 @@ pub(crate) fn report(
     motions: &ProgramMotions,
     planned: &Report,
     changes: &[Option<Change>],
+    time: TimeObject,
 ) -> ToolpathReport {
     let [feed, rapid] = planned.length;
     let [theta1, theta2] = planned.turning.map(to_degrees);
@@ -61,6 +63,7 @@ pub(crate) fn report(
         failure_count: planned.failure_count,
         rows: planned.rows,
         length: PathLengths { feed, rapid },
+        time,
         margins: planned
             .least
             .iter()

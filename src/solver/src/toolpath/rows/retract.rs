@@ -1,6 +1,8 @@
 //! The tool leaves the part, the rotary axis turns by whole turns, and the tool returns the same way.
 
-use super::{Retraction, Row, RowKind, Rower};
+use nalgebra::Vector3;
+
+use super::{Retraction, Row, RowKind, RowPlace, Rower, Way};
 use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
 use crate::toolpath::choice::Chosen;
@@ -104,8 +106,10 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
 
     /// A row to which all joints move straight, with the margins on the way.
     fn straight_row(&mut self, index: usize, kind: RowKind, [from, to]: [&Node; 2], tool_length: f64) {
-        let at = position(self, to, tool_length);
-        self.row(index, kind, &at, to, tool_length);
+        let [before, at] = [from, to].map(|node| position(self, node, tool_length));
+        let length = (Vector3::from(at.tip) - Vector3::from(before.tip)).norm();
+        let way = Some(Way { fraction: 0.0, length, angle: (to.table.theta2 - from.table.theta2).abs() });
+        self.row(index, kind, &RowPlace { at, way, ends_track: true }, to, tool_length);
         let machine = self.setting.machine;
         let differentials = [from, to].map(|node| Differential::of(machine, &node.rods(machine)));
         if let [Some(first), Some(last)] = &differentials
