@@ -52,11 +52,16 @@ impl RowText for JointProgramText {
 pub(crate) fn check_durations(chunk: &[u8]) -> Result<(), OperationError> {
     for row in read_chunk(chunk) {
         let row = row?;
-        if row.kind != RowKind::Rapid && row.duration.is_none() {
+        if is_cut(row.kind) && row.duration.is_none() {
             return Err(operation_error(JointProgramError::NoDuration { line: row.line }));
         }
     }
     Ok(())
+}
+
+/// Whether the feed of the program counts.
+fn is_cut(kind: RowKind) -> bool {
+    matches!(kind, RowKind::Feed | RowKind::Inserted | RowKind::Turn)
 }
 
 fn joint_row(row: &StoredRow) -> JointRow {
@@ -64,7 +69,7 @@ fn joint_row(row: &StoredRow) -> JointRow {
     JointRow {
         step: row.index as usize,
         line: row.line,
-        rapid: row.kind == RowKind::Rapid,
+        rapid: !is_cut(row.kind),
         joints: [rho1, rho2, rho3, table.theta1, table.theta2],
         tip: row.position.tip,
         duration: row.duration,

@@ -39,8 +39,8 @@ impl ToolpathLines {
             let row = row?;
             let stroke = match row.kind {
                 _ if self.is_empty => Stroke::None,
-                RowKind::Rapid => Stroke::Plain,
-                _ => Stroke::Coloured,
+                RowKind::Feed | RowKind::Inserted | RowKind::Turn => Stroke::Coloured,
+                _ => Stroke::Plain,
             };
             self.is_empty = false;
             // Beyond its range, a margin has the colour of the end.
