@@ -60,7 +60,7 @@ pub(crate) fn check_durations(chunk: &[u8]) -> Result<(), OperationError> {
 }
 
 /// Whether the feed of the program counts.
-fn is_cut(kind: RowKind) -> bool {
+pub(crate) fn is_cut(kind: RowKind) -> bool {
     matches!(kind, RowKind::Feed | RowKind::Inserted | RowKind::Turn)
 }
 

@@ -3,8 +3,8 @@
 use serde_json::json;
 use verne_mesh::glb::{self, Options, Up};
 use verne_mesh::{ColourScale, PathBuilder, Stroke, Swatch};
-use verne_solver::toolpath::RowKind;
 
+use crate::operations::joint_program::is_cut;
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_rows::read_chunk;
 use crate::wire::error::OperationError;
@@ -39,7 +39,7 @@ impl ToolpathLines {
             let row = row?;
             let stroke = match row.kind {
                 _ if self.is_empty => Stroke::None,
-                RowKind::Feed | RowKind::Inserted | RowKind::Turn => Stroke::Coloured,
+                kind if is_cut(kind) => Stroke::Coloured,
                 _ => Stroke::Plain,
             };
             self.is_empty = false;

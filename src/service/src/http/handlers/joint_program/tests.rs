@@ -119,7 +119,7 @@ async fn the_path_is_a_glb_in_the_frame_of_the_part() {
     let primitive = &document["meshes"][0]["primitives"][0];
     assert_eq!(primitive["mode"], json!(1));
     // The rows that the report counts.
-    let positions = primitive["attributes"]["POSITION"].as_u64().unwrap() as usize;
+    let positions = usize::try_from(primitive["attributes"]["POSITION"].as_u64().unwrap()).unwrap();
     assert_eq!(document["accessors"][positions]["count"], report["rows"]);
     let (status, problem) = refusal(&service, &format!("{path}?least=0.5&greatest=0.5")).await;
     assert_eq!(status, StatusCode::UNPROCESSABLE_ENTITY);
