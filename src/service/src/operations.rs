@@ -40,6 +40,7 @@ pub(crate) mod nearest;
 pub(crate) mod observers;
 pub(crate) mod part_row;
 pub(crate) mod program_motions;
+pub(crate) mod program_pace;
 pub(crate) mod programs;
 pub(crate) mod question;
 pub(crate) mod question_cache;

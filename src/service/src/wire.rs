@@ -47,6 +47,7 @@ pub(crate) mod toolpath_path;
 pub(crate) mod toolpath_query;
 pub(crate) mod toolpath_report;
 pub(crate) mod toolpath_row;
+pub(crate) mod toolpath_time;
 pub(crate) mod workspace;
 pub(crate) mod workspace_query;
 pub(crate) mod workspace_summary;

@@ -38,8 +38,8 @@ impl Machine {
     /// # Errors
     ///
     /// Every invalid field, each with the path of its field, such as `limits/stroke/0`. A machine needs finite numbers,
-    /// positive lengths, ordered ranges, positive velocities and accelerations, D1 - d1 different from D2 - d2, R1 greater than r1, and a home posture in the
-    /// working mode away from parallel singularity.
+    /// positive lengths, ordered ranges, positive velocities and accelerations, D1 - d1 different from D2 - d2, R1
+    /// greater than r1, and a home posture in the working mode away from parallel singularity.
     ///
     /// # References
     ///

@@ -1,7 +1,8 @@
 //! Tool paths: from the motions of a program to joint motion.
 //!
 //! [`plan`] chooses preimage, winding and working solution for a whole program, divides the motions into rows between
-//! which a controller may move the joints linearly, and reports where the machine's limits are broken.
+//! which a controller may move the joints linearly, and reports where the machine's limits are broken. [`Timer`] finds
+//! the times of the rows.
 
 mod azimuth;
 mod bound;
@@ -18,6 +19,7 @@ mod path;
 mod report;
 mod rows;
 mod stretches;
+mod timing;
 mod tool_motion;
 
 use std::fmt;
@@ -25,7 +27,8 @@ use std::fmt;
 pub use joint_segment::Deviation;
 pub use motion::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
 pub use report::{Departure, Failure, LeastMargin, MOST_DEPARTURES, MOST_FAILURES, Report};
-pub use rows::{Row, RowKind};
+pub use rows::{Row, RowKind, Way};
+pub use timing::{Feed, Governor, Pace, TimedRow, Timer, Times};
 
 use crate::machine::Machine;
 use crate::pose::TableAngles;

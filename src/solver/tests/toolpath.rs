@@ -4,6 +4,9 @@
 //! - `choices`: preimages and windings of whole programs.
 //! - `drives`: velocities that are refused, and what drives change in a plan.
 //! - `pole`: paths along, through and to the pole.
+//! - `timing`: times of rows.
+//! - `single_slider`: times of motions that are known in closed form.
+//! - `random_programs`: programs on machines unlike the built-in one.
 //! - `support`: programs, and the check of rows by the forward problem.
 
 #![allow(
@@ -25,5 +28,11 @@ mod lines;
 mod pole;
 #[path = "support/random.rs"]
 mod random;
+#[path = "toolpath/random_programs.rs"]
+mod random_programs;
+#[path = "toolpath/single_slider.rs"]
+mod single_slider;
 #[path = "toolpath/support.rs"]
 mod support;
+#[path = "toolpath/timing.rs"]
+mod timing;

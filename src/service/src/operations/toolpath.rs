@@ -4,15 +4,17 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use verne_program::Program;
-use verne_solver::toolpath::{PlanError, Row, plan};
+use verne_solver::toolpath::{PlanError, TimedRow, Timer, plan};
 use verne_solver::workspace::Observer;
 
+use crate::operations::program_pace::ProgramPace;
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_report::report;
 use crate::operations::toolpath_rows::RowWriter;
 use crate::operations::toolpath_rows::row_bytes::StoredRow;
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::json::write_json;
+use crate::wire::toolpath_time::TimeObject;
 
 /// About the bytes of a report.
 const REPORT_BYTES: usize = 4096;
@@ -46,17 +48,24 @@ pub(crate) fn compute_toolpath(
         observer.progress(fraction);
         !observer.cancelled() && !has_failed.get()
     };
-    let emit = |row: &Row| {
+    let write = |timed: &TimedRow| {
         if written.is_ok() {
-            written = writer.push(&StoredRow::new(row, program, None));
+            written = writer.push(&StoredRow::new(&timed.row, program, timed.duration));
             has_failed.set(written.is_err());
         }
     };
-    let planned = plan(&question.machine, &motions, &question.plan_options(), progress, emit);
+    let mut pace = ProgramPace::new(program);
+    let mut timer =
+        Timer::new(question.machine.data().drives, question.cycle(), |index| pace.of(index), write);
+    let planned =
+        plan(&question.machine, &motions, &question.plan_options(), progress, |row| timer.push(row));
+    let planned = planned.map_err(plan_error);
+    let times = planned.is_ok().then(|| timer.finish());
     written?;
-    let planned = planned.map_err(plan_error)?;
+    let planned = planned?;
     writer.finish()?;
-    let mut report = report(question, &motions, &planned);
+    let time = TimeObject::new(&times.unwrap_or_default(), pace.waits());
+    let mut report = report(question, &motions, &planned, time);
     let mut failing: Vec<u32> = report.failures.iter().map(|failure| failure.lines[0]).collect();
     failing.sort_unstable();
     failing.dedup();

@@ -1,9 +1,11 @@
 //! A checked question about a tool path.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use verne_program::{Program, ProgramErrors, WorkOffset};
+use verne_solver::machine::Drive;
 use verne_solver::toolpath::{Deviation, PlanOptions};
 use verne_solver::{MAX_INPUT, TableAngles};
 
@@ -30,6 +32,10 @@ const TOLERANCES: [(&str, [f64; 2], &str); 3] = [
     ("/tolerance/axis", [1e-5, 10.0], "degrees"),
     ("/tolerance/rapid", [1e-5, 1000.0], "mm"),
 ];
+
+/// Seconds in which the velocities of drives may change at corners: shortest and longest, and the default.
+const CYCLES: RangeInclusive<f64> = 1e-6..=1.0;
+const DEFAULT_CYCLE: f64 = 0.004;
 
 /// Most tools in a table of lengths.
 const MOST_TOOLS: usize = 1000;
@@ -66,6 +72,10 @@ impl CheckedToolpath {
         check_frames(request, &mut faults);
         check_tools(request, &mut faults);
         check_tolerances(request, &mut faults);
+        if request.cycle.is_some_and(|cycle| !CYCLES.contains(&cycle)) {
+            let detail = format!("must be a number from {:e} to {} s", CYCLES.start(), CYCLES.end());
+            faults.add("/cycle", detail);
+        }
         if let Some(start) = &request.start {
             faults.lengths("/start/rho", start.rho.as_ref().map_or(&[][..], |rho| &rho.0[..]));
             faults.angle("/start/theta1", Some(start.theta1));
@@ -108,6 +118,11 @@ impl ToolpathQuestion {
     /// The motions of the program.
     pub(crate) fn motions(&self, program: &Arc<Program>) -> Result<ProgramMotions, ProgramErrors> {
         ProgramMotions::new(Arc::clone(program), &self.request, &self.machine)
+    }
+
+    /// Seconds in which the velocities of drives may change at corners.
+    pub(crate) fn cycle(&self) -> f64 {
+        self.request.cycle.unwrap_or(DEFAULT_CYCLE)
     }
 
     /// What the plan keeps to.
@@ -217,6 +232,9 @@ fn canonical(request: &ToolpathRequest, machine: &IdentifiedMachine) -> Canonica
         }
         None => None,
     };
+    let drives = machine.data().drives;
+    let accelerates = |drive: &Drive| drive.acceleration.is_some();
+    let is_accelerating = drives.is_some_and(|drives| drives.of_joints().iter().any(accelerates));
     CanonicalToolpath {
         program: ResultId::from(blake3::Hash::from([0; 32])),
         setup: positive_zeros(&request.setup),
@@ -237,7 +255,8 @@ fn canonical(request: &ToolpathRequest, machine: &IdentifiedMachine) -> Canonica
             .start
             .map(|start| TableStart { theta1: start.theta1 + 0.0, theta2: start.theta2 + 0.0 }),
         table_clearance,
-        drives: machine.data().drives.as_ref().map(Into::into),
+        drives: drives.as_ref().map(Into::into),
+        cycle: is_accelerating.then(|| request.cycle.unwrap_or(DEFAULT_CYCLE)),
         on_limit: request.on_limit,
     }
 }

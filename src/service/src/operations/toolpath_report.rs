@@ -13,6 +13,7 @@ use crate::wire::toolpath_report::{
     DepartureObject, DeviationObject, FailureObject, FailurePlace, JointRanges, MarginObject, PathLengths,
     ToolpathLinks, ToolpathReport, TurningObject, Verdict,
 };
+use crate::wire::toolpath_time::TimeObject;
 
 /// Whether a report says that the machine can run the program.
 pub(crate) fn is_feasible(report: &[u8]) -> bool {
@@ -37,6 +38,7 @@ pub(crate) fn report(
     question: &ToolpathQuestion,
     motions: &ProgramMotions,
     planned: &Report,
+    time: TimeObject,
 ) -> ToolpathReport {
     let [feed, rapid] = planned.length;
     let [theta1, theta2] = planned.turning.map(to_degrees);
@@ -53,6 +55,7 @@ pub(crate) fn report(
         failure_count: planned.failure_count,
         rows: planned.rows,
         length: PathLengths { feed, rapid },
+        time,
         margins: planned
             .least
             .iter()

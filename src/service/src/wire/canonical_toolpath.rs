@@ -59,6 +59,11 @@ pub(crate) struct CanonicalToolpath {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub drives: Option<DrivesObject>,
+    /// Seconds in which the velocity of a drive may change at a corner. Only machines whose drives have accelerations
+    /// have it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub cycle: Option<f64>,
     /// What happens where the machine cannot follow a cut.
     pub on_limit: OnLimitName,
 }

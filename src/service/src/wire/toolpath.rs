@@ -75,6 +75,11 @@ pub(crate) struct ToolpathRequest {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7)]
     pub table_clearance: Option<f64>,
+    /// Cycle of the controller, s: at a corner of the path the velocity of each drive changes by at most what its
+    /// acceleration changes in this time. Only a machine with accelerations in `drives` uses it. The default is 0.004.
+    #[serde(default)]
+    #[schema(minimum = 1e-6, maximum = 1)]
+    pub cycle: Option<f64>,
     /// What happens where the machine cannot follow a cut.
     #[serde(default)]
     pub on_limit: OnLimitName,

@@ -90,6 +90,11 @@ pub(crate) struct ToolpathQuery {
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
+    /// Cycle of the controller, s: at a corner of the path the velocity of each drive changes by at most what its
+    /// acceleration changes in this time. Only a machine with accelerations in `drives` uses it. The default is 0.004.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = 1e-6, maximum = 1, nullable = false)]
+    pub cycle: Option<f64>,
     /// What happens where the machine cannot follow a cut.
     #[serde(default)]
     #[arg(long, default_value = "fail")]
@@ -132,6 +137,7 @@ impl ToolpathQuery {
             rapids: self.rapids,
             start: self.start.map(|start| start.0.0),
             table_clearance: self.table_clearance,
+            cycle: self.cycle,
             on_limit: self.on_limit,
         }
     }

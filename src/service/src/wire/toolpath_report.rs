@@ -12,6 +12,7 @@ use crate::wire::fixed_array::{Pair, Triple};
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::program::WarningObject;
 use crate::wire::result_id::ResultId;
+use crate::wire::toolpath_time::TimeObject;
 
 /// Most characters of a line's text.
 const TEXT_CHARACTERS: usize = 200;
@@ -40,6 +41,8 @@ pub(crate) struct ToolpathReport {
     pub rows: u64,
     /// Lengths of the tip's path.
     pub length: PathLengths,
+    /// How long the program takes.
+    pub time: TimeObject,
     /// The least margin of each constraint over the whole program.
     pub margins: Vec<MarginObject>,
     /// Least and greatest position of each joint; null if no point has a solution.

@@ -63,8 +63,8 @@ impl Drives {
         [self.slider, self.slider, self.slider, self.tilt, self.rotary]
     }
 
-    /// What turning of theta1 and theta2 by a radian costs: time, relative to the faster of both drives. So equal drives
-    /// weigh 1, as those of a machine without drives.
+    /// What turning of theta1 and theta2 by a radian costs: time, relative to the faster of both drives. So equal
+    /// drives weigh 1, as those of a machine without drives.
     pub(crate) fn turning_weights(&self) -> [f64; 2] {
         let fastest = self.tilt.velocity.max(self.rotary.velocity);
         [self.tilt, self.rotary].map(|drive| fastest / drive.velocity)

@@ -158,6 +158,15 @@ impl Path {
         }
     }
 
+    /// Angle that the axis moves through, rad: the hypotenuse of the changes of phi1 and phi2 where these are linear.
+    pub(super) fn angle(&self) -> f64 {
+        match self.axis {
+            AxisPath::Fixed => 0.0,
+            AxisPath::GreatCircle { angle, .. } => angle,
+            AxisPath::Angles { start, end, .. } => (end[0] - start[0]).hypot(end[1] - start[1]),
+        }
+    }
+
     /// Angle of the arc, rad; zero for a line.
     pub(super) fn sweep(&self) -> f64 {
         match self.tip {

@@ -46,6 +46,45 @@ pub struct Row {
     pub table: TableAngles,
     /// The worst margin.
     pub margin: Margin,
+    /// The way from the row before to this one. `None`: the machine arrives from anywhere.
+    pub way: Option<Way>,
+    /// Whether a smooth track of the joints ends here: at the end of a motion, and where phi2 begins to follow another
+    /// rule.
+    pub ends_track: bool,
+}
+
+/// The part of a motion's path that leads from one row to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Way {
+    /// Change of the path parameter; all of a motion is 1, and so is all of a turn at the pole.
+    pub fraction: f64,
+    /// Length of the path of the tool's end, mm. Joints that move straight in a rapid leave this path.
+    pub length: f64,
+    /// Angle that the axis moves through, rad: along the great circle, or the hypotenuse of the changes of phi1 and
+    /// phi2 where these are linear. In a turn at the pole that of theta2.
+    pub angle: f64,
+}
+
+/// Where a row is on the program's path.
+pub(super) struct RowPlace {
+    pub(super) at: ToolPosition,
+    /// `None`: the machine does not follow the path to this place.
+    pub(super) way: Option<Way>,
+    pub(super) ends_track: bool,
+}
+
+impl RowPlace {
+    /// The end of a motion, which the machine reaches from anywhere.
+    pub(super) fn of_arrival(at: ToolPosition) -> Self {
+        Self { at, way: None, ends_track: true }
+    }
+
+    /// A place that the machine reaches along the path from the parameter `from`; the track ends at `end`.
+    pub(super) fn on(path: &Path, from: f64, s: f64, end: f64) -> Self {
+        let fraction = s - from;
+        let way = Way { fraction, length: path.length() * fraction, angle: path.angle() * fraction };
+        Self { at: path.at(s), way: Some(way), ends_track: s >= end }
+    }
 }
 
 /// Tolerances and mode of a program's rows.
@@ -190,7 +229,7 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         &mut self,
         index: usize,
         kind: RowKind,
-        at: &ToolPosition,
+        place: &RowPlace,
         node: &Node,
         tool_length: f64,
     ) {
@@ -198,10 +237,19 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         let (margin, fraction) = self.meet(index, (node, tool_length), &margins);
         let ([s1, c1], [s2, c2]) = (node.turns.inclination(), node.turns.rotary);
         // phi2 = -theta2.
-        let position = ToolPosition { tip: at.tip, axis: [-s1 * s2, -s1 * c2, c1] };
+        let position = ToolPosition { tip: place.at.tip, axis: [-s1 * s2, -s1 * c2, c1] };
         let inclination = angle_of(c1, s1);
         self.report.add_row(node, self.now.as_ref(), inclination);
-        (self.emit)(&Row { motion: index, kind, position, rho: node.rho, table: node.table, margin });
+        (self.emit)(&Row {
+            motion: index,
+            kind,
+            position,
+            rho: node.rho,
+            table: node.table,
+            margin,
+            way: place.way.filter(|_| self.now.is_some()),
+            ends_track: place.ends_track,
+        });
         (self.now, self.margin) = (Some(*node), Some(fraction));
     }
 }

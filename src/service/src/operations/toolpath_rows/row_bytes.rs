@@ -49,7 +49,7 @@ pub(crate) struct StoredRow {
 impl StoredRow {
     /// A row of a program's plan.
     pub(crate) fn new(row: &Row, program: &Program, duration: Option<f64>) -> Self {
-        let Row { motion, kind, position, rho, table, margin } = *row;
+        let Row { motion, kind, position, rho, table, margin, .. } = *row;
         let line = program.moves().get(motion).map_or(0, Move::line);
         let index = u32::try_from(motion).unwrap_or(u32::MAX);
         Self { line, index, kind, position, rho, table, duration, margin }

@@ -1,6 +1,6 @@
 //! Feed motions.
 
-use super::{Row, RowKind, Rower};
+use super::{Row, RowKind, RowPlace, Rower};
 use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
 use crate::toolpath::joint_segment::{Stop, Track};
@@ -64,7 +64,8 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             self.rows_between(index, motion, &track, [now, end], RowKind::Feed);
         } else {
             self.survey(index, &track);
-            self.row(index, RowKind::Feed, &path.at(span.to), &end, motion.tool_length);
+            let place = RowPlace::on(path, span.from, span.to, span.to);
+            self.row(index, RowKind::Feed, &place, &end, motion.tool_length);
         }
     }
 
@@ -80,15 +81,22 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let stops = [Stop { s: start, node: ends[0] }, Stop { s: end, node: ends[1] }];
         let (feed, mut bend) = (self.settings.feed, self.bends[0]);
         if track.path.is_point() && kind != RowKind::Turn {
-            self.row(index, kind, &track.path.at(end), &ends[1], motion.tool_length);
+            let place = RowPlace::on(track.path, start, end, end);
+            self.row(index, kind, &place, &ends[1], motion.tool_length);
             return;
         }
+        let mut from = start;
         let result = linearise(track, stops[0], &stops[1], &feed, &mut bend, |stop, segment, deviation| {
             let is_end = stop.s >= 1.0;
             let kind = if kind == RowKind::Feed && !is_end { RowKind::Inserted } else { kind };
             self.report.deviation = self.report.deviation.with(deviation);
             let before = self.margin;
-            self.row(index, kind, &track.path.at(stop.s), &stop.node, motion.tool_length);
+            let mut place = RowPlace::on(track.path, from, stop.s, end);
+            if let (RowKind::Turn, Some(way), Some(now)) = (kind, &mut place.way, &self.now) {
+                way.angle = (stop.node.table.theta2 - now.table.theta2).abs();
+            }
+            from = stop.s;
+            self.row(index, kind, &place, &stop.node, motion.tool_length);
             let least = before.unwrap_or(f64::INFINITY).min(self.margin.unwrap_or(f64::INFINITY));
             if let Some(segment) = segment.filter(|_| least < GUARD) {
                 self.examine(index, segment, motion.tool_length);
@@ -123,7 +131,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
     ) {
         self.survey(index, track);
         self.refuse(index, track.target(s).pose, refusal);
-        let position = track.path.at(track.span.to);
-        self.row(index, RowKind::Feed, &position, end, motion.tool_length);
+        let place = RowPlace::of_arrival(track.path.at(track.span.to));
+        self.row(index, RowKind::Feed, &place, end, motion.tool_length);
     }
 }

@@ -1,6 +1,6 @@
 //! Rapids, and positions that are reached from anywhere.
 
-use super::{Row, RowKind, Rower};
+use super::{Row, RowKind, RowPlace, Rower};
 use crate::pose::PartPose;
 use crate::table::part_pose;
 use crate::toolpath::choice::Chosen;
@@ -19,16 +19,23 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let chosen = self.next_choice();
         self.change_to(chosen);
         self.now = None;
-        self.go_straight(index, motion, spans, chosen);
+        self.go_straight(index, motion, spans, &RowPlace::of_arrival(motion.end), chosen);
     }
 
     /// Moves all joints straight to the end of a motion.
-    fn go_straight(&mut self, index: usize, motion: &Motion, spans: &[Span], chosen: Chosen) {
+    fn go_straight(
+        &mut self,
+        index: usize,
+        motion: &Motion,
+        spans: &[Span],
+        place: &RowPlace,
+        chosen: Chosen,
+    ) {
         let Some(span) = spans.last() else { return };
         let target = self.setting.target(span, 1.0, &motion.end, chosen.h);
         match self.setting.node(&target, motion.tool_length, chosen.alpha) {
             Ok(node) => {
-                self.row(index, RowKind::Rapid, &motion.end, &node, motion.tool_length);
+                self.row(index, RowKind::Rapid, place, &node, motion.tool_length);
             }
             Err(refusal) => {
                 self.refuse(index, target.pose, refusal);
@@ -46,7 +53,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             return;
         }
         let before = self.now;
-        self.go_straight(index, motion, spans, chosen);
+        self.go_straight(index, motion, spans, &RowPlace::on(path, 0.0, 1.0, 1.0), chosen);
         if let (Some(before), Some(after)) = (before, self.now) {
             self.depart(index, motion, path, &before, &after);
         }
@@ -62,14 +69,14 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         chosen: Chosen,
     ) -> bool {
         let Some(mut now) = self.now else { return false };
-        let (mut rows, mut bend): (Vec<(f64, Node)>, _) = (Vec::new(), self.bends[1]);
+        let (mut rows, mut bend): (Vec<(f64, f64, Node)>, _) = (Vec::new(), self.bends[1]);
         for span in spans {
             let track = self.track(path, *span, motion.tool_length);
             let Ok(end) = track.node(span.to, Some(&now)) else { return false };
             let stops = [Stop { s: span.from, node: now }, Stop { s: span.to, node: end }];
             let result =
                 linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _| {
-                    rows.push((stop.s, stop.node));
+                    rows.push((stop.s, span.to, stop.node));
                 });
             if result.is_err() {
                 return false;
@@ -81,11 +88,13 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             return false;
         }
         if rows.is_empty() {
-            rows.push((1.0, now));
+            rows.push((1.0, 1.0, now));
         }
         self.bends[1] = bend;
-        for (s, node) in rows {
-            self.row(index, RowKind::Rapid, &path.at(s), &node, motion.tool_length);
+        let mut from = 0.0;
+        for (s, end, node) in rows {
+            self.row(index, RowKind::Rapid, &RowPlace::on(path, from, s, end), &node, motion.tool_length);
+            from = s;
         }
         true
     }

@@ -1,5 +1,7 @@
 //! What users of `/toolpath` rely on.
 
+mod time;
+
 use axum::body::{Body, to_bytes};
 use axum::http::header::{CONTENT_TYPE, LOCATION};
 use axum::http::{HeaderMap, Request, StatusCode};
@@ -7,6 +9,7 @@ use clap::{Args, Command, FromArgMatches};
 use serde_json::{Value, json};
 use tower::ServiceExt;
 
+use crate::operations::toolpath_rows::row_bytes::StoredRow;
 use crate::operations::toolpath_rows::{chunk_count, chunk_name, read_chunk};
 use crate::process::config::ServeConfig;
 use crate::process::service::Service;
@@ -46,6 +49,16 @@ async fn get(service: &Service, path: &str) -> (StatusCode, Value) {
     (status, json)
 }
 
+async fn rows_of(service: &Service, report: &Value) -> Vec<StoredRow> {
+    let id = report["id"].as_str().unwrap().parse().unwrap();
+    let mut rows = Vec::new();
+    for chunk in 0..chunk_count(report["rows"].as_u64().unwrap()) {
+        let chunk = service.state.results.blob(id, &chunk_name(chunk)).await.unwrap();
+        rows.extend(read_chunk(&chunk.bytes).map(Result::unwrap));
+    }
+    rows
+}
+
 #[tokio::test]
 async fn a_file_becomes_rows_and_a_report() {
     let service = service().await;
@@ -58,12 +71,7 @@ async fn a_file_becomes_rows_and_a_report() {
     // A single segment would bend the line by 17 mm; the longest steps need 43.
     let count = report["rows"].as_u64().unwrap();
     assert!((44..=57).contains(&count), "{count}");
-    let id = report["id"].as_str().unwrap().parse().unwrap();
-    let mut rows = Vec::new();
-    for chunk in 0..chunk_count(count) {
-        let chunk = service.state.results.blob(id, &chunk_name(chunk)).await.unwrap();
-        rows.extend(read_chunk(&chunk.bytes).map(Result::unwrap));
-    }
+    let rows = rows_of(&service, &report).await;
     assert_eq!(rows.len() as u64, count);
     assert_eq!((rows[0].line, rows[0].position.tip), (3, [-150.0, 0.0, 300.0]));
     let last = rows.last().unwrap();
