@@ -9,8 +9,8 @@
 //! | [`openapi`] | the committed OpenAPI document and its examples |
 //!
 //! Tests of one crate are in that crate: kinematics against a brute-force oracle and the published reference sets,
-//! workspaces and tool paths in `src/solver/tests`, jobs at a broker in `src/jobs/tests`. Scripts that need processes, other programs or a browser are in `tests/python`,
-//! `tests/load`, `tests/gltf` and `tests/browser`.
+//! workspaces and tool paths in `src/solver/tests`, jobs at a broker in `src/jobs/tests`. Scripts that need processes,
+//! other programs or a browser are in `tests/python`, `tests/load`, `tests/gltf` and `tests/browser`.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 

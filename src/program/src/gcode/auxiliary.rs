@@ -119,7 +119,7 @@ pub(crate) fn path_control(
     let Some(word) = codes.word(Group::PathControl) else { return Ok(()) };
     let parameters = [b'P', b'Q'].into_iter().filter_map(|letter| block.take(letter));
     let text = parameters.fold(word.text.to_owned(), |text, word| text + " " + word.text);
-    add(state, block, EventKind::Other, &text)
+    add(state, block, EventKind::Insert, &text)
 }
 
 fn spindle(state: &mut State, block: &Block<'_>, codes: &Codes<'_, '_>) -> Result<(), ProgramError> {
@@ -168,7 +168,7 @@ fn pass_on(
             text = text + " " + parameter.text;
         }
     }
-    add(state, block, EventKind::Other, &text)
+    add(state, block, EventKind::Insert, &text)
 }
 
 fn add(state: &mut State, block: &Block<'_>, kind: EventKind, text: &str) -> Result<(), ProgramError> {

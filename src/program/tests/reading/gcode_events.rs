@@ -56,7 +56,7 @@ fn codes_for_the_controller_are_passed_on() {
     let texts: Vec<_> = program
         .events()
         .iter()
-        .filter(|event| event.kind == EventKind::Other)
+        .filter(|event| event.kind == EventKind::Insert)
         .map(|event| (event.line, &*event.text))
         .collect();
     assert_eq!(texts, [(2, "G64 P0.01"), (3, "G61"), (4, "M451"), (5, "M66 P1 Q5 L3"), (6, "M123")]);
