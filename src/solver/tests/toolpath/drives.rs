@@ -11,6 +11,8 @@ fn drives() -> Drives {
     Drives { slider: drive(400.0), tilt: drive(1.0), rotary: drive(2.0) }
 }
 
+type Choice = fn(&mut Drives) -> &mut Drive;
+
 fn with(drives: Drives) -> Result<Machine, Vec<String>> {
     let mut data = Machine::verne().data().clone();
     data.drives = Some(drives);
@@ -20,7 +22,7 @@ fn with(drives: Drives) -> Result<Machine, Vec<String>> {
 #[test]
 fn drives_that_cannot_move_are_refused_by_name() {
     assert!(with(drives()).is_ok());
-    let changes: [(&str, fn(&mut Drives) -> &mut Drive); 3] =
+    let changes: [(&str, Choice); 3] =
         [("slider", |d| &mut d.slider), ("tilt", |d| &mut d.tilt), ("rotary", |d| &mut d.rotary)];
     for (name, drive) in changes {
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
