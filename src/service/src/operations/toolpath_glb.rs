@@ -4,7 +4,6 @@ use serde_json::json;
 use verne_mesh::glb::{self, Options, Up};
 use verne_mesh::{ColourScale, PathBuilder, Stroke, Swatch};
 
-use crate::operations::joint_program::is_cut;
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_rows::read_chunk;
 use crate::wire::error::OperationError;
