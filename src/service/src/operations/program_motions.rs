@@ -14,7 +14,7 @@ use verne_solver::toolpath::{Curve, Motion, MotionKind, Motions, ToolPosition, T
 
 use crate::operations::program_motions::check::check_motions;
 use crate::operations::program_motions::frame::Frame;
-use crate::operations::program_motions::sections::{Begins, Section, Sections};
+use crate::operations::program_motions::sections::{Section, Sections};
 use crate::wire::canonical_toolpath::CanonicalToolpath;
 use crate::wire::program::WarningObject;
 use crate::wire::toolpath::OrientationName;
@@ -95,12 +95,7 @@ impl Motions for ProgramMotions {
         let end = &self.program.moves()[index];
         let before = index.checked_sub(1).map(|before| &self.program.moves()[before]);
         let is_feed = end.kind() == MoveKind::Feed;
-        let arrives = section.first as usize == index
-            && match section.begins {
-                Begins::Anywhere => true,
-                // A rapid ends a cut by itself.
-                Begins::AfterCut => is_feed,
-            };
+        let arrives = section.first as usize == index;
         let position = ToolPosition { tip: frame.point(end.tip()), axis: frame.direction(end.axis()) };
         let (kind, curve, turning) = match before {
             Some(start) if !arrives => {

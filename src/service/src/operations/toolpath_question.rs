@@ -37,6 +37,7 @@ const TOLERANCES: [(&str, [f64; 2], &str); 3] = [
 
 /// How far the tool leaves the part, if the request does not say, mm.
 const CLEARANCE: f64 = 50.0;
+const LEAST_CLEARANCE: f64 = 0.1;
 /// Seconds in which the velocities of drives may change at corners: shortest and longest, and the default.
 const CYCLES: RangeInclusive<f64> = 1e-6..=1.0;
 const DEFAULT_CYCLE: f64 = 0.004;
@@ -234,8 +235,11 @@ fn check_retraction(request: &ToolpathRequest, faults: &mut FieldErrors) {
             Some(_) if request.on_limit != OnLimitName::Retract => {
                 faults.add(pointer, "is allowed only with on_limit retract");
             }
-            Some(value) if pointer == "/clearance" && !is_tool_length(value) => {
-                faults.add(pointer, format!("must be a number from 0 to {MAX_INPUT:e} mm"));
+            // Nearer to the part, the turn of the table would cut a circle into it.
+            Some(value)
+                if pointer == "/clearance" && !(is_tool_length(value) && value >= LEAST_CLEARANCE) =>
+            {
+                faults.add(pointer, format!("must be a number from {LEAST_CLEARANCE} to {MAX_INPUT:e} mm"));
             }
             Some(value) => faults.length(pointer, value),
             None => {}

@@ -86,10 +86,10 @@ pub(crate) struct ToolpathRequest {
     /// How far the tool leaves the part along its axis, and how far above the program's highest point it turns with the
     /// table, mm. The default is 50. Only with `on_limit: "retract"`.
     #[serde(default)]
-    #[schema(minimum = 0, maximum = 1e7)]
+    #[schema(minimum = 0.1, maximum = 1e7)]
     pub clearance: Option<f64>,
-    /// Height of the tool's end in the part frame at which the table turns, mm. The default is `clearance` above the
-    /// program's highest point. Only with `on_limit: "retract"`.
+    /// Height of the tool's end in the part frame at which the table turns, mm; at least that of the program's highest
+    /// point. The default is `clearance` above it. Only with `on_limit: "retract"`.
     #[serde(default)]
     #[schema(minimum = -1e7, maximum = 1e7)]
     pub retract_z: Option<f64>,

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use verne_program::{Event, EventKind, LengthSource, Program, ProgramError, ProgramErrors, WorkOffset};
+use verne_program::{
+    Event, EventKind, LengthSource, MoveKind, Program, ProgramError, ProgramErrors, WorkOffset,
+};
 
 use crate::operations::program_motions::frame::Frame;
 use crate::operations::program_motions::tool_lengths::{Length, LengthRule};
@@ -16,16 +18,8 @@ pub(crate) const MOST_FAULTS: usize = 20;
 /// Most characters of a statement in a fault.
 const WORD_CHARACTERS: usize = 64;
 
-/// How the first move of a section begins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Begins {
-    /// Where the move before ended, but not within its cut.
-    AfterCut,
-    /// At an unknown place: the tool has been changed, or the machine has been elsewhere.
-    Anywhere,
-}
-
-/// A run of moves with one tool length and one frame.
+/// A run of moves with one tool length and one frame. Its first move begins at an unknown place: the tool or the origin
+/// has changed, or the machine has been elsewhere.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Section {
     /// Index of its first move.
@@ -34,8 +28,6 @@ pub(crate) struct Section {
     pub(crate) frame: u32,
     /// Distance from P to the point that the program moves, mm.
     pub(crate) tool_length: f64,
-    /// How its first move begins.
-    pub(crate) begins: Begins,
 }
 
 /// The sections of a program.
@@ -65,45 +57,48 @@ impl Sections {
         let origins = Origins::of(request);
         let mut divider = Divider::new(program, request);
         let mut state = State { length: rule.initial(), frame: origins.get(WorkOffset::default()), by: None };
-        divider.begin(0, &state, Begins::Anywhere);
+        divider.begin(0, &state);
         for event in program.events() {
             let before = state.clone();
-            let Some(begins) = state.apply(event, &rule, &origins) else { continue };
+            if !state.apply(event, &rule, &origins) {
+                continue;
+            }
             if state != before {
                 state.by = Some((event.line, event.text.as_ref().into()));
             }
-            divider.begin(event.before, &state, begins);
+            divider.begin(event.before, &state);
         }
-        let warnings = warnings(program, &rule);
-        divider.end().map(|list| Self { list, frames: origins.frames, warnings })
+        let list = divider.end()?;
+        let mut warnings = length_warnings(program, &rule);
+        warnings.extend(unchecked_ways(program, &list));
+        Ok(Self { list, frames: origins.frames, warnings })
     }
 }
 
 impl State {
-    /// Applies an event; how the move after it begins, if not as usual.
-    fn apply(&mut self, event: &Event, rule: &LengthRule<'_>, origins: &Origins) -> Option<Begins> {
+    /// Applies an event, and says whether the move after it begins a section.
+    fn apply(&mut self, event: &Event, rule: &LengthRule<'_>, origins: &Origins) -> bool {
         match event.kind {
             EventKind::Tool { number, length } => {
                 if rule.source == LengthSource::Tool {
                     self.length = rule.of_tool(number, length);
                 }
-                Some(Begins::Anywhere)
+                true
             }
             EventKind::LengthOffset { number } => {
                 let length = rule.of_offset(number);
                 let is_same = self.length == length;
                 self.length = length;
-                (!is_same).then_some(Begins::Anywhere)
+                !is_same
             }
             EventKind::WorkOffset(offset) => {
                 let frame = origins.get(offset);
                 let is_same = self.frame == frame;
                 self.frame = frame;
-                (!is_same).then_some(Begins::Anywhere)
+                !is_same
             }
-            EventKind::Home => Some(Begins::Anywhere),
-            EventKind::CentrePointControl { .. } | EventKind::TiltedPlane { .. } => Some(Begins::AfterCut),
-            _ => None,
+            EventKind::Home => true,
+            _ => false,
         }
     }
 }
@@ -164,18 +159,13 @@ impl<'a> Divider<'a> {
     }
 
     /// Begins a section at a move. The last state before a move counts.
-    fn begin(&mut self, first: u32, state: &State, begins: Begins) {
-        let begins = match self.sections.last() {
-            Some(last) if last.first == first => {
-                let begins = begins.max(last.begins);
-                self.sections.pop();
-                self.states.pop();
-                begins
-            }
-            _ => begins,
-        };
+    fn begin(&mut self, first: u32, state: &State) {
+        if self.sections.last().is_some_and(|last| last.first == first) {
+            self.sections.pop();
+            self.states.pop();
+        }
         self.settle();
-        self.sections.push(Section { first, frame: 0, tool_length: 0.0, begins });
+        self.sections.push(Section { first, frame: 0, tool_length: 0.0 });
         self.states.push(state.clone());
     }
 
@@ -223,16 +213,10 @@ impl<'a> Divider<'a> {
 }
 
 /// What the plan takes from the program, because the request does not state it.
-fn warnings(program: &Program, rule: &LengthRule<'_>) -> Vec<WarningObject> {
+fn length_warnings(program: &Program, rule: &LengthRule<'_>) -> Vec<WarningObject> {
     if rule.lengths.is_some() {
         return Vec::new();
     }
-    let warning = |line, detail: &str, occurrences| WarningObject {
-        line,
-        word: String::new(),
-        detail: detail.to_owned(),
-        occurrences,
-    };
     if rule.is_silent() {
         let line = program.moves().first().map_or(1, verne_program::Move::line);
         let detail = "no tool length is stated: the points are those of P, as for tool_length 0";
@@ -242,4 +226,20 @@ fn warnings(program: &Program, rule: &LengthRule<'_>) -> Vec<WarningObject> {
     let Some(first) = tools.first() else { return Vec::new() };
     let count = u32::try_from(tools.len()).unwrap_or(u32::MAX);
     vec![warning(first.line, "the lengths of the tools are those that the program states", count)]
+}
+
+/// The feed moves whose start is not known.
+fn unchecked_ways(program: &Program, sections: &[Section]) -> Option<WarningObject> {
+    let after_change = sections.iter().filter(|section| section.first > 0);
+    let first_moves = after_change.filter_map(|section| program.moves().get(section.first as usize));
+    let mut feeds = first_moves.filter(|first| first.kind() == MoveKind::Feed);
+    let line = feeds.next()?.line();
+    let count = u32::try_from(feeds.count()).map_or(u32::MAX, |more| more.saturating_add(1));
+    let detail = "a feed move after a change of tool, length or origin has no known start: the joints move straight to \
+                  its end, and the way is not checked; put a rapid before it";
+    Some(warning(line, detail, count))
+}
+
+fn warning(line: u32, detail: &str, occurrences: u32) -> WarningObject {
+    WarningObject { line, word: String::new(), detail: detail.to_owned(), occurrences }
 }

@@ -41,6 +41,17 @@ fn each_work_offset_has_its_frame_and_a_change_begins_anywhere() {
 }
 
 #[test]
+fn a_cut_goes_on_when_control_of_the_tool_centre_point_begins() {
+    let text = "G21 G90\nG43 H1\nG0 X-150 Y0 Z300\nG43.4 H1\nG1 X150 F100\nG55\nG1 X0 Y0 Z300\n";
+    let request = json!({"tool_length": {"1": 100}, "length_before": 1, "offsets": {"G55": {"z": 1}}});
+    let motions = motions_of(Format::Gcode, text, &request).unwrap();
+    let kinds: Vec<_> = all(&motions).iter().map(|motion| motion.kind).collect();
+    assert_eq!(kinds, [MotionKind::Arrive, MotionKind::Feed, MotionKind::Arrive]);
+    let warned: Vec<_> = motions.warnings.iter().map(|warning| (warning.line, warning.occurrences)).collect();
+    assert_eq!(warned, [(7, 1)], "the start of this feed move is unknown");
+}
+
+#[test]
 fn lengths_follow_the_offsets_of_g_code_and_the_tools_of_cl_text() {
     let gcode = "G21 G90\nT2 M6\nG43.4 H1 G0 X0 Y0 Z300\nG43.4 H2 G0 Z310\nG49\nG1 X1 F100\n";
     let table = json!({"tool_length": {"1": 120, "2": 95}, "length_before": 2});
