@@ -45,8 +45,8 @@ pub struct Change {
 /// rows, too.
 ///
 /// The changes ±1/64, ±1/32, ±1/16, … ±512 mm are tried, and those of the first size that help are refined by
-/// bisection to 1/64 mm. So a smaller change may help too, if it lies between two that do not. `None`: no change
-/// helps, `go_on` has returned `false`, the stretch has more than [`MOST_HEALED_MOTIONS`] motions or
+/// bisection to 1/64 mm. So a smaller change may help too, if it lies between two that do not. If the motions fail
+/// only together with the rest of their cut, the change heals the whole cut. `None`: no change helps, `go_on` has returned `false`, the stretch has more than [`MOST_HEALED_MOTIONS`] motions or
 /// [`MOST_HEALED_ROWS`] rows, or it fails only together with the rest of the program. The rotary axis turns with the
 /// tool's axis alone, so nothing heals a failure at its limit.
 ///
@@ -95,15 +95,18 @@ pub fn healing_change<M: Motions + ?Sized>(
         let changed = Changed { motions, begin: first.saturating_sub(1), end: last, change };
         plan(machine, &changed, &options, |_| go_on(), |_| {}).is_ok_and(|report| report.is_feasible())
     };
-    // Most changes do not even heal the worst motion.
-    let heals = |change: Change| {
-        follows([failure.motion; 2], change) && (first == last || follows([first, last], change))
-    };
     let at = |parameter, delta| Change { parameter, delta };
-    if heals(at(Parameter::X, 0.0)) {
-        // Only the rest of the program lets it fail.
-        return None;
+    let none = at(Parameter::X, 0.0);
+    let mut range = failure.motions;
+    if follows(range, none) {
+        // On a preimage or winding that does not serve the rest of the cut.
+        range = cut_around(motions, range)?;
+        if follows(range, none) {
+            return None;
+        }
     }
+    // Most changes do not even heal the worst motion.
+    let heals = |change: Change| follows([failure.motion; 2], change) && follows(range, change);
     let mut size = CHANGE_RESOLUTION;
     while size <= GREATEST_CHANGE && go_on() {
         let all = PARAMETERS.into_iter().flat_map(|parameter| [at(parameter, size), at(parameter, -size)]);
@@ -115,6 +118,15 @@ pub fn healing_change<M: Motions + ?Sized>(
         size *= GROWTH;
     }
     None
+}
+
+/// The whole cut around some of its motions; `None` if it is too long.
+fn cut_around<M: Motions + ?Sized>(motions: &M, [first, last]: [usize; 2]) -> Option<[usize; 2]> {
+    let is_feed = |index: &usize| motions.motion(*index).kind == MotionKind::Feed;
+    let before = (0..first).rev().take(MOST_HEALED_MOTIONS).take_while(is_feed).count();
+    let after = (last + 1..motions.count()).take(MOST_HEALED_MOTIONS).take_while(is_feed).count();
+    let range = [first - before, last + after];
+    (range[1] - range[0] < MOST_HEALED_MOTIONS).then_some(range)
 }
 
 /// The least change between half of one that heals and it.
