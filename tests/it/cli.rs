@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener};
+use std::process::ExitCode;
 use std::thread::{self, JoinHandle};
 
 use clap::Parser;
@@ -65,6 +66,61 @@ fn errors_name_the_flag() {
 }
 
 /// A command line with only the arguments that `--help` shows in its line of usage is valid.
+/// Runs `verne toolpath` on a file with this text: the exit status, standard output and standard error.
+fn toolpath(text: &str, options: &str) -> (String, String, String) {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("part.cls");
+    std::fs::write(&file, text).unwrap();
+    let options = options.replace("DIR", directory.path().to_str().unwrap());
+    let line = format!("verne toolpath {} {options}", file.display());
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let cli = Cli::read(line.split_whitespace().map(OsString::from)).unwrap();
+    let status = match cli.run(&mut out, &mut err, false) {
+        Ok(status) => format!("{status:?}"),
+        Err(message) => message,
+    };
+    if let Ok(report) = std::fs::read(directory.path().join("report.json")) {
+        out.extend(report);
+    }
+    (status, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
+}
+
+const LINE: &str = "UNITS/MM\nRAPID\nGOTO/-150,0,300\nFEDRAT/1000,MMPM\nGOTO/150,0,300\n";
+
+#[test]
+fn a_tool_path_is_rows_a_report_and_a_verdict_in_words() {
+    let (status, out, err) = toolpath(LINE, "--tool-length 100");
+    let report: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((status, &report["verdict"]), (format!("{:?}", ExitCode::SUCCESS), &"ok".into()));
+    assert!(err.starts_with("The machine can run the program: "), "{err}");
+    let (_, rows, _) = toolpath(LINE, "--tool-length 100 -o -");
+    assert_eq!(rows.lines().count() as u64, report["rows"].as_u64().unwrap() + 1);
+    assert!(
+        rows.starts_with("line,kind,x,y,z,") && rows.lines().last().unwrap().starts_with("5,feed,150,0,300,")
+    );
+    let beyond = format!("{LINE}GOTO/150,0,900\n");
+    let (status, report, err) =
+        toolpath(&beyond, "--tool-length 100 -o DIR/rows.json --report DIR/report.json");
+    let report: Value = serde_json::from_str(&report).unwrap();
+    assert_eq!((status, &report["verdict"]), (format!("{:?}", ExitCode::from(3)), &"fails".into()));
+    assert!(err.contains("line 6: slider 2 is 226 mm past the low end of its stroke"), "{err}");
+}
+
+#[test]
+fn errors_of_a_tool_path_name_the_flag_or_the_line() {
+    for (text, options, expected) in [
+        (LINE, "--tool-length -1", "--tool-length: "),
+        (LINE, "--tool-length 1 --tip-tolerance 0", "--tip-tolerance: "),
+        (LINE, "--tool-length 1 -o DIR/rows.txt", "must end in .csv"),
+        (LINE, "--tool-length 1 -o - --report -", "cannot both"),
+        ("UNITS/MM\nGOTO/1\n", "--tool-length 1", "line 2, column 1, \"GOTO\""),
+        (LINE, "--tool-length 1 --format heidenhain", "Heidenhain"),
+    ] {
+        let (status, out, _) = toolpath(text, options);
+        assert!(status.contains(expected) && out.is_empty(), "{options}: {status}");
+    }
+}
+
 #[test]
 fn the_line_of_usage_shows_all_required_arguments() {
     for command in ["fk", "ik", "key new", "workspace", "openapi"] {

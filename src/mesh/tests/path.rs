@@ -21,11 +21,11 @@ fn glb(path: &Path) -> Vec<u8> {
     bytes
 }
 
-/// A primitive: its mode, its name, its points in mm with z up, and its indices.
-type Lines = (Mode, String, Vec<[f64; 3]>, Vec<u32>);
+/// A primitive: mode, name, points in mm with z up, and indices.
+type Primitive = (Mode, String, Vec<[f64; 3]>, Vec<u32>);
 
 /// The primitives, and the colours of the coloured one.
-fn read(bytes: &[u8]) -> (Vec<Lines>, Vec<[f32; 3]>) {
+fn read(bytes: &[u8]) -> (Vec<Primitive>, Vec<[f32; 3]>) {
     let gltf = gltf::Gltf::from_slice(bytes).unwrap();
     let node = gltf.nodes().next().unwrap();
     let (offset, ..) = node.transform().decomposed();

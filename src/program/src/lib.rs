@@ -18,6 +18,20 @@
 //! # Ok::<(), verne_program::ReadError>(())
 //! ```
 //!
+//! G-code states points in the part under control of the tool centre point. [`ReadOptions`] say what the file does not:
+//!
+//! ```
+//! use verne_program::{Format, Orientation, ReadOptions, read};
+//!
+//! let options = ReadOptions { tcp_on: vec!["M428".parse()?], ..ReadOptions::default() };
+//! let text = "G21 G90\nM428 (TCP on)\nG0 X0 Y0 Z320 A0 C0\nG1 X10 A30 C-400 F1000\nM30\n";
+//! let program = read(Format::Gcode, text.as_bytes(), &options)?;
+//! let last = program.moves()[1];
+//! let (phi1, phi2) = (30_f64.to_radians(), (-400_f64).to_radians());
+//! assert_eq!((last.tip(), last.orientation()), ([10.0, 0.0, 320.0], Orientation::Rotary { phi1, phi2 }));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! A program says what a planner needs about lengths and origins by its events, in their places:
 //!
 //! - [`LengthSource::Tool`] (CL text): [`EventKind::Tool`] loads a tool, and its length counts from there.

@@ -9,6 +9,7 @@ mod bound;
 mod cap;
 mod choice;
 mod differential;
+mod healing;
 mod joint_segment;
 mod linearise;
 mod meridian;
@@ -24,6 +25,10 @@ mod tool_motion;
 
 use std::fmt;
 
+pub use healing::{
+    CHANGE_RESOLUTION, Change, GREATEST_CHANGE, MOST_HEALED_MOTIONS, MOST_HEALED_ROWS, Parameter,
+    healing_change,
+};
 pub use joint_segment::Deviation;
 pub use motion::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
 pub use report::{Departure, Failure, LeastMargin, MOST_DEPARTURES, MOST_FAILURES, Report};
@@ -36,11 +41,27 @@ use cap::Cap;
 use choice::Chooser;
 use meridian::Meridian;
 use node::Setting;
-use rows::{RowSettings, Rower};
+use path::Path;
+use rows::{Retraction, RowSettings, Rower};
 use stretches::stretches;
 
 /// Share of the progress that the choice of states is counted as.
 const CHOICE_SHARE: f64 = 0.4;
+
+/// What happens where no winding serves a whole cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum OnLimit {
+    /// The report states the limit.
+    #[default]
+    Fail,
+    /// The tool leaves the part, the rotary axis turns by whole turns, and the tool returns.
+    Retract {
+        /// Way along the tool's axis, and least height over the program's highest point, mm.
+        clearance: f64,
+        /// Height of the tool's end at which the rotary axis turns, mm; `None`: `clearance` over the highest point.
+        height: Option<f64>,
+    },
+}
 
 /// What a plan keeps to. Lengths are millimetres, angles radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +80,8 @@ pub struct PlanOptions {
     pub start: Option<TableAngles>,
     /// Whether the joints move straight in all rapids.
     pub joint_rapids: bool,
+    /// What happens where no winding serves a whole cut.
+    pub on_limit: OnLimit,
     /// Greatest number of rows.
     pub most_rows: u64,
 }
@@ -74,6 +97,7 @@ impl Default for PlanOptions {
             table_clearance: None,
             start: None,
             joint_rapids: false,
+            on_limit: OnLimit::Fail,
             most_rows: 20_000_000,
         }
     }
@@ -159,13 +183,14 @@ pub fn plan<M: Motions + ?Sized>(
     };
     let part = |index: usize| fraction(index, motions.count());
     let weights = machine.data().drives.map_or([1.0; 2], |drives| drives.turning_weights());
-    let chooser = Chooser::new(setting, weights, start);
+    let chooser = Chooser::new(setting, weights, start, options.on_limit != OnLimit::Fail);
     let choice = chooser.choose(motions, cap, |index| progress(CHOICE_SHARE * part(index)));
     let choice = choice.ok_or(PlanError::Cancelled)?;
     let settings = RowSettings {
         feed: options.tolerance,
         rapid: Deviation { tip: options.rapid_tolerance, axis: f64::INFINITY },
         joint_rapids: options.joint_rapids,
+        retraction: retraction(motions, options.on_limit),
     };
     let mut is_full = false;
     let report = Rower::new(setting, &settings, &choice, emit).run(
@@ -177,6 +202,25 @@ pub fn plan<M: Motions + ?Sized>(
         },
     );
     report.ok_or(if is_full { PlanError::TooManyRows } else { PlanError::Cancelled })
+}
+
+fn retraction<M: Motions + ?Sized>(motions: &M, on_limit: OnLimit) -> Option<Retraction> {
+    let OnLimit::Retract { clearance, height } = on_limit else { return None };
+    let height = height.unwrap_or_else(|| highest(motions) + clearance);
+    Some(Retraction { clearance, height })
+}
+
+/// Height of the program's highest point.
+fn highest<M: Motions + ?Sized>(motions: &M) -> f64 {
+    let mut before: Option<ToolPosition> = None;
+    let mut highest = f64::NEG_INFINITY;
+    for index in 0..motions.count() {
+        let motion = motions.motion(index);
+        let start = before.replace(motion.end).unwrap_or(motion.end);
+        let is_path = motion.kind != MotionKind::Arrive;
+        highest = highest.max(if is_path { Path::new(start, &motion).highest() } else { motion.end.tip[2] });
+    }
+    highest
 }
 
 #[allow(clippy::cast_precision_loss, reason = "progress")]

@@ -4,6 +4,8 @@
 //! - `choices`: preimages and windings of whole programs.
 //! - `drives`: velocities that are refused, and what drives change in a plan.
 //! - `pole`: paths along, through and to the pole.
+//! - `machines`: programs on machines unlike the reference machine, arcs, and rapids.
+//! - `limits`: what happens at limits: retracting, and changes that heal.
 //! - `timing`: times of rows.
 //! - `single_slider`: times of motions that are known in closed form.
 //! - `random_programs`: programs on machines unlike the built-in one.
@@ -22,8 +24,12 @@
 mod choices;
 #[path = "toolpath/drives.rs"]
 mod drives;
+#[path = "toolpath/limits.rs"]
+mod limits;
 #[path = "toolpath/lines.rs"]
 mod lines;
+#[path = "toolpath/machines.rs"]
+mod machines;
 #[path = "toolpath/pole.rs"]
 mod pole;
 #[path = "support/random.rs"]

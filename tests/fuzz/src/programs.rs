@@ -24,7 +24,9 @@ pub(crate) fn gcode(bytes: &[u8]) {
         units: Some(Units::Inches),
         ..plain.clone()
     };
-    [plain, controlled, switched].iter().for_each(|options| check_with(Format::Gcode, bytes, options));
+    for options in [plain, controlled, switched] {
+        check_with(Format::Gcode, bytes, &options);
+    }
 }
 
 /// CSV.

@@ -2,7 +2,6 @@
 
 use verne_program::joint_program::{JointProgramError, JointProgramOptions, JointProgramWriter, JointRow};
 use verne_program::{Event, Program};
-use verne_solver::toolpath::RowKind;
 
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_row_text::{RowText, StoredRows};
@@ -52,16 +51,11 @@ impl RowText for JointProgramText {
 pub(crate) fn check_durations(chunk: &[u8]) -> Result<(), OperationError> {
     for row in read_chunk(chunk) {
         let row = row?;
-        if is_cut(row.kind) && row.duration.is_none() {
+        if row.kind.is_cut() && row.duration.is_none() {
             return Err(operation_error(JointProgramError::NoDuration { line: row.line }));
         }
     }
     Ok(())
-}
-
-/// Whether the feed of the program counts.
-pub(crate) fn is_cut(kind: RowKind) -> bool {
-    matches!(kind, RowKind::Feed | RowKind::Inserted | RowKind::Turn)
 }
 
 fn joint_row(row: &StoredRow) -> JointRow {
@@ -69,7 +63,7 @@ fn joint_row(row: &StoredRow) -> JointRow {
     JointRow {
         step: row.index as usize,
         line: row.line,
-        rapid: !is_cut(row.kind),
+        rapid: !row.kind.is_cut(),
         joints: [rho1, rho2, rho3, table.theta1, table.theta2],
         tip: row.position.tip,
         duration: row.duration,

@@ -41,7 +41,7 @@ impl ProgramMotions {
         request: &CanonicalToolpath,
         machine: &Machine,
     ) -> Result<Self, ProgramErrors> {
-        let Sections { sections, frames, warnings } = Sections::of(&program, request)?;
+        let Sections { list: sections, frames, warnings } = Sections::of(&program, request)?;
         let motions = Self { program, sections, frames, orientation: request.orientation, warnings };
         check_motions(&motions.program, &motions, request.orientation, machine)?;
         Ok(motions)
@@ -112,3 +112,7 @@ impl Motions for ProgramMotions {
         Motion { kind, end: position, curve, turning, tool_length: section.tool_length }
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::panic, clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests;

@@ -31,7 +31,7 @@ pub(crate) enum Question {
     /// A dexterity map.
     Dexterity(DexterityQuestion),
     /// A tool path.
-    Toolpath(ToolpathQuestion),
+    Toolpath(Box<ToolpathQuestion>),
     /// A subtask of a family or of a dexterity map.
     Subtask(Subtask),
 }
@@ -83,7 +83,9 @@ impl Question {
             Self::Workspace(question) => (&question.machine, CanonicalRequest::Workspace(question.request)),
             Self::Family(family) => (&family.machine, CanonicalRequest::Family(family.request.clone())),
             Self::Dexterity(map) => (&map.machine, CanonicalRequest::Dexterity(map.request)),
-            Self::Toolpath(path) => (&path.machine, CanonicalRequest::Toolpath(path.request.clone())),
+            Self::Toolpath(path) => {
+                (&path.machine, CanonicalRequest::Toolpath(Box::new(path.request.clone())))
+            }
             Self::Subtask(subtask) => (&subtask.machine, CanonicalRequest::Subtask(subtask.request)),
         };
         let hash = Arc::clone(&machine.id.hash);
@@ -109,9 +111,11 @@ impl Question {
             CanonicalRequest::Workspace(request) => Self::Workspace(WorkspaceQuestion::of(machine, request)),
             CanonicalRequest::Family(request) => Self::Family(FamilyQuestion::of(machine, request)),
             CanonicalRequest::Dexterity(request) => Self::Dexterity(DexterityQuestion::of(machine, request)),
-            CanonicalRequest::Toolpath(request) => {
-                Self::Toolpath(ToolpathQuestion::of(machine, request, text.cost.unwrap_or_default()))
-            }
+            CanonicalRequest::Toolpath(request) => Self::Toolpath(Box::new(ToolpathQuestion::of(
+                machine,
+                *request,
+                text.cost.unwrap_or_default(),
+            ))),
             CanonicalRequest::Subtask(request) => Self::Subtask(Subtask { machine, request }),
         };
         if question.id() == id { Ok(question) } else { Err(OperationError::OtherVersion) }

@@ -106,7 +106,7 @@ pub(crate) enum CanonicalRequest {
     Workspace(CanonicalWorkspace),
     Family(CanonicalFamily),
     Dexterity(CanonicalDexterity),
-    Toolpath(CanonicalToolpath),
+    Toolpath(Box<CanonicalToolpath>),
     Subtask(SubtaskRequest),
 }
 

@@ -1,5 +1,5 @@
-//! Reads a stored content on a thread that may block, piece by piece: the content is never in memory as a whole unless it
-//! is there already.
+//! Reads a stored content on a thread that may block, piece by piece: the content is never in memory as a whole unless
+//! it is there already.
 
 use std::io::{self, BufRead, Read};
 use std::pin::Pin;

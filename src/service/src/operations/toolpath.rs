@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use verne_program::Program;
-use verne_solver::toolpath::{PlanError, TimedRow, Timer, plan};
+use verne_solver::toolpath::{PlanError, TimedRow, Timer, healing_change, plan};
 use verne_solver::workspace::Observer;
 
 use crate::operations::program_pace::ProgramPace;
@@ -21,6 +21,9 @@ const REPORT_BYTES: usize = 4096;
 
 /// How many motions are planned between two calls of the observer.
 const MOTIONS_PER_CALL: u32 = 16;
+
+/// The number of failures for which a change is looked for that lets the machine follow their moves.
+const HEALED_FAILURES: usize = 3;
 
 /// Plans a program. Hands the chunks of rows to `put`, with their numbers, and returns the report as it is sent.
 /// `texts` returns the texts of lines, of which it knows any or none.
@@ -64,8 +67,17 @@ pub(crate) fn compute_toolpath(
     written?;
     let planned = planned?;
     writer.finish()?;
+    let failing = planned.failures.iter().take(HEALED_FAILURES);
+    let heal = |stretch| {
+        let options = question.plan_options();
+        healing_change(&question.machine, &motions, &options, stretch, || !observer.cancelled())
+    };
+    let changes: Vec<_> = failing.map(|failure| heal(failure.motions)).collect();
+    if observer.cancelled() {
+        return Err(OperationError::Cancelled);
+    }
     let time = TimeObject::new(&times.unwrap_or_default(), pace.waits());
-    let mut report = report(question, &motions, &planned, time);
+    let mut report = report(question, &motions, &planned, &changes, time);
     let mut failing: Vec<u32> = report.failures.iter().map(|failure| failure.lines[0]).collect();
     failing.sort_unstable();
     failing.dedup();

@@ -6,7 +6,7 @@ use crate::operations::program_motions::ProgramMotions;
 use crate::wire::toolpath::Tolerance;
 
 /// About the seconds of one core that a row takes.
-const ROW_COST: f64 = 5e-5;
+const ROW_COST: f64 = 3e-5;
 
 /// About the distance of rows, mm, at the tolerance that follows, mm. It grows with the root of the tolerance.
 const ROW_DISTANCE: f64 = 7.0;

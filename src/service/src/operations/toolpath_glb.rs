@@ -4,7 +4,6 @@ use serde_json::json;
 use verne_mesh::glb::{self, Options, Up};
 use verne_mesh::{ColourScale, PathBuilder, Stroke, Swatch};
 
-use crate::operations::joint_program::is_cut;
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_rows::read_chunk;
 use crate::wire::error::OperationError;
@@ -37,10 +36,12 @@ impl ToolpathLines {
     pub(crate) fn add(&mut self, question: &ToolpathQuestion, chunk: &[u8]) -> Result<(), OperationError> {
         for row in read_chunk(chunk) {
             let row = row?;
-            let stroke = match row.kind {
-                _ if self.is_empty => Stroke::None,
-                kind if is_cut(kind) => Stroke::Coloured,
-                _ => Stroke::Plain,
+            let stroke = if self.is_empty {
+                Stroke::None
+            } else if row.kind.is_cut() {
+                Stroke::Coloured
+            } else {
+                Stroke::Plain
             };
             self.is_empty = false;
             // Beyond its range, a margin has the colour of the end.

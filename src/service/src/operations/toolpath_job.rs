@@ -30,7 +30,7 @@ pub(crate) fn answer_toolpath(
     let texts = |lines: &[u32]| program_lines_in_job(store, id, lines);
     let put = |chunk, rows| store.put_uncached_blob(question.id, &chunk_name(chunk), rows).map(drop);
     let report = compute_toolpath(question, &program, texts, put, observer)?;
-    store.put_record(&Question::Toolpath(question.clone()), &report, None)
+    store.put_record(&Question::Toolpath(Box::new(question.clone())), &report, None)
 }
 
 fn is_stored(store: &BlockingResults, id: ResultId) -> bool {
@@ -70,7 +70,7 @@ mod tests {
         let (checked, source) = read_request(body.as_bytes(), &MachineRegistry::default()).unwrap();
         let question = checked.question(source.id());
         let ProgramSource::Received(program) = source else { panic!() };
-        let question = Question::Toolpath(question.with_program(&program.program).unwrap());
+        let question = Question::Toolpath(Box::new(question.with_program(&program.program).unwrap()));
         let store = Store::in_memory(1 << 26);
         store_program(&Results::new(store.clone()), &program).await.unwrap();
         let parameters = JobParameters { max_triangles: 0, cost: 1.0, mesh_format: None };

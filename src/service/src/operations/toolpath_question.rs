@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use verne_program::{Program, ProgramErrors, WorkOffset};
 use verne_solver::machine::Drive;
-use verne_solver::toolpath::{Deviation, PlanOptions};
+use verne_solver::toolpath::{Deviation, OnLimit, PlanOptions};
 use verne_solver::{MAX_INPUT, TableAngles};
 
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
@@ -18,7 +18,9 @@ use crate::wire::error::OperationError;
 use crate::wire::field_errors::{FieldErrors, is_tool_length};
 use crate::wire::json::write_json;
 use crate::wire::result_id::ResultId;
-use crate::wire::toolpath::{RapidsName, Setup, TipName, Tolerance, ToolLengths, ToolpathRequest};
+use crate::wire::toolpath::{
+    OnLimitName, RapidsName, Setup, TipName, Tolerance, ToolLengths, ToolpathRequest,
+};
 
 /// Begins the hash of every tool path. It changes when the bytes of the answer to the same question change.
 const HASH_PREFIX: &[u8] = b"verne toolpath 1";
@@ -33,6 +35,8 @@ const TOLERANCES: [(&str, [f64; 2], &str); 3] = [
     ("/tolerance/rapid", [1e-5, 1000.0], "mm"),
 ];
 
+/// How far the tool leaves the part, if the request does not say, mm.
+const CLEARANCE: f64 = 50.0;
 /// Seconds in which the velocities of drives may change at corners: shortest and longest, and the default.
 const CYCLES: RangeInclusive<f64> = 1e-6..=1.0;
 const DEFAULT_CYCLE: f64 = 0.004;
@@ -72,6 +76,7 @@ impl CheckedToolpath {
         check_frames(request, &mut faults);
         check_tools(request, &mut faults);
         check_tolerances(request, &mut faults);
+        check_retraction(request, &mut faults);
         if request.cycle.is_some_and(|cycle| !CYCLES.contains(&cycle)) {
             let detail = format!("must be a number from {:e} to {} s", CYCLES.start(), CYCLES.end());
             faults.add("/cycle", detail);
@@ -145,6 +150,10 @@ impl ToolpathQuestion {
                 theta2: from_degrees(start.theta2),
             }),
             joint_rapids: *rapids == RapidsName::Joint,
+            on_limit: match self.request.clearance {
+                Some(clearance) => OnLimit::Retract { clearance, height: self.request.retract_z },
+                None => OnLimit::Fail,
+            },
             ..PlanOptions::default()
         }
     }
@@ -191,17 +200,14 @@ fn check_tools(request: &ToolpathRequest, faults: &mut FieldErrors) {
             }
         }
     }
-    match (request.length_before, &request.tool_length) {
-        (None, _) => {}
-        (Some(number), Some(ToolLengths::Table(table))) if !table.contains_key(&number) => {
-            faults.add(
-                "/length_before",
-                format!("must be an entry of tool_length, which has none for {number}"),
-            );
-        }
-        (Some(_), Some(ToolLengths::Table(_))) => {}
-        (Some(_), _) => {
-            faults.add("/length_before", "is allowed only with a table of lengths in tool_length")
+    if let Some(number) = request.length_before {
+        match &request.tool_length {
+            Some(ToolLengths::Table(table)) if table.contains_key(&number) => {}
+            Some(ToolLengths::Table(_)) => {
+                let detail = format!("must be an entry of tool_length, which has none for {number}");
+                faults.add("/length_before", detail);
+            }
+            _ => faults.add("/length_before", "is allowed only with a table of lengths in tool_length"),
         }
     }
     faults.clearance(request.table_clearance, request.tool_radius, None);
@@ -221,6 +227,22 @@ fn check_tolerances(request: &ToolpathRequest, faults: &mut FieldErrors) {
     }
 }
 
+fn check_retraction(request: &ToolpathRequest, faults: &mut FieldErrors) {
+    let fields = [("/clearance", request.clearance), ("/retract_z", request.retract_z)];
+    for (pointer, value) in fields {
+        match value {
+            Some(_) if request.on_limit != OnLimitName::Retract => {
+                faults.add(pointer, "is allowed only with on_limit retract");
+            }
+            Some(value) if pointer == "/clearance" && !is_tool_length(value) => {
+                faults.add(pointer, format!("must be a number from 0 to {MAX_INPUT:e} mm"));
+            }
+            Some(value) => faults.length(pointer, value),
+            None => {}
+        }
+    }
+}
+
 /// The request with its default values, without -0 and without fields that have no effect.
 fn canonical(request: &ToolpathRequest, machine: &IdentifiedMachine) -> CanonicalToolpath {
     let [table_clearance, radius] = machine.canonical_clearance(request.table_clearance, request.tool_radius);
@@ -232,6 +254,7 @@ fn canonical(request: &ToolpathRequest, machine: &IdentifiedMachine) -> Canonica
         }
         None => None,
     };
+    let retracts = request.on_limit == OnLimitName::Retract;
     let drives = machine.data().drives;
     let accelerates = |drive: &Drive| drive.acceleration.is_some();
     let is_accelerating = drives.is_some_and(|drives| drives.of_joints().iter().any(accelerates));
@@ -258,6 +281,8 @@ fn canonical(request: &ToolpathRequest, machine: &IdentifiedMachine) -> Canonica
         drives: drives.as_ref().map(Into::into),
         cycle: is_accelerating.then(|| request.cycle.unwrap_or(DEFAULT_CYCLE)),
         on_limit: request.on_limit,
+        clearance: retracts.then_some(request.clearance.unwrap_or(CLEARANCE) + 0.0),
+        retract_z: request.retract_z.filter(|_| retracts).map(|z| z + 0.0),
     }
 }
 

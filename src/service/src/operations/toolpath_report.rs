@@ -1,7 +1,9 @@
 //! The report on a tool path, from what the planner has found out.
 
+use std::iter::repeat;
+
 use serde::Deserialize;
-use verne_solver::toolpath::{Departure, Failure, LeastMargin, Motions, Report};
+use verne_solver::toolpath::{Change, Departure, Failure, LeastMargin, Motions, Report};
 
 use crate::operations::program_motions::ProgramMotions;
 use crate::operations::toolpath_question::ToolpathQuestion;
@@ -10,8 +12,8 @@ use crate::wire::fixed_array::FixedArray;
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::program::WarningObject;
 use crate::wire::toolpath_report::{
-    DepartureObject, DeviationObject, FailureObject, FailurePlace, JointRanges, MarginObject, PathLengths,
-    ToolpathLinks, ToolpathReport, TurningObject, Verdict,
+    ChangeObject, DepartureObject, DeviationObject, FailureObject, FailurePlace, JointRanges, MarginObject,
+    PathLengths, ToolpathLinks, ToolpathReport, TurningObject, Verdict,
 };
 use crate::wire::toolpath_time::TimeObject;
 
@@ -33,11 +35,12 @@ pub(crate) fn row_count(report: &[u8]) -> Option<u64> {
     serde_json::from_slice(report).ok().map(|count: RowCount| count.rows)
 }
 
-/// The report.
+/// The report. `changes` are those that heal the first failures.
 pub(crate) fn report(
     question: &ToolpathQuestion,
     motions: &ProgramMotions,
     planned: &Report,
+    changes: &[Option<Change>],
     time: TimeObject,
 ) -> ToolpathReport {
     let [feed, rapid] = planned.length;
@@ -51,7 +54,12 @@ pub(crate) fn report(
         program: question.request.program,
         request: question.request.clone(),
         verdict: if planned.is_feasible() { Verdict::Ok } else { Verdict::Fails },
-        failures: planned.failures.iter().map(|failure| failed(motions, failure)).collect(),
+        failures: planned
+            .failures
+            .iter()
+            .zip(changes.iter().copied().chain(repeat(None)))
+            .map(|(failure, change)| failed(motions, failure, change))
+            .collect(),
         failure_count: planned.failure_count,
         rows: planned.rows,
         length: PathLengths { feed, rapid },
@@ -66,6 +74,7 @@ pub(crate) fn report(
         pole_distance: planned.least_inclination.map(to_degrees),
         deviation: DeviationObject { tip: planned.deviation.tip, axis: to_degrees(planned.deviation.axis) },
         preimage_changes: planned.preimage_changes,
+        retracts: planned.retracts,
         departures: planned.departures.iter().map(|departure| departed(motions, departure)).collect(),
         departure_count: planned.departure_count,
         warnings: warnings.collect(),
@@ -80,7 +89,7 @@ pub(crate) fn report(
     }
 }
 
-fn failed(motions: &ProgramMotions, failure: &Failure) -> FailureObject {
+fn failed(motions: &ProgramMotions, failure: &Failure, change: Option<Change>) -> FailureObject {
     let Limit { constraint, value, unit, element } = failure.margin.into();
     let tool_length = motions.motion(failure.motion).tool_length;
     FailureObject {
@@ -91,6 +100,7 @@ fn failed(motions: &ProgramMotions, failure: &Failure) -> FailureObject {
         margin: value,
         unit,
         at: FailurePlace::new(motions.line(failure.motion), failure.pose, tool_length),
+        change: change.map(ChangeObject::from),
     }
 }
 

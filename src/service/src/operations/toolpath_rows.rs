@@ -99,7 +99,7 @@ mod tests {
             (Constraint::TableClearance, Element::Joint(21)),
         ];
         let (constraint, element) = elements[index as usize % elements.len()];
-        let kinds = [RowKind::Rapid, RowKind::Feed, RowKind::Inserted, RowKind::Turn];
+        let kinds = [RowKind::Rapid, RowKind::Feed, RowKind::Turn, RowKind::Retract, RowKind::Approach];
         let value = f64::from(index);
         StoredRow {
             line: index / 3,
@@ -108,7 +108,7 @@ mod tests {
             position: ToolPosition { tip: [value, -value, 0.1], axis: [0.0, 0.6, 0.8] },
             rho: [value, 2.0, 3.0],
             table: TableAngles { theta1: 0.5, theta2: -value },
-            duration: (index % 2 == 0).then_some(value / 7.0),
+            duration: index.is_multiple_of(2).then_some(value / 7.0),
             margin: Margin { constraint, element, value: -value },
         }
     }

@@ -66,6 +66,14 @@ pub(crate) struct CanonicalToolpath {
     pub cycle: Option<f64>,
     /// What happens where the machine cannot follow a cut.
     pub on_limit: OnLimitName,
+    /// How far the tool leaves the part, mm. Only a request with `on_limit: "retract"` has it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub clearance: Option<f64>,
+    /// Height at which the table turns, mm; missing if it is `clearance` above the program's highest point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub retract_z: Option<f64>,
 }
 
 /// Where the table stands.

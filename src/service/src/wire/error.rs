@@ -74,7 +74,7 @@ pub(crate) enum OperationError {
 }
 
 fn faults(refused: &ProgramErrors) -> String {
-    let end = if refused.complete { "" } else { " The reader stopped at the last of them." };
+    let end = if refused.complete { "" } else { " The reader stopped there." };
     match refused.errors.as_slice() {
         [] => "The program has faults.".to_owned(),
         [only] => format!("The program has a fault: {only}.{end}"),

@@ -35,7 +35,7 @@ pub(crate) struct ProgramQuery {
     #[arg(long, default_value = "accept", value_parser = read_name::<Compensation>)]
     #[param(schema_with = compensation)]
     pub compensation: Compensation,
-    /// G-code: control of the tool centre point is always on. Otherwise G43.4 and G43.5 begin it and G43 and G49 end it.
+    /// G-code: control of the tool centre point is always on. Otherwise G43.4 and G43.5 begin it, G43 and G49 end it.
     #[serde(default)]
     #[arg(long)]
     #[param(default = false)]

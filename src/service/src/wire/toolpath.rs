@@ -83,6 +83,16 @@ pub(crate) struct ToolpathRequest {
     /// What happens where the machine cannot follow a cut.
     #[serde(default)]
     pub on_limit: OnLimitName,
+    /// How far the tool leaves the part along its axis, and how far above the program's highest point it turns with the
+    /// table, mm. The default is 50. Only with `on_limit: "retract"`.
+    #[serde(default)]
+    #[schema(minimum = 0, maximum = 1e7)]
+    pub clearance: Option<f64>,
+    /// Height of the tool's end in the part frame at which the table turns, mm. The default is `clearance` above the
+    /// program's highest point. Only with `on_limit: "retract"`.
+    #[serde(default)]
+    #[schema(minimum = -1e7, maximum = 1e7)]
+    pub retract_z: Option<f64>,
 }
 
 fn strict_objects<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<String, Setup>, D::Error> {
@@ -240,7 +250,8 @@ pub(crate) enum RapidsName {
     Joint,
 }
 
-/// What happens where the machine cannot follow a cut: `fail` (default), the report states the limit.
+/// What happens where no winding of the table serves a whole cut: `fail` (default), the report states the limit;
+/// `retract`, the tool leaves the part, the table turns by whole turns, and the tool returns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = OnLimit)]
@@ -248,6 +259,8 @@ pub(crate) enum OnLimitName {
     /// The report states the limit.
     #[default]
     Fail,
+    /// The tool leaves the part, the table turns by whole turns, and the tool returns.
+    Retract,
 }
 
 /// Greatest deviations of the joint motion from the program.

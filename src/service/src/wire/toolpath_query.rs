@@ -99,6 +99,16 @@ pub(crate) struct ToolpathQuery {
     #[serde(default)]
     #[arg(long, default_value = "fail")]
     pub on_limit: OnLimitName,
+    /// How far the tool leaves the part along its axis, and how far above the program's highest point it turns with the
+    /// table, mm. The default is 50. Only with `on_limit=retract`.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = 0, maximum = 1e7, nullable = false)]
+    pub clearance: Option<f64>,
+    /// Height of the tool's end in the part frame at which the table turns, mm. The default is `clearance` above the
+    /// program's highest point. Only with `on_limit=retract`.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = -1e7, maximum = 1e7, nullable = false)]
+    pub retract_z: Option<f64>,
 }
 
 fn default_tip() -> f64 {
@@ -139,6 +149,8 @@ impl ToolpathQuery {
             table_clearance: self.table_clearance,
             cycle: self.cycle,
             on_limit: self.on_limit,
+            clearance: self.clearance,
+            retract_z: self.retract_z,
         }
     }
 }

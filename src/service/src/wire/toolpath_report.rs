@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
+use verne_solver::toolpath::{Change, Parameter};
 use verne_solver::{Margin, PartPose};
 
 use crate::wire::answer::MachineId;
@@ -55,6 +56,8 @@ pub(crate) struct ToolpathReport {
     pub deviation: DeviationObject,
     /// How often the joint motion changes between the two orientations of the table for the same tool axis.
     pub preimage_changes: u64,
+    /// How often the tool leaves the part within a cut, so that the table can turn by whole turns.
+    pub retracts: u64,
     /// Rapids in which the joints move straight, because the table changes its orientation or on request; the first
     /// thousand of them.
     pub departures: Vec<DepartureObject>,
@@ -103,6 +106,52 @@ pub(crate) struct FailureObject {
     pub unit: Unit,
     /// The place with the worst margin.
     pub at: FailurePlace,
+    /// The smallest change of one number of the request that lets the machine follow these moves. The service looks for
+    /// it up to 512 mm for the first three stretches of at most 2000 moves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub change: Option<ChangeObject>,
+}
+
+/// A change of one number of the request.
+#[derive(Clone, Copy, Debug, Serialize, ToSchema)]
+#[schema(as = ToolpathChange)]
+pub(crate) struct ChangeObject {
+    /// The number.
+    pub parameter: ParameterName,
+    /// What to add to it, mm.
+    pub delta: f64,
+}
+
+/// A number of the request: `setup.x`, `setup.y`, `setup.z` (of the frame that the moves are in), or `tool_length` (of
+/// the tool of the moves).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
+#[schema(as = ToolpathParameter)]
+pub(crate) enum ParameterName {
+    /// x of the frame.
+    #[serde(rename = "setup.x")]
+    X,
+    /// y of the frame.
+    #[serde(rename = "setup.y")]
+    Y,
+    /// z of the frame.
+    #[serde(rename = "setup.z")]
+    Z,
+    /// The length of the tool.
+    #[serde(rename = "tool_length")]
+    ToolLength,
+}
+
+impl From<Change> for ChangeObject {
+    fn from(Change { parameter, delta }: Change) -> Self {
+        let parameter = match parameter {
+            Parameter::X => ParameterName::X,
+            Parameter::Y => ParameterName::Y,
+            Parameter::Z => ParameterName::Z,
+            Parameter::ToolLength => ParameterName::ToolLength,
+        };
+        Self { parameter, delta }
+    }
 }
 
 /// A place of a program. /ik reproduces the failure for this pose in frame `part` with this tool. A failure of `rotary`

@@ -122,7 +122,8 @@ pub(crate) struct RowObject {
 }
 
 /// The purpose of a row: `rapid`, a place of a rapid; `feed`, the end of a feed move; `inserted`, a place within a feed
-/// move; `turn`, the table turns while the tool stands still.
+/// move; `turn`, the table turns while the tool stands still; `retract`, `rewind` and `approach`, within a cut the tool
+/// leaves the part, the table turns by whole turns, and the tool returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum RowKindName {
@@ -134,6 +135,12 @@ pub(crate) enum RowKindName {
     Inserted,
     /// The rotary axis turns while the tool stands still.
     Turn,
+    /// The tool leaves the part.
+    Retract,
+    /// The rotary axis turns by whole turns off the part.
+    Rewind,
+    /// The tool returns to the part.
+    Approach,
 }
 
 impl From<RowKind> for RowKindName {
@@ -143,6 +150,9 @@ impl From<RowKind> for RowKindName {
             RowKind::Feed => Self::Feed,
             RowKind::Inserted => Self::Inserted,
             RowKind::Turn => Self::Turn,
+            RowKind::Retract => Self::Retract,
+            RowKind::Rewind => Self::Rewind,
+            RowKind::Approach => Self::Approach,
         }
     }
 }
@@ -154,6 +164,9 @@ impl RowKindName {
             Self::Feed => "feed",
             Self::Inserted => "inserted",
             Self::Turn => "turn",
+            Self::Retract => "retract",
+            Self::Rewind => "rewind",
+            Self::Approach => "approach",
         }
     }
 }

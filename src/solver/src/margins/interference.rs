@@ -95,7 +95,7 @@ fn compare_parallelograms(nearest: &mut NearestPair, g: &Geometry, rods: &Rods) 
 fn compare_between_legs(nearest: &mut NearestPair, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
     let half = g.parallelogram_half_width;
     let pairs = [[0, 2], [0, 4], [1, 2], [1, 4]];
-    // Without branches, because nearly always all are farther.
+    // All at once, because nearly always all are farther.
     let farther = pairs.map(|[i, j]| is_farther(nearest, &to_middle(ends, i, j, half), rods, [i, j], half));
     for ([i, j], _) in pairs.into_iter().zip(farther).filter(|(_, is_farther)| !is_farther) {
         compare_pair(nearest, ends, rods, [i, j]);
@@ -116,7 +116,7 @@ fn is_farther(nearest: &NearestPair, gap: &[f64; 3], rods: &Rods, [i, j]: [usize
     let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
     let square_gap = dot(gap, gap);
     let apart = square_gap - greater(dot(a, gap), 0.0) + lesser(dot(b, gap), 0.0) - shift * gap[0].abs();
-    (apart > 0.0) & (apart * apart >= nearest.square * square_gap)
+    apart > 0.0 && apart * apart >= nearest.square * square_gap
 }
 
 #[inline]

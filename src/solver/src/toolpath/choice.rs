@@ -1,19 +1,22 @@
 //! The choice of preimage, winding and working solution for a whole program, by dynamic programming.
 //!
 //! A state at a place is h (half turns of phi2 in addition to the continued meridian) with a working solution. A feed
-//! motion keeps h; a bounded stretch around the pole and a rapid may change it. The best sequence of states has the
-//! fewest failing places, then the least turning, then the greatest least margin of the rotary axis, then the least
+//! motion keeps h; a bounded stretch around the pole and a rapid may change it, and so may the tool leaving the part if
+//! that is allowed. The best sequence of states has the fewest failing places, then leaves the part least often, then
+//! has the least turning, then the greatest least margin of the rotary axis, then the least
 //! |theta2| at the start, then phi1 >= 0 there.
 
 mod cost;
+mod rewind;
 mod stages;
 mod state;
 
 use std::cmp::Ordering;
 
 use self::cost::Cost;
+use self::rewind::rewound;
 use self::stages::Stages;
-pub(super) use self::stages::{Choice, Chosen};
+pub(super) use self::stages::{Choice, Chosen, Rewind};
 use self::state::{Reserve, State, advance, is_wound};
 use super::cap::Cap;
 use super::meridian::{Meridian, Span};
@@ -22,12 +25,17 @@ use super::node::{Node, Setting};
 use super::path::{Path, places};
 use super::stretches::Place;
 
-/// Angle and fraction of the machine's longest dimension between two ends of motions: ends that are closer to the last
-/// place are not examined.
+/// Greatest number of motions of a program all of whose ends are examined.
+const ALL_EXAMINED: usize = 10_000;
+/// Angle and fraction of the machine's longest dimension between two ends of motions: in a longer program, ends that
+/// are closer to the last place are not examined.
 const LEAST_ANGLE: f64 = 0.01;
 const LEAST_LENGTH: f64 = 1.0 / 256.0;
 /// Greatest number of states at a place.
 const MOST_STATES: usize = 64;
+
+/// The joints at a place in each working solution, or none, with the limits there.
+type Solutions = Vec<(Option<Node>, Reserve)>;
 
 /// Chooses the states of a program.
 pub(super) struct Chooser<'a> {
@@ -36,6 +44,8 @@ pub(super) struct Chooser<'a> {
     states: Vec<State>,
     stages: Stages,
     start: Option<[f64; 2]>,
+    may_retract: bool,
+    is_long: bool,
     /// The end of the last motion, if it has not been examined.
     skipped: Option<Skipped>,
 }
@@ -43,6 +53,7 @@ pub(super) struct Chooser<'a> {
 /// A place that has not been examined, with the length and the angles of the path to it.
 #[derive(Clone, Copy)]
 struct Skipped {
+    motion: usize,
     tool_length: f64,
     span: Span,
     at: ToolPosition,
@@ -52,8 +63,14 @@ struct Skipped {
 
 impl<'a> Chooser<'a> {
     /// `weights` are those of turning of theta1 and theta2; `start` is where the table stands before the program.
-    pub(super) fn new(setting: Setting<'a>, weights: [f64; 2], start: Option<[f64; 2]>) -> Self {
-        Self { setting, weights, states: Vec::new(), stages: Stages::default(), start, skipped: None }
+    pub(super) fn new(
+        setting: Setting<'a>,
+        weights: [f64; 2],
+        start: Option<[f64; 2]>,
+        may_retract: bool,
+    ) -> Self {
+        let (states, stages) = (Vec::new(), Stages::default());
+        Self { setting, weights, states, stages, start, may_retract, is_long: false, skipped: None }
     }
 
     /// Examines the program; `go_on` is asked from time to time and ends the examination by `false`.
@@ -63,6 +80,7 @@ impl<'a> Chooser<'a> {
         cap: Cap,
         mut go_on: impl FnMut(usize) -> bool,
     ) -> Option<Choice> {
+        self.is_long = motions.count() > ALL_EXAMINED;
         let mut meridian = Meridian::new(cap, self.setting.stretches);
         for index in 0..motions.count() {
             if !go_on(index) {
@@ -87,7 +105,7 @@ impl<'a> Chooser<'a> {
         let before = std::mem::take(&mut self.states);
         let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
         // The nodes of both preimages; whole turns change theta2 alone.
-        let mut known: [Option<Vec<(Option<Node>, Reserve)>>; 2] = [None, None];
+        let mut known: [Option<Solutions>; 2] = [None, None];
         for h in self.setting.half_turns(phi2) {
             let target = self.setting.target(span, 1.0, &motion.end, [h, h]);
             let nodes = known[usize::from(h.rem_euclid(2) == 1)].get_or_insert_with(|| {
@@ -107,7 +125,7 @@ impl<'a> Chooser<'a> {
                 break;
             }
         }
-        self.stage();
+        self.stage(None);
     }
 
     fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, reserve: Reserve) -> State {
@@ -143,13 +161,13 @@ impl<'a> Chooser<'a> {
             {
                 self.spread(stretch.phi2[1]);
             }
-            let is_skipped = self.skips(motion, span, path);
+            let is_skipped = self.skips(index, motion, span, path);
             let count = places(self.setting.machine.longest(), path, span.to - span.from);
             let count = if is_skipped { 0 } else { count };
             for place in 1..=count {
                 let part = f64::from(place) / f64::from(count);
                 let s = if place == count { span.to } else { span.from + (span.to - span.from) * part };
-                self.advance(motion.tool_length, span, s, &path.at(s));
+                self.advance(Place { motion: index, s }, motion.tool_length, span, &path.at(s));
             }
             if bounded.is_some_and(|stretch| stretch.end == Place { motion: index, s: span.to }) {
                 self.gather();
@@ -158,13 +176,17 @@ impl<'a> Chooser<'a> {
     }
 
     /// Whether the end of a span is so near to the last place that it is left for later.
-    fn skips(&mut self, motion: &Motion, span: &Span, path: &Path) -> bool {
+    fn skips(&mut self, index: usize, motion: &Motion, span: &Span, path: &Path) -> bool {
+        if !self.is_long {
+            return false;
+        }
         let part = span.to - span.from;
         let (length, angle) = (path.length() * part, (path.turn() + path.sweep()) * part);
         let before = self.skipped.as_ref().map_or((0.0, 0.0), |skipped| (skipped.length, skipped.angle));
         let (length, angle) = (before.0 + length, before.1 + angle);
         let is_near = length < LEAST_LENGTH * self.setting.machine.longest() && angle < LEAST_ANGLE;
         self.skipped = is_near.then(|| Skipped {
+            motion: index,
             tool_length: motion.tool_length,
             span: *span,
             at: path.at(span.to),
@@ -175,8 +197,8 @@ impl<'a> Chooser<'a> {
     }
 
     fn examine_skipped(&mut self) {
-        if let Some(Skipped { tool_length, span, at, .. }) = self.skipped.take() {
-            self.advance(tool_length, &span, span.to, &at);
+        if let Some(Skipped { motion, tool_length, span, at, .. }) = self.skipped.take() {
+            self.advance(Place { motion, s: span.to }, tool_length, &span, &at);
         }
     }
 
@@ -193,7 +215,7 @@ impl<'a> Chooser<'a> {
                 }
             }
         }
-        self.stage();
+        self.stage(None);
     }
 
     /// Keeps the best of the states with the same end of a stretch.
@@ -216,26 +238,34 @@ impl<'a> Chooser<'a> {
                 None => self.states.push(state),
             }
         }
-        self.stage();
+        self.stage(None);
     }
 
-    fn advance(&mut self, tool_length: f64, span: &Span, s: f64, at: &ToolPosition) {
+    /// Moves every state to a place.
+    fn advance(&mut self, place: Place, tool_length: f64, span: &Span, at: &ToolPosition) {
         advance(&mut self.states, &self.setting, self.weights, tool_length, |h| {
-            self.setting.target(span, s, at, h)
+            self.setting.target(span, place.s, at, h)
         });
+        if self.may_retract
+            && let Some(states) = rewound(&self.states, &self.setting, self.weights)
+        {
+            self.states = states;
+            self.states.truncate(MOST_STATES);
+            self.stage(Some(place));
+        }
     }
 
     /// Notes the states, so that the chosen ones can be traced back.
-    fn stage(&mut self) {
+    fn stage(&mut self, place: Option<Place>) {
         for i in 0..self.states.len() {
             let twin = (0..i).find(|&j| is_wound(&self.states[j], &self.states[i]));
             self.states[i].twin = twin.map(|j| self.states[j].twin.unwrap_or(j));
         }
         let states = self.states.iter().map(|state| {
-            let alpha = state.node.map(|node| node.pose.alpha);
+            let alpha = state.node.map(|node| compared(node.pose.alpha));
             (Chosen { h: state.h, alpha }, state.parent)
         });
-        self.stages.push(states.collect());
+        self.stages.push(place, states);
     }
 
     fn traced(mut self) -> Choice {
@@ -244,4 +274,9 @@ impl<'a> Chooser<'a> {
         let last = best.map_or(0, |(index, _)| index);
         self.stages.traced(last)
     }
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "it serves a comparison")]
+fn compared(alpha: f64) -> f32 {
+    alpha as f32
 }

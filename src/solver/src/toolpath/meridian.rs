@@ -30,6 +30,8 @@ enum Rule {
     Follow { azimuth: [f64; 2], phi2: f64 },
     /// phi2 is linear in the path; `share` is the fraction of the stretch's measure at both ends.
     Linear { stretch: usize, share: [f64; 2] },
+    /// phi2 stays, whatever the axis.
+    Held { phi2: f64 },
 }
 
 impl Span {
@@ -37,15 +39,20 @@ impl Span {
     pub(super) fn stretch(&self) -> Option<usize> {
         match self.rule {
             Rule::Linear { stretch, .. } => Some(stretch),
-            Rule::Follow { .. } => None,
+            Rule::Follow { .. } | Rule::Held { .. } => None,
         }
+    }
+
+    /// A span over parameters from 0 to 1 on which phi2 stays.
+    pub(super) fn held(phi2: f64) -> Self {
+        Self { from: 0.0, to: 1.0, rule: Rule::Held { phi2 } }
     }
 
     /// A span over parameters from 0 to 1 on which phi2 turns from one end of the stretch to the other.
     pub(super) fn turning(&self) -> Self {
         let rule = match self.rule {
             Rule::Linear { stretch, .. } => Rule::Linear { stretch, share: [0.0, 1.0] },
-            Rule::Follow { .. } => self.rule,
+            Rule::Follow { .. } | Rule::Held { .. } => self.rule,
         };
         Self { from: 0.0, to: 1.0, rule }
     }
@@ -58,6 +65,7 @@ impl Span {
                 let now = if s == self.to { end } else { azimuth(axis).unwrap_or(nearer) };
                 phi2 + to_nearest(now - start, TAU) + PI * f64::from(h[1])
             }
+            Rule::Held { phi2 } => phi2,
             Rule::Linear { stretch, share } => {
                 let [from, to] = stretches[stretch].phi2;
                 let [from, to] = [from + PI * f64::from(h[0]), to + PI * f64::from(h[1])];

@@ -177,6 +177,18 @@ impl Node {
         Self { table: TableAngles { theta2: -phi2, ..self.table }, ..self }
     }
 
+    /// The same joints but for theta2, which turns by this many half turns.
+    pub(super) fn wound_by(self, half_turns: i32) -> Self {
+        let theta2 = self.table.theta2 + PI * f64::from(half_turns);
+        Self { table: TableAngles { theta2, ..self.table }, ..self }
+    }
+
+    /// The same joints with platform and sliders higher in the base frame, mm.
+    pub(super) fn lifted(self, height: f64) -> Self {
+        let pose = PlatformPose { z: self.pose.z - height, ..self.pose };
+        Self { pose, rho: self.rho.map(|rho| rho - height), ..self }
+    }
+
     /// How far the platform and the sliders are from another node, as a fraction of the machine's longest dimension,
     /// with the angles that the platform and the table tilt through.
     pub(super) fn way_from(&self, other: &Self, longest: f64) -> f64 {

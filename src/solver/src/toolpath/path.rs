@@ -180,6 +180,17 @@ impl Path {
         !matches!(self.axis, AxisPath::Angles { .. })
     }
 
+    /// An upper bound of the tool's end's z.
+    pub(super) fn highest(&self) -> f64 {
+        let ends = self.start.tip[2].max(self.end.tip[2]);
+        match &self.tip {
+            TipPath::Line => ends,
+            TipPath::Arc { centre, radius, along, rest, .. } => {
+                ends.max(centre.z + along.z + radius[0].z.hypot(radius[1].z) + rest.z.max(0.0))
+            }
+        }
+    }
+
     /// The axis at both ends.
     pub(super) fn end_axes(&self) -> [[f64; 3]; 2] {
         [self.start.axis, self.end.axis]

@@ -91,6 +91,8 @@ pub struct Report {
     pub deviation: Deviation,
     /// Number of changes of the preimage.
     pub preimage_changes: u64,
+    /// Number of times that the tool leaves the part within a cut, so that the rotary axis turns by whole turns.
+    pub retracts: u64,
     /// Rapids with straight joints; at most [`MOST_DEPARTURES`].
     pub departures: Vec<Departure>,
     /// Number of all such rapids.
@@ -110,6 +112,7 @@ impl Report {
             least_inclination: None,
             deviation: Deviation::default(),
             preimage_changes: 0,
+            retracts: 0,
             departures: Vec::new(),
             departure_count: 0,
         }

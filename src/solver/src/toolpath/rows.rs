@@ -2,8 +2,9 @@
 
 mod feed;
 mod rapid;
+mod retract;
 
-use super::choice::Chosen;
+use super::choice::{Choice, Chosen, Rewind};
 use super::joint_segment::{Deviation, JointSegment, Track};
 use super::linearise::Bend;
 use super::meridian::{Meridian, Span};
@@ -29,6 +30,31 @@ pub enum RowKind {
     Inserted,
     /// The rotary axis turns while the tool stands still at the pole.
     Turn,
+    /// The tool leaves the part within a cut.
+    Retract,
+    /// The rotary axis turns by whole turns while the tool is off the part.
+    Rewind,
+    /// The tool returns to the part.
+    Approach,
+}
+
+impl RowKind {
+    /// Whether the row belongs to a feed motion's path, so that its feed counts. Rapids and the ways off the part and
+    /// back do not.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::toolpath::RowKind;
+    ///
+    /// assert!(RowKind::Inserted.is_cut() && !RowKind::Rewind.is_cut());
+    /// ```
+    pub fn is_cut(self) -> bool {
+        match self {
+            Self::Feed | Self::Inserted | Self::Turn => true,
+            Self::Rapid | Self::Retract | Self::Rewind | Self::Approach => false,
+        }
+    }
 }
 
 /// One row: the joints to which the machine moves, all of them linearly.
@@ -87,11 +113,22 @@ impl RowPlace {
     }
 }
 
+/// How the tool leaves the part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Retraction {
+    /// Way along the tool's axis, mm.
+    pub(super) clearance: f64,
+    /// Height of the tool's end in the part frame at which the rotary axis may turn, mm.
+    pub(super) height: f64,
+}
+
 /// Tolerances and mode of a program's rows.
 pub(super) struct RowSettings {
     pub(super) feed: Deviation,
     pub(super) rapid: Deviation,
     pub(super) joint_rapids: bool,
+    /// How the tool leaves the part within a cut, if it may.
+    pub(super) retraction: Option<Retraction>,
 }
 
 /// Makes the rows.
@@ -99,6 +136,7 @@ pub(super) struct Rower<'a, F> {
     setting: Setting<'a>,
     settings: &'a RowSettings,
     choice: std::slice::Iter<'a, Chosen>,
+    rewinds: &'a [Rewind],
     emit: F,
     report: Report,
     least: LeastMargins,
@@ -112,16 +150,12 @@ pub(super) struct Rower<'a, F> {
 }
 
 impl<'a, F: FnMut(&Row)> Rower<'a, F> {
-    pub(super) fn new(
-        setting: Setting<'a>,
-        settings: &'a RowSettings,
-        choice: &'a [Chosen],
-        emit: F,
-    ) -> Self {
+    pub(super) fn new(setting: Setting<'a>, settings: &'a RowSettings, choice: &'a Choice, emit: F) -> Self {
         Self {
             setting,
             settings,
-            choice: choice.iter(),
+            choice: choice.chosen.iter(),
+            rewinds: &choice.rewinds,
             emit,
             report: Report::new(),
             least: LeastMargins::default(),
@@ -159,6 +193,16 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
 
     pub(super) fn next_choice(&mut self) -> Chosen {
         self.choice.next().copied().unwrap_or(Chosen { h: self.h, alpha: None })
+    }
+
+    /// The next change of winding within a cut, if it is in this motion up to this parameter.
+    pub(super) fn next_rewind(&mut self, index: usize, s: f64) -> Option<Rewind> {
+        let (next, rest) = self.rewinds.split_first()?;
+        let is_here = next.place.motion == index && next.place.s <= s;
+        is_here.then(|| {
+            self.rewinds = rest;
+            *next
+        })
     }
 
     pub(super) fn change_to(&mut self, chosen: Chosen) {

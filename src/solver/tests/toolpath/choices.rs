@@ -9,12 +9,12 @@ use verne_solver::{Constraint, Machine, Margins, PartPose, TableAngles, part_wor
 use super::random::Random;
 use super::support::{arrive, feed, planned, rapid, worst_deviation};
 
-fn tilted(tilt: f64, azimuth: f64) -> [f64; 3] {
+pub(crate) fn tilted(tilt: f64, azimuth: f64) -> [f64; 3] {
     tool_axis(tilt.to_radians(), azimuth.to_radians())
 }
 
 /// A helix: the axis turns about the vertical.
-fn helix(from: f64, to: f64) -> Vec<Motion> {
+pub(crate) fn helix(from: f64, to: f64) -> Vec<Motion> {
     let count = ((to - from).abs() / 6.0).ceil() as i32;
     let at = |i: i32| {
         let azimuth = from + (to - from) * f64::from(i) / f64::from(count);

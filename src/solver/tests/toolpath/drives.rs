@@ -20,19 +20,22 @@ fn with(drives: Drives) -> Result<Machine, Vec<String>> {
 #[test]
 fn drives_that_cannot_move_are_refused_by_name() {
     assert!(with(drives()).is_ok());
-    let changes: [(&str, fn(&mut Drives) -> &mut Drive); 3] =
-        [("slider", |d| &mut d.slider), ("tilt", |d| &mut d.tilt), ("rotary", |d| &mut d.rotary)];
-    for (name, drive) in changes {
+    let drive_named = |drives: &mut Drives, name: &str, change: &dyn Fn(&mut Drive)| match name {
+        "slider" => change(&mut drives.slider),
+        "tilt" => change(&mut drives.tilt),
+        _ => change(&mut drives.rotary),
+    };
+    for name in ["slider", "tilt", "rotary"] {
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let mut slow = drives();
-            drive(&mut slow).velocity = bad;
+            drive_named(&mut slow, name, &|drive| drive.velocity = bad);
             assert_eq!(with(slow).unwrap_err(), [format!("drives/{name}/velocity")]);
             let mut heavy = drives();
-            drive(&mut heavy).acceleration = Some(bad);
+            drive_named(&mut heavy, name, &|drive| drive.acceleration = Some(bad));
             assert_eq!(with(heavy).unwrap_err(), [format!("drives/{name}/acceleration")]);
         }
         let mut sudden = drives();
-        drive(&mut sudden).acceleration = None;
+        drive_named(&mut sudden, name, &|drive| drive.acceleration = None);
         assert!(with(sudden).is_ok());
     }
 }

@@ -2,9 +2,30 @@
 
 use verne_solver::axis::tool_axis;
 use verne_solver::toolpath::{
-    Curve, Motion, MotionKind, PlanOptions, Report, Row, RowKind, ToolPosition, Turning, plan,
+    Curve, Motion, MotionKind, PlanOptions, Report, Row, ToolPosition, Turning, plan,
 };
 use verne_solver::{Machine, TableAngles, forward_working, part_pose};
+
+use super::random::Random;
+
+/// A machine whose dimensions differ from those of the reference machine by up to a tenth.
+pub(crate) fn any_machine(random: &mut Random) -> Machine {
+    loop {
+        let mut data = Machine::verne().data().clone();
+        let g = &mut data.geometry;
+        let lengths = [
+            &mut g.D1, &mut g.d1, &mut g.D2, &mut g.d2, &mut g.R1, &mut g.r1, &mut g.R2, &mut g.r4,
+            &mut g.L1, &mut g.L2, &mut g.L3,
+        ];
+        for length in lengths {
+            *length *= random.between(0.9, 1.1);
+        }
+        data.table.dt += random.between(-30.0, 30.0);
+        if let Ok(machine) = Machine::new(data) {
+            return machine;
+        }
+    }
+}
 
 pub(crate) fn unit(v: [f64; 3]) -> [f64; 3] {
     let norm = v.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -94,7 +115,7 @@ pub(crate) fn worst_deviation(
     let mut worst: f64 = 0.0;
     for pair in rows.windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
-        if b.kind == RowKind::Rapid || b.motion == 0 {
+        if !b.kind.is_cut() || b.motion == 0 {
             continue;
         }
         let motion = &program[b.motion];

@@ -34,7 +34,9 @@ pub(crate) fn timed(
 ) -> (Vec<TimedRow>, Times) {
     let mut timed = Vec::new();
     let mut timer = Timer::new(drives, CYCLE, pace, |row: &TimedRow| timed.push(*row));
-    rows.iter().for_each(|row| timer.push(row));
+    for row in rows {
+        timer.push(row);
+    }
     let times = timer.finish();
     assert_eq!(timed.len(), rows.len());
     assert!(timed.iter().zip(rows).all(|(timed, row)| timed.row == *row), "in order");
@@ -164,7 +166,7 @@ fn twice_the_velocities_and_feeds_take_half_the_time() {
                     2 => Feed::Axis(0.1 * factor),
                     _ => Feed::Drives,
                 };
-                Pace { feed, from_rest: motion % 3 == 0 }
+                Pace { feed, from_rest: motion.is_multiple_of(3) }
             }
         };
         let (slow_rows, slow) = timed(&rows, Some(slow), feeds(1.0));

@@ -44,7 +44,11 @@ export async function offer(file: File): Promise<void> {
     reject(
       inWords(thrown),
       content,
-      faults.map(({ pointer, detail }) => ({ pointer: pointer.replace(/^\/machine/, ""), detail })),
+      faults.flatMap((fault) =>
+        "pointer" in fault
+          ? [{ pointer: fault.pointer.replace(/^\/machine/, ""), detail: fault.detail }]
+          : [],
+      ),
     );
   }
 }

@@ -79,7 +79,8 @@ pub(crate) async fn post_toolpath(
             question
         }
     };
-    let report = summary_or_job(&state, &Arc::new(Question::Toolpath(question)), &wait_policy).await?;
+    let report =
+        summary_or_job(&state, &Arc::new(Question::Toolpath(Box::new(question))), &wait_policy).await?;
     report.respond(&state, wait_policy, &conditions)
 }
 

@@ -40,7 +40,7 @@ pub(crate) struct Section {
 
 /// The sections of a program.
 pub(crate) struct Sections {
-    pub(crate) sections: Vec<Section>,
+    pub(crate) list: Vec<Section>,
     pub(crate) frames: Vec<Frame>,
     pub(crate) warnings: Vec<WarningObject>,
 }
@@ -75,7 +75,7 @@ impl Sections {
             divider.begin(event.before, &state, begins);
         }
         let warnings = warnings(program, &rule);
-        divider.end().map(|sections| Self { sections, frames: origins.frames, warnings })
+        divider.end().map(|list| Self { list, frames: origins.frames, warnings })
     }
 }
 

@@ -8,7 +8,15 @@ use verne_solver::{Constraint, Element, Margin, TableAngles};
 pub(crate) const ROW_BYTES: usize = 8 + 8 + 13 * 8;
 
 /// Every kind of row. The code of a kind is its index.
-const KINDS: [RowKind; 4] = [RowKind::Rapid, RowKind::Feed, RowKind::Inserted, RowKind::Turn];
+const KINDS: [RowKind; 7] = [
+    RowKind::Rapid,
+    RowKind::Feed,
+    RowKind::Inserted,
+    RowKind::Turn,
+    RowKind::Retract,
+    RowKind::Rewind,
+    RowKind::Approach,
+];
 
 /// Every constraint. The code of a constraint is its index.
 const CONSTRAINTS: [Constraint; 11] = [

@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use clap::Args;
 use flate2::read::GzDecoder;
 use verne_program::joint_program::JointProgramOptions;
-use verne_program::{Format, line_texts};
+use verne_program::{Format, FormatError, line_texts};
 
 use crate::operations::joint_program::JointProgramText;
 use crate::operations::machine_registry::MachineRegistry;
@@ -74,7 +74,7 @@ impl ToolpathCommand {
         }
         // Before the computation: the extension may be unknown.
         let format = output.map(output::format).transpose()?;
-        let file = self.file.display().to_string();
+        let file = name_of(&self.file);
         let faults = |error| message(&file, error);
         let machine = machine(&self.query.machine)?;
         let request = ToolpathRequest { machine, ..self.query.into_request() };
@@ -159,8 +159,11 @@ fn receive(
 ) -> Result<ReceivedProgram, String> {
     let name = path.file_name().and_then(|name| name.to_str()).filter(|_| !is_standard(path));
     let format = Format::detect(reading.format.as_deref(), name, None);
-    let format = format.map_err(|error| format!("{}: {error}", path.display()))?;
-    let unreadable = |error: io::Error| format!("{}: {error}", path.display());
+    let format = format.map_err(|error| match error {
+        FormatError::Undetermined => format!("--format is missing: the name of {} tells none", name_of(path)),
+        other => format!("{}: {other}", name_of(path)),
+    })?;
+    let unreadable = |error: io::Error| format!("{}: {error}", name_of(path));
     let mut source: Box<dyn Read> = if is_standard(path) {
         Box::new(io::stdin().lock())
     } else {
@@ -174,6 +177,11 @@ fn receive(
             return receiver.finish().map_err(faults);
         }
     }
+}
+
+/// A file as messages name it.
+fn name_of(path: &Path) -> String {
+    if is_standard(path) { "standard input".to_owned() } else { path.display().to_string() }
 }
 
 /// An error as a message: faults of the program with the places in the file, invalid fields with their flags.

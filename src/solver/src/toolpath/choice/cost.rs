@@ -9,6 +9,8 @@ const EQUAL: f64 = 1e-9;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cost {
     pub(super) failing: f64,
+    /// Number of times that the tool leaves the part.
+    pub(super) retracts: u32,
     pub(super) turning: f64,
     pub(super) rotary_margin: f64,
     pub(super) start: f64,
@@ -34,6 +36,7 @@ impl Cost {
         };
         self.failing
             .total_cmp(&other.failing)
+            .then(self.retracts.cmp(&other.retracts))
             .then(by_turning)
             .then(other.rotary_margin.total_cmp(&self.rotary_margin))
             .then(self.start.total_cmp(&other.start))

@@ -5,7 +5,7 @@ use crate::margins::Margins;
 use crate::toolpath::node::{Node, Setting, Target};
 
 /// How far the machine may move for a worst margin of the whole range until the limits are examined again.
-const WAY: f64 = 0.125;
+const WAY: f64 = 1.0 / 32.0;
 
 /// A state: h now and, inside a stretch, at its end.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +56,7 @@ impl Reserve {
         let rotary_margin =
             node.map_or(f64::NEG_INFINITY, |node| (node.table.theta2 - low).min(high - node.table.theta2));
         let failing = if self.holds && rotary_margin >= 0.0 { 0.0 } else { 1.0 };
-        Cost { failing, turning: 0.0, rotary_margin, start: 0.0, is_turned: false }
+        Cost { failing, retracts: 0, turning: 0.0, rotary_margin, start: 0.0, is_turned: false }
     }
 }
 

@@ -7,7 +7,6 @@ use crate::toolpath::joint_segment::{Stop, Track};
 use crate::toolpath::linearise::{LineariseError, linearise};
 use crate::toolpath::meridian::Span;
 use crate::toolpath::motion::Motion;
-use crate::toolpath::node::Node;
 use crate::toolpath::path::Path;
 use crate::toolpath::stretches::Place;
 
@@ -29,7 +28,15 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
                     self.turn(index, motion, path, span);
                 }
             }
-            self.follow(index, motion, path, span);
+            let mut from = span.from;
+            while let Some(rewind) = self.next_rewind(index, span.to) {
+                self.follow(index, motion, path, span, [from, rewind.place.s]);
+                self.retract(index, motion, rewind.chosen);
+                from = rewind.place.s;
+            }
+            if from < span.to || span.from == span.to {
+                self.follow(index, motion, path, span, [from, span.to]);
+            }
             if bounded.is_some_and(|stretch| stretch.end == Place { motion: index, s: span.to }) {
                 let chosen = self.next_choice();
                 self.change_to(chosen);
@@ -45,26 +52,28 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let turning = span.turning();
         let track = self.track(&held, turning, motion.tool_length);
         let Ok(end) = track.node(1.0, Some(&now)) else { return };
-        self.rows_between(index, motion, &track, [now, end], RowKind::Turn);
+        let stops = [Stop { s: 0.0, node: now }, Stop { s: 1.0, node: end }];
+        self.rows_between(index, motion, &track, stops, RowKind::Turn);
     }
 
-    /// Follows a feed motion on one span.
-    fn follow(&mut self, index: usize, motion: &Motion, path: &Path, span: &Span) {
+    /// Follows a feed motion on a part of one span.
+    fn follow(&mut self, index: usize, motion: &Motion, path: &Path, span: &Span, [from, to]: [f64; 2]) {
         let track = self.track(path, *span, motion.tool_length);
-        let end = match track.node(span.to, self.now.as_ref()) {
+        let end = match track.node(to, self.now.as_ref()) {
             Ok(end) => end,
             Err(refusal) => {
                 self.survey(index, &track);
-                self.refuse(index, track.target(span.to).pose, refusal);
+                self.refuse(index, track.target(to).pose, refusal);
                 self.now = None;
                 return;
             }
         };
         if let Some(now) = self.now {
-            self.rows_between(index, motion, &track, [now, end], RowKind::Feed);
+            let stops = [Stop { s: from, node: now }, Stop { s: to, node: end }];
+            self.rows_between(index, motion, &track, stops, RowKind::Feed);
         } else {
             self.survey(index, &track);
-            let place = RowPlace::on(path, span.from, span.to, span.to);
+            let place = RowPlace::on(path, from, to, to);
             self.row(index, RowKind::Feed, &place, &end, motion.tool_length);
         }
     }
@@ -74,15 +83,14 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         index: usize,
         motion: &Motion,
         track: &Track<'_>,
-        ends: [Node; 2],
+        stops: [Stop; 2],
         kind: RowKind,
     ) {
-        let [start, end] = [track.span.from, track.span.to];
-        let stops = [Stop { s: start, node: ends[0] }, Stop { s: end, node: ends[1] }];
+        let [Stop { s: start, .. }, Stop { s: end, node: last }] = stops;
         let (feed, mut bend) = (self.settings.feed, self.bends[0]);
         if track.path.is_point() && kind != RowKind::Turn {
             let place = RowPlace::on(track.path, start, end, end);
-            self.row(index, kind, &place, &ends[1], motion.tool_length);
+            self.row(index, kind, &place, &last, motion.tool_length);
             return;
         }
         let mut from = start;
@@ -106,7 +114,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         match result {
             Ok(()) => {}
             Err(LineariseError::Refused(s, refusal)) => {
-                self.break_off(index, motion, track, s, refusal, &ends[1]);
+                self.break_off(index, motion, track, s, refusal, &stops[1]);
             }
             Err(LineariseError::Jump(s)) => {
                 let refusal = KinematicsError::Unreachable(Margin {
@@ -114,7 +122,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
                     element: Element::Platform,
                     value: 0.0,
                 });
-                self.break_off(index, motion, track, s, refusal, &ends[1]);
+                self.break_off(index, motion, track, s, refusal, &stops[1]);
             }
         }
     }
@@ -127,11 +135,11 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         track: &Track<'_>,
         s: f64,
         refusal: KinematicsError,
-        end: &Node,
+        end: &Stop,
     ) {
         self.survey(index, track);
         self.refuse(index, track.target(s).pose, refusal);
-        let place = RowPlace::of_arrival(track.path.at(track.span.to));
-        self.row(index, RowKind::Feed, &place, end, motion.tool_length);
+        let place = RowPlace::of_arrival(track.path.at(end.s));
+        self.row(index, RowKind::Feed, &place, &end.node, motion.tool_length);
     }
 }

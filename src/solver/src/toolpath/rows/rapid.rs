@@ -33,7 +33,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
     ) {
         let Some(span) = spans.last() else { return };
         let target = self.setting.target(span, 1.0, &motion.end, chosen.h);
-        match self.setting.node(&target, motion.tool_length, chosen.alpha) {
+        match self.setting.node(&target, motion.tool_length, chosen.alpha.map(f64::from)) {
             Ok(node) => {
                 self.row(index, RowKind::Rapid, place, &node, motion.tool_length);
             }
@@ -83,7 +83,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             }
             now = end;
         }
-        let is_chosen = chosen.alpha.is_none_or(|alpha| (alpha - now.pose.alpha).abs() < 1e-6);
+        let is_chosen = chosen.alpha.is_none_or(|alpha| (f64::from(alpha) - now.pose.alpha).abs() < 1e-6);
         if !is_chosen {
             return false;
         }

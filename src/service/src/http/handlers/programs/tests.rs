@@ -193,7 +193,7 @@ async fn g_code_is_read_with_the_options_of_the_query() {
     }
     let refused = post(&service, "format=gcode&units=mm", file).await;
     let error = &refused.json["errors"][0];
-    assert_eq!([&error["line"], &error["column"], &error["word"]], [&json!(4), &json!(16), &json!("A0")]);
+    assert_eq!([&error["line"], &error["column"], &error["word"]], [&json!(4), &json!(14), &json!("A0")]);
     assert!(error["detail"].as_str().unwrap().contains("tcp_on"), "{error}");
     for (query, detail) in [
         ("tcp_on=X428", "a code is G or M"),

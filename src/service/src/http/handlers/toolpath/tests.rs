@@ -14,6 +14,8 @@ use crate::operations::toolpath_rows::{chunk_count, chunk_name, read_chunk};
 use crate::process::config::ServeConfig;
 use crate::process::service::Service;
 
+mod limits;
+
 const JSON: &str = "application/json";
 const FORM: &str = "application/x-www-form-urlencoded";
 

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use serde::Deserialize;
 
-/// Most failing stretches that the summary names.
-const MOST_FAILURES: usize = 10;
+/// Most failing stretches, and most warnings, that the summary names.
+const MOST_LISTED: usize = 10;
 
 /// A margin worse than this is no distance: the position is out of proportion to the machine.
 const OUT_OF_PROPORTION: f64 = 1e9;
@@ -39,7 +39,9 @@ struct Margin {
 #[derive(Debug, Deserialize)]
 struct Warning {
     line: u32,
+    word: String,
     detail: String,
+    occurrences: u32,
 }
 
 #[derive(Debug, Deserialize)]
@@ -63,12 +65,14 @@ impl Summary {
 
     /// Writes the summary.
     pub(super) fn write(&self, err: &mut impl Write) -> io::Result<()> {
-        for warning in &self.warnings {
-            writeln!(err, "warning: line {}: {}", warning.line, warning.detail)?;
+        for Warning { line, word, detail, .. } in self.warnings.iter().take(MOST_LISTED) {
+            let word = if word.is_empty() { String::new() } else { format!(" {word}:") };
+            writeln!(err, "warning: line {line}:{word} {detail}")?;
         }
-        let listed = self.warnings.len() as u64;
-        if self.warning_count > listed {
-            writeln!(err, "{} warnings in all; the report counts them.", self.warning_count)?;
+        let listed = self.warnings.iter().take(MOST_LISTED).map(|warning| u64::from(warning.occurrences));
+        match self.warning_count.saturating_sub(listed.sum()) {
+            0 => {}
+            more => writeln!(err, "warning: {more} more lines have warnings; the report lists them.")?,
         }
         if self.is_ok() {
             writeln!(err, "The machine can run the program: {} rows.", self.rows)?;
@@ -81,12 +85,12 @@ impl Summary {
             return Ok(());
         }
         writeln!(err, "The machine cannot run the program:")?;
-        for Failure { lines: [first, last], limit } in self.failures.iter().take(MOST_FAILURES) {
+        for Failure { lines: [first, last], limit } in self.failures.iter().take(MOST_LISTED) {
             let lines =
                 if first == last { format!("line {first}") } else { format!("lines {first} to {last}") };
             writeln!(err, "  {lines}: {}", limit.in_words())?;
         }
-        let shown = self.failures.len().min(MOST_FAILURES) as u64;
+        let shown = self.failures.len().min(MOST_LISTED) as u64;
         match self.failure_count.saturating_sub(shown) {
             0 => Ok(()),
             more => writeln!(err, "  and {more} more stretches; the report lists them."),
