@@ -91,7 +91,7 @@ pub struct Warning {
     pub line: u32,
     /// The word that it concerns, at most 64 characters of it.
     pub word: String,
-    /// What the reader did.
+    /// The reader's action.
     pub detail: String,
     /// How many lines it concerns.
     pub occurrences: u32,

@@ -68,11 +68,11 @@ pub(crate) fn compute_toolpath(
     let planned = planned?;
     writer.finish()?;
     let failing = planned.failures.iter().take(HEALED_FAILURES);
-    let heal = |stretch| {
+    let heal = |failure| {
         let options = question.plan_options();
-        healing_change(&question.machine, &motions, &options, stretch, || !observer.cancelled())
+        healing_change(&question.machine, &motions, &options, failure, || !observer.cancelled())
     };
-    let changes: Vec<_> = failing.map(|failure| heal(failure.motions)).collect();
+    let changes: Vec<_> = failing.map(heal).collect();
     if observer.cancelled() {
         return Err(OperationError::Cancelled);
     }

@@ -95,7 +95,8 @@ pub struct ServeConfig {
     #[arg(long, env = "VERNE_MAX_BODY_BYTES", default_value_t = 16 * 1024 * 1024,
         value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_body_bytes: usize,
-    /// Maximum size of a program (the file of a tool path), in bytes. Of a compressed body the decoded bytes count.
+    /// Maximum size of a program (the file of a tool path), in bytes. The service counts the decoded bytes of a
+    /// compressed body.
     #[arg(long, env = "VERNE_MAX_PROGRAM_BYTES", default_value_t = 128 * 1024 * 1024,
         value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     pub max_program_bytes: usize,

@@ -64,7 +64,7 @@ pub(crate) struct CanonicalToolpath {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub cycle: Option<f64>,
-    /// What happens where the machine cannot follow a cut.
+    /// Behaviour where the machine cannot follow a cut.
     pub on_limit: OnLimitName,
     /// How far the tool leaves the part, mm. Only a request with `on_limit: "retract"` has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -44,6 +44,7 @@ pub(crate) struct JointProgramQuery {
     /// The meaning of F.
     #[serde(default)]
     #[arg(long, default_value = "inverse_time")]
+    #[param(inline, default = "inverse_time")]
     pub feed_word: FeedWordName,
     /// The greatest F.
     #[serde(default = "default_greatest_feed")]
@@ -53,6 +54,7 @@ pub(crate) struct JointProgramQuery {
     /// The word of rapids.
     #[serde(default)]
     #[arg(long, default_value = "g0")]
+    #[param(inline, default = "g0")]
     pub rapid_word: RapidWordName,
     /// The step of block numbers (N). Without it, blocks have no numbers.
     #[arg(long, value_name = "STEP")]

@@ -46,7 +46,7 @@ pub(crate) struct ProgramSummary {
     pub tools: Vec<ToolObject>,
     /// Box around the tip's path in the frame of the program, mm. Helices are taken without their pitch.
     pub bounds: BoundsObject,
-    /// What the reader did otherwise than the file may mean: at most 100 different warnings.
+    /// Places where the reader did otherwise than the file may mean: at most 100 different warnings.
     pub warnings: Vec<WarningObject>,
     /// The number of lines with warnings, also of those that the list leaves out.
     pub warning_count: u64,
@@ -74,7 +74,7 @@ pub(crate) struct WarningObject {
     pub line: u32,
     /// The word that it concerns; empty if the line as a whole.
     pub word: String,
-    /// What the reader did.
+    /// The reader's action.
     pub detail: String,
     /// How many lines it concerns.
     pub occurrences: u32,

@@ -29,8 +29,8 @@ pub(crate) struct ProgramQuery {
     #[arg(long, value_parser = read_name::<Units>)]
     #[param(nullable = false, schema_with = units)]
     pub units: Option<Units>,
-    /// What to do with cutter radius compensation (CUTCOM, G41): `accept` makes it a warning, because the points of a
-    /// program are the tool's path; `refuse` makes it a fault.
+    /// How the reader takes cutter radius compensation (CUTCOM, G41): `accept` makes it a warning, because the points
+    /// of a program are the tool's path; `refuse` makes it a fault.
     #[serde(default)]
     #[arg(long, default_value = "accept", value_parser = read_name::<Compensation>)]
     #[param(schema_with = compensation)]

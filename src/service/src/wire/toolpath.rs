@@ -80,7 +80,7 @@ pub(crate) struct ToolpathRequest {
     #[serde(default)]
     #[schema(minimum = 1e-6, maximum = 1)]
     pub cycle: Option<f64>,
-    /// What happens where the machine cannot follow a cut.
+    /// Behaviour where the machine cannot follow a cut.
     #[serde(default)]
     pub on_limit: OnLimitName,
     /// How far the tool leaves the part along its axis, and how far above the program's highest point it turns with the
@@ -250,7 +250,7 @@ pub(crate) enum RapidsName {
     Joint,
 }
 
-/// What happens where no winding of the table serves a whole cut: `fail` (default), the report states the limit;
+/// Behaviour where no winding of the table serves a whole cut: `fail` (default), the report states the limit;
 /// `retract`, the tool leaves the part, the table turns by whole turns, and the tool returns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
@@ -267,13 +267,13 @@ pub(crate) enum OnLimitName {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct Tolerance {
-    /// Of the tool's end in feed moves, mm.
+    /// Deviation of the tool's end in feed moves, mm.
     #[schema(minimum = 1e-5, maximum = 100, default = 0.01)]
     pub tip: f64,
-    /// Of the tool's axis in feed moves, degrees.
+    /// Deviation of the tool's axis in feed moves, degrees.
     #[schema(minimum = 1e-5, maximum = 10, default = 0.05)]
     pub axis: f64,
-    /// Of the tool's end in rapids, mm.
+    /// Deviation of the tool's end in rapids, mm.
     #[schema(minimum = 1e-5, maximum = 1000, default = 1.0)]
     pub rapid: f64,
 }

@@ -95,7 +95,7 @@ pub(crate) struct ToolpathQuery {
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 1e-6, maximum = 1, nullable = false)]
     pub cycle: Option<f64>,
-    /// What happens where the machine cannot follow a cut.
+    /// Behaviour where the machine cannot follow a cut.
     #[serde(default)]
     #[arg(long, default_value = "fail")]
     pub on_limit: OnLimitName,

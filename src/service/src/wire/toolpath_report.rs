@@ -63,7 +63,7 @@ pub(crate) struct ToolpathReport {
     pub departures: Vec<DepartureObject>,
     /// Number of all these rapids.
     pub departure_count: u64,
-    /// What the author of the program should know: at most a hundred warnings of the reader, and those of the plan.
+    /// Warnings for the author of the program: at most a hundred of the reader, and those of the plan.
     pub warnings: Vec<WarningObject>,
     /// The number of lines with warnings, also of those that the list leaves out.
     pub warning_count: u64,
@@ -119,7 +119,7 @@ pub(crate) struct FailureObject {
 pub(crate) struct ChangeObject {
     /// The number.
     pub parameter: ParameterName,
-    /// What to add to it, mm.
+    /// The change, mm: add it to the parameter.
     pub delta: f64,
 }
 
@@ -177,9 +177,9 @@ pub(crate) struct FailurePlace {
 /// Lengths of the tip's path, mm.
 #[derive(Clone, Copy, Debug, Serialize, ToSchema)]
 pub(crate) struct PathLengths {
-    /// Of the feed moves.
+    /// Length of the feed moves.
     pub feed: f64,
-    /// Of the rapids.
+    /// Length of the rapids.
     pub rapid: f64,
 }
 
@@ -232,9 +232,9 @@ pub(crate) struct TurningObject {
 /// Deviation from the program.
 #[derive(Clone, Copy, Debug, Serialize, ToSchema)]
 pub(crate) struct DeviationObject {
-    /// Of the tool's end, mm.
+    /// Deviation of the tool's end, mm.
     pub tip: f64,
-    /// Of the tool's axis, degrees.
+    /// Deviation of the tool's axis, degrees.
     pub axis: f64,
 }
 

@@ -14,7 +14,7 @@ pub(crate) struct TimeObject {
     /// Number of rows to which the machine moves in an unknown time: neither a feed nor drives of the machine determine
     /// it.
     pub unknown_rows: u64,
-    /// What determines the time; null if it is zero.
+    /// Shares of the time that the feed, the drives and the waits determine; null if it is zero.
     pub governed: Option<GovernedObject>,
 }
 

@@ -1,7 +1,9 @@
 //! The smallest change of the set-up or of the tool that lets the machine follow a failing stretch.
 
 use super::motion::{Curve, Motion, MotionKind, Motions};
+use super::report::Failure;
 use super::{OnLimit, PlanOptions, plan};
+use crate::limit::Constraint;
 use crate::machine::Machine;
 
 /// Greatest number of motions of a stretch that is examined.
@@ -39,14 +41,14 @@ pub struct Change {
     pub delta: f64,
 }
 
-/// Finds the smallest change of one parameter with which the machine can follow the motions from `first` to `last`,
-/// between the rows, too.
+/// Finds the smallest change of one parameter with which the machine can follow the motions of a failure, between the
+/// rows, too.
 ///
 /// The changes ±1/64, ±1/32, ±1/16, … ±512 mm are tried, and those of the first size that help are refined by
 /// bisection to 1/64 mm. So a smaller change may help too, if it lies between two that do not. `None`: no change
 /// helps, `go_on` has returned `false`, the stretch has more than [`MOST_HEALED_MOTIONS`] motions or
-/// [`MOST_HEALED_ROWS`] rows, or it fails only together with the rest of the program, such as at the end of the
-/// rotary range.
+/// [`MOST_HEALED_ROWS`] rows, or it fails only together with the rest of the program. The rotary axis turns with the
+/// tool's axis alone, so nothing heals a failure at its limit.
 ///
 /// # Units
 ///
@@ -57,7 +59,7 @@ pub struct Change {
 /// ```
 /// use verne_solver::Machine;
 /// use verne_solver::toolpath::{
-///     Curve, Motion, MotionKind, Parameter, PlanOptions, ToolPosition, Turning, healing_change,
+///     Curve, Motion, MotionKind, Parameter, PlanOptions, ToolPosition, Turning, healing_change, plan,
 /// };
 ///
 /// let to = |kind, x| Motion {
@@ -69,24 +71,33 @@ pub struct Change {
 /// };
 /// // So high that the sliders would leave their strokes.
 /// let program = [to(MotionKind::Arrive, -20.0), to(MotionKind::Feed, 20.0)];
-/// let change = healing_change(&Machine::verne(), &program[..], &PlanOptions::default(), [0, 1], || true);
+/// let (machine, options) = (Machine::verne(), PlanOptions::default());
+/// let report = plan(&machine, &program[..], &options, |_| true, |_| {})?;
+/// let change = healing_change(&machine, &program[..], &options, &report.failures[0], || true);
 /// assert!(change.is_some_and(|change| change.parameter == Parameter::Z && change.delta < 0.0));
+/// # Ok::<(), verne_solver::toolpath::PlanError>(())
 /// ```
 pub fn healing_change<M: Motions + ?Sized>(
     machine: &Machine,
     motions: &M,
     options: &PlanOptions,
-    [first, last]: [usize; 2],
+    failure: &Failure,
     go_on: impl Fn() -> bool,
 ) -> Option<Change> {
-    if last >= motions.count() || last.checked_sub(first)? >= MOST_HEALED_MOTIONS {
+    let [first, last] = failure.motions;
+    let is_rotary = failure.margin.constraint == Constraint::Rotary;
+    if is_rotary || last >= motions.count() || last.checked_sub(first)? >= MOST_HEALED_MOTIONS {
         return None;
     }
     let most_rows = options.most_rows.min(MOST_HEALED_ROWS);
     let options = PlanOptions { on_limit: OnLimit::Fail, most_rows, ..options.clone() };
-    let heals = |change: Change| {
+    let follows = |[first, last]: [usize; 2], change| {
         let changed = Changed { motions, begin: first.saturating_sub(1), end: last, change };
         plan(machine, &changed, &options, |_| go_on(), |_| {}).is_ok_and(|report| report.is_feasible())
+    };
+    // Most changes do not even heal the worst motion.
+    let heals = |change: Change| {
+        follows([failure.motion; 2], change) && (first == last || follows([first, last], change))
     };
     let at = |parameter, delta| Change { parameter, delta };
     if heals(at(Parameter::X, 0.0)) {

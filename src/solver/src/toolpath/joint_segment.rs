@@ -21,7 +21,7 @@ const GREATEST_ODD: f64 = 0.096_225_1;
 /// Greatest deviations from a path: of the tool's end, mm, and of its axis, rad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Deviation {
-    /// Of the tool's end, mm.
+    /// Deviation of the tool's end, mm.
     pub tip: f64,
     /// Of the axis, rad.
     pub axis: f64,

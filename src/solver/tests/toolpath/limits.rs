@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use verne_solver::toolpath::{Motion, OnLimit, Parameter, PlanOptions, Row, RowKind, healing_change};
+use verne_solver::toolpath::{
+    Failure, Motion, OnLimit, Parameter, PlanOptions, Row, RowKind, healing_change,
+};
 use verne_solver::{Constraint, Machine};
 
 use super::choices::{helix, tilted};
@@ -109,8 +111,8 @@ fn the_change_heals_the_stretch_and_a_little_less_does_not() {
     for program in &programs {
         let (report, _) = planned(&machine, program, &options);
         assert!(!report.is_feasible());
-        let range = [0, program.len() - 1];
-        let Some(change) = healing_change(&machine, &program[..], &options, range, || true) else { continue };
+        let all = Failure { motions: [0, program.len() - 1], ..report.failures[0] };
+        let Some(change) = healing_change(&machine, &program[..], &options, &all, || true) else { continue };
         found += 1;
         let with = |delta: f64| planned(&machine, &healed(program, change.parameter, delta), &options).0;
         assert!(with(change.delta).is_feasible(), "{change:?}");
@@ -123,7 +125,7 @@ fn the_change_heals_the_stretch_and_a_little_less_does_not() {
 #[test]
 fn a_rotary_limit_is_healed_by_no_change() {
     let program = helix(0.0, 900.0);
-    let options = PlanOptions::default();
-    let range = [0, program.len() - 1];
-    assert_eq!(healing_change(&Machine::verne(), &program[..], &options, range, || true), None);
+    let (machine, options) = (Machine::verne(), PlanOptions::default());
+    let (report, _) = planned(&machine, &program, &options);
+    assert_eq!(healing_change(&machine, &program[..], &options, &report.failures[0], || true), None);
 }

@@ -28,7 +28,7 @@ fn all(motions: &ProgramMotions) -> Vec<Motion> {
 
 #[test]
 fn each_work_offset_has_its_frame_and_a_change_begins_anywhere() {
-    let text = "G21 G90 G54\nG43.4 H1 G0 X0 Y0 Z300\nG1 X10 F500\nG55\nG0 X0\nG1 X10\n";
+    let text = "G21 G90 G54\nG43.4 H1 G0 X0 Y0 Z300\nG1 X10 F500\nG55\nG0 X0 Y0 Z300\nG1 X10\n";
     let frames = json!({"setup": {"z": 5}, "offsets": {"G55": {"x": 100, "c": 90}}, "tool_length": 50});
     let motions = all(&motions_of(Format::Gcode, text, &frames).unwrap());
     let tips: Vec<_> = motions.iter().map(|motion| motion.end.tip).collect();
