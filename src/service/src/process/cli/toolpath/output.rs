@@ -1,7 +1,7 @@
 //! The files of `verne toolpath`.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, ErrorKind, Write};
 use std::path::Path;
 
 use clap::ValueEnum;
@@ -117,6 +117,10 @@ pub(super) fn write_report(
     let text = to_json(&answer, pretty || !is_standard(path))?;
     let mut destination = destination(path, out)?;
     let written = writeln!(destination, "{text}").and_then(|()| destination.flush());
+    if is_standard(path) && written.as_ref().is_err_and(|error| error.kind() == ErrorKind::BrokenPipe) {
+        // The reader has read enough, and the verdict is known.
+        return Ok(());
+    }
     written.map_err(|error| format!("{}: {error}", path.display()))
 }
 
