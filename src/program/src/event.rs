@@ -51,7 +51,7 @@ pub enum EventKind {
     },
     /// A text for the operator.
     Comment,
-    /// A text for the controller, to be passed on as it is.
+    /// A text for the controller. Its writer decides what of it can be passed on.
     Insert,
     /// A statement without motion that the reader passes on.
     Other,

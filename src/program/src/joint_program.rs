@@ -10,6 +10,8 @@
 //! - In inverse time every G1 block has an F word: one over its duration in minutes. Per minute, F is the speed of the
 //!   tip in mm/min; where the tip stands still, that of the rotary axes in deg/min.
 //! - Events stand before the block that they stand before in the program. The block after an event is complete.
+//! - Of the texts for the controller (INSERT) only M, S and T words are passed on, and none that ends the program or
+//!   calls another one. Every other text is a comment: it could move the axes, or change what the words mean.
 //! - Texts cannot end a comment: parentheses become brackets, and what is not printable ASCII is replaced.
 
 mod error;

@@ -1,6 +1,6 @@
 //! Events as lines of a joint program.
 
-use super::text::{comment, line};
+use super::text::{comment, is_auxiliary, line};
 use crate::event::{Coolant, Dwell, Event, EventKind, Rotation, Spindle};
 
 /// A line for an event.
@@ -8,7 +8,7 @@ use crate::event::{Coolant, Dwell, Event, EventKind, Rotation, Spindle};
 pub(super) enum EventLine {
     /// Words for the controller.
     Code(String),
-    /// A text that is passed on as it is.
+    /// A text for the controller that is passed on as it is. It may move the axes: M6 does on some machines.
     Insert(String),
     /// A comment.
     Comment(String),
@@ -37,7 +37,7 @@ pub(super) fn event_line(event: &Event, speed: Option<f64>) -> Option<EventLine>
         EventKind::Stop => code("M0"),
         EventKind::OptionalStop => code("M1"),
         EventKind::End => None,
-        EventKind::Insert => Some(EventLine::Insert(line(&event.text))),
+        EventKind::Insert => Some(insert(&event.text)),
         EventKind::Home
         | EventKind::Frame
         | EventKind::Compensation { .. }
@@ -47,6 +47,16 @@ pub(super) fn event_line(event: &Event, speed: Option<f64>) -> Option<EventLine>
         | EventKind::TiltedPlane { .. }
         | EventKind::Comment
         | EventKind::Other => Some(EventLine::Comment(comment(&event.text))),
+    }
+}
+
+/// A text for the controller. Other words than M, S and T could move the axes, or change what the words of all later
+/// blocks mean; so such a text is a comment.
+fn insert(text: &str) -> EventLine {
+    if is_auxiliary(text) {
+        EventLine::Insert(line(text))
+    } else {
+        EventLine::Comment(comment(&format!("not passed on: {}", line(text))))
     }
 }
 

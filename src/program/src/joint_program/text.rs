@@ -11,6 +11,33 @@ pub(super) fn is_line(text: &str) -> bool {
     text.len() <= LONGEST_TEXT && text.bytes().all(|byte| matches!(byte, b' '..=b'~'))
 }
 
+/// The M words that end a program, or leave it for another one.
+const LEAVING: [u32; 4] = [2, 30, 98, 99];
+
+/// Whether a text consists of M, S and T words, perhaps after a block number, that neither end the program nor leave it.
+pub(super) fn is_auxiliary(text: &str) -> bool {
+    let compact: String = text.trim().to_ascii_uppercase().split(' ').collect();
+    let starts = compact.char_indices().filter(|(_, c)| c.is_ascii_alphabetic()).map(|(start, _)| start);
+    let ends = starts.clone().skip(1).chain([compact.len()]);
+    let mut words = starts.zip(ends).map(|(start, end)| compact[start..end].split_at(1)).peekable();
+    words.next_if(|(letter, number)| *letter == "N" && number.parse::<u32>().is_ok());
+    is_line(text.trim())
+        && compact.starts_with(|c: char| c.is_ascii_alphabetic())
+        && words.peek().is_some()
+        && words.all(|(letter, number)| {
+            // `parse` accepts a sign, and names of numbers that are none; the letters of those end a word.
+            let number = Some(number).filter(|number| number.starts_with(|c: char| c.is_ascii_digit()));
+            match letter {
+                "M" => {
+                    number.and_then(|number| number.parse().ok()).is_some_and(|code| !LEAVING.contains(&code))
+                }
+                "S" => number.is_some_and(|number| number.parse::<f64>().is_ok()),
+                "T" => number.is_some_and(|number| number.parse::<u32>().is_ok()),
+                _ => false,
+            }
+        })
+}
+
 /// The text as a line: other characters than printable ASCII become blanks.
 pub(super) fn line(text: &str) -> String {
     let printable = |c: char| if matches!(c, ' '..='~') { c } else { ' ' };
@@ -28,7 +55,7 @@ pub(super) fn comment(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::comment;
+    use super::{comment, is_auxiliary};
 
     #[test]
     fn a_text_stays_in_its_comment() {
@@ -43,5 +70,47 @@ mod tests {
         assert_eq!(comment(" p r int ,#1"), "(- p r int ,#1)");
         assert_eq!(comment("MSG, change the tool"), "(MSG, change the tool)");
         assert_eq!(comment("print"), "(print)");
+    }
+
+    #[test]
+    fn only_m_s_and_t_words_go_to_the_controller() {
+        for text in ["M8", " m08 ", "N10 M8 M 51", "S6000.5 M3", "T12", "T1M6S300"] {
+            assert!(is_auxiliary(text), "{text}");
+        }
+        let other = [
+            "",
+            "N10",
+            "G0 X777",
+            "G91",
+            "Stock Size X95. Y150.",
+            "M8 (x)",
+            "/M8",
+            "M64 P2",
+            "M98 P1",
+            "M99",
+            "M30",
+            "m02",
+            "M8 N1",
+            "M",
+            "M-8",
+            "S+1",
+            "S1E5",
+            "SINF",
+            "SNAN",
+            "T1.5",
+            "10 M8",
+            "M8 Ø",
+            "M8\nG0X1",
+            "M8;G0X1",
+            "%M8",
+            "#1=5",
+            "M#1",
+            "TOOL",
+            "STOP",
+        ];
+        for text in other {
+            assert!(!is_auxiliary(text), "{text}");
+        }
+        assert!(!is_auxiliary(&"M8 ".repeat(100)));
     }
 }

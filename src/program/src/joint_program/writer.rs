@@ -167,12 +167,13 @@ impl<W: Write> JointProgramWriter<W> {
             self.speed = Some(speed);
         }
         self.modal = Modal::default();
-        if event.kind == EventKind::Insert {
-            self.position = None;
-        }
         match event_line(event, self.speed) {
             Some(EventLine::Code(words)) => self.code(&words),
-            Some(EventLine::Insert(line) | EventLine::Comment(line)) => Ok(writeln!(self.out, "{line}")?),
+            Some(EventLine::Insert(line)) => {
+                self.position = None;
+                Ok(writeln!(self.out, "{line}")?)
+            }
+            Some(EventLine::Comment(line)) => Ok(writeln!(self.out, "{line}")?),
             None => Ok(()),
         }
     }

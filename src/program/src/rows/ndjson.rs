@@ -62,6 +62,12 @@ fn not_a_row(number: u32, line: &[u8], error: &serde_json::Error) -> ProgramErro
     let text = error.to_string();
     // The parser knows one line only: its own " at line 1 column 7" would mislead.
     let reason = text.split(" at line ").next().unwrap_or_default();
+    // Nor does it know that a row may be an array: its own list of names is a part of what is accepted.
+    let reason = if reason.starts_with("unknown field") {
+        reason.split(", expected ").next().unwrap_or_default()
+    } else {
+        reason
+    };
     let detail = format!(
         "{reason}; accepted are an array of 3, 5 or 6 numbers, or an object with {}",
         crate::rows::row::NAMES

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::Deserialize;
+use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::moves::MoveKind;
@@ -10,7 +11,8 @@ use crate::moves::MoveKind;
 /// A row of a program.
 ///
 /// In JSON it is an array of 3, 5 or 6 numbers, `[x, y, z]`, `[x, y, z, phi1, phi2]` or `[x, y, z, i, j, k]`, or an
-/// object with these names and optionally `feed`, `kind` and `line`. Further names of an object are ignored.
+/// object with these names and optionally `feed`, `kind` and `line`. An object with another name is refused: a misspelt
+/// `phi1` would be a row without an orientation.
 ///
 /// ```
 /// use verne_program::{Row, RowOrientation};
@@ -118,6 +120,23 @@ impl Serialize for Row {
     }
 }
 
+/// The names that an object may have. The parser refuses others, and lists these.
+#[derive(Deserialize)]
+#[serde(field_identifier, rename_all = "lowercase")]
+enum Name {
+    X,
+    Y,
+    Z,
+    I,
+    J,
+    K,
+    Phi1,
+    Phi2,
+    Feed,
+    Kind,
+    Line,
+}
+
 struct RowVisitor;
 
 impl<'de> Visitor<'de> for RowVisitor {
@@ -147,20 +166,19 @@ impl<'de> Visitor<'de> for RowVisitor {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Row, A::Error> {
         let mut named = Named::default();
-        while let Some(name) = map.next_key::<String>()? {
-            match name.as_str() {
-                "x" => fill(&mut named.x, &mut map, "x")?,
-                "y" => fill(&mut named.y, &mut map, "y")?,
-                "z" => fill(&mut named.z, &mut map, "z")?,
-                "i" => fill(&mut named.i, &mut map, "i")?,
-                "j" => fill(&mut named.j, &mut map, "j")?,
-                "k" => fill(&mut named.k, &mut map, "k")?,
-                "phi1" => fill(&mut named.phi1, &mut map, "phi1")?,
-                "phi2" => fill(&mut named.phi2, &mut map, "phi2")?,
-                "feed" => fill(&mut named.feed, &mut map, "feed")?,
-                "kind" => fill(&mut named.kind, &mut map, "kind")?,
-                "line" => fill(&mut named.line, &mut map, "line")?,
-                _ => drop(map.next_value::<de::IgnoredAny>()?),
+        while let Some(name) = map.next_key()? {
+            match name {
+                Name::X => fill(&mut named.x, &mut map, "x")?,
+                Name::Y => fill(&mut named.y, &mut map, "y")?,
+                Name::Z => fill(&mut named.z, &mut map, "z")?,
+                Name::I => fill(&mut named.i, &mut map, "i")?,
+                Name::J => fill(&mut named.j, &mut map, "j")?,
+                Name::K => fill(&mut named.k, &mut map, "k")?,
+                Name::Phi1 => fill(&mut named.phi1, &mut map, "phi1")?,
+                Name::Phi2 => fill(&mut named.phi2, &mut map, "phi2")?,
+                Name::Feed => fill(&mut named.feed, &mut map, "feed")?,
+                Name::Kind => fill(&mut named.kind, &mut map, "kind")?,
+                Name::Line => fill(&mut named.line, &mut map, "line")?,
             }
         }
         named.row().map_err(de::Error::custom)

@@ -63,9 +63,22 @@ fn texts_cannot_leave_their_comments() {
 
 #[test]
 fn an_insert_is_passed_on_as_it_is_and_the_position_is_stated_anew() {
-    let events = [event(1, EventKind::Insert, "M64 P2")];
+    let events = [event(1, EventKind::Insert, "M64 M51")];
     let rows = [row(0, START, None), row(1, START, Some(1.0))];
     let (text, _) = write(&JointProgramOptions::default(), &events, &rows).unwrap();
     let complete = "X600.0 Y600.0 Z600.0 A0.0 C0.0";
-    assert_eq!(body(&text), [format!("G0 {complete}"), "M64 P2".to_owned(), format!("G1 {complete} F60.0")]);
+    assert_eq!(body(&text), [format!("G0 {complete}"), "M64 M51".to_owned(), format!("G1 {complete} F60.0")]);
+}
+
+#[test]
+fn an_insert_with_other_words_than_m_s_and_t_is_a_comment() {
+    let texts = ["G0 X777", "G91", "Stock Size X95. Y150.", "G64 P0.01", "M98 P1000", "M8 (x) G0 Z0", "M99"];
+    let events = texts.map(|text| event(1, EventKind::Insert, text));
+    let rows = [row(0, START, None), row(1, [610.0, 600.0, 600.0, 0.0, 0.0], Some(1.0))];
+    let (text, _) = write(&JointProgramOptions::default(), &events, &rows).unwrap();
+    let blocks = blocks(&text);
+    let words: Vec<_> = blocks.iter().map(|block| block.keys().collect::<String>()).collect();
+    assert_eq!(words, ["G", "ACGXYZ", "ACFGXYZ", "M"]);
+    assert!(text.contains("\n(not passed on: Stock Size X95. Y150.)\n"), "{text}");
+    assert!(text.contains("\n(not passed on: M8 [x] G0 Z0)\n"), "{text}");
 }

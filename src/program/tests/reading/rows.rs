@@ -109,7 +109,7 @@ fn csv_that_is_not_understood_is_refused_at_its_value() {
 #[test]
 fn ndjson_rows_are_arrays_or_objects() {
     let program = ndjson(
-        "[1, 2, 3, 0, -3, 4]\n\n{\"z\": 6, \"x\": 4, \"y\": 5, \"i\": 1, \"j\": 0, \"k\": 0, \"note\": {\"a\": [1]}, \
+        "[1, 2, 3, 0, -3, 4]\n\n{\"z\": 6, \"x\": 4, \"y\": 5, \"i\": 1, \"j\": 0, \"k\": 0, \
          \"kind\": \"rapid\", \"feed\": null, \"line\": 70}\r\n",
     );
     assert_eq!(tips(&program), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
@@ -127,11 +127,19 @@ fn ndjson_that_is_not_understood_is_refused_at_its_column() {
     refused(Ndjson, "[1, 2, 1e999]\n", (1, 8, "1e999"), "out of range");
     refused(Ndjson, "\n{\"x\": 1, \"y\": 2}\n", (2, 15, "2"), "x, y and z");
     refused(Ndjson, "{\"x\": 1, \"x\": 2}\n", (1, 10, "\"x\""), "duplicate field");
+    let names = "x, y, z; then i, j, k, or phi1, phi2";
+    refused(Ndjson, "{\"x\":1,\"y\":2,\"z\":3,\"Phi1\":20}\n", (1, 20, "\"Phi1\""), names);
+    refused(
+        Ndjson,
+        "{\"fed\":5,\"x\":1,\"y\":2,\"z\":3}\n",
+        (1, 2, "\"fed\""),
+        "unknown field `fed`; accepted",
+    );
     refused(Ndjson, "{\"x\":1,\"y\":2,\"z\":3,\"kind\":\"plunge\"}\n", (1, 27, "\"plunge\""), "rapid");
     refused(Ndjson, "{\"x\":1,\"y\":2,\"z\":3", (1, 18, "3"), "EOF");
     refused(Ndjson, "7\n", (1, 1, "7"), "array");
     refused(Ndjson, "[1,2,3,0,0,0]\n", (1, 1, "i"), "(0, 0, 0)");
-    refused(Ndjson, &format!("{{\"a\":{}\n", "[".repeat(5000)), (1, 5006, ""), "EOF");
+    refused(Ndjson, &format!("{{\"x\":{}\n", "[".repeat(5000)), (1, 6, ""), "f64");
 }
 
 #[test]

@@ -5,6 +5,7 @@ pub(crate) mod health;
 pub(crate) mod key;
 pub(crate) mod kinematics;
 pub(crate) mod progress;
+pub(crate) mod result_pipe;
 pub(crate) mod store;
 pub(crate) mod toolpath;
 pub(crate) mod workspace;
@@ -19,6 +20,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::process::cli::health::HealthCommand;
 use crate::process::cli::key::KeyCommand;
 use crate::process::cli::kinematics::KinematicsCommand;
+use crate::process::cli::result_pipe::ResultPipe;
 use crate::process::cli::store::StoreCommand;
 use crate::process::cli::toolpath::ToolpathCommand;
 use crate::process::cli::workspace::WorkspaceCommand;
@@ -77,7 +79,17 @@ impl Cli {
 
     /// Runs the command, and returns the exit status. Results go to `out`, with line breaks if `pretty`; the key of
     /// `verne key new` and the summary of `verne toolpath` go to `err`. The error is a message for people.
+    ///
+    /// If the reader of `out` closes it early, as `head` does, the command stops without a message, and succeeds.
     pub fn run(self, out: &mut impl Write, err: &mut impl Write, pretty: bool) -> Result<ExitCode, String> {
+        let mut out = ResultPipe::new(out);
+        match self.execute(&mut out, err, pretty) {
+            Err(_) if out.is_closed() => Ok(ExitCode::SUCCESS),
+            done => done,
+        }
+    }
+
+    fn execute(self, out: &mut impl Write, err: &mut impl Write, pretty: bool) -> Result<ExitCode, String> {
         if let Some(settings) = self.printed_settings {
             return match write!(out, "{settings}") {
                 Ok(()) => Ok(ExitCode::SUCCESS),
@@ -117,4 +129,50 @@ fn on_runtime(
     // A thread may wait for a name server.
     runtime.shutdown_timeout(SHUTDOWN_TIMEOUT);
     ended
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use std::ffi::OsString;
+    use std::io::{self, ErrorKind, Write};
+    use std::process::ExitCode;
+
+    use super::Cli;
+
+    /// A pipe whose reader is gone.
+    struct Closed;
+
+    impl Write for Closed {
+        fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+            Err(ErrorKind::BrokenPipe.into())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn status(line: &str) -> (String, String) {
+        let mut err = Vec::new();
+        let cli = Cli::read(line.split_whitespace().map(OsString::from)).unwrap();
+        let status = format!("{:?}", cli.run(&mut Closed, &mut err, false));
+        (status, String::from_utf8(err).unwrap())
+    }
+
+    #[test]
+    fn a_pipe_that_its_reader_closes_is_no_error() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = directory.path().join("part.csv");
+        std::fs::write(&file, "x,y,z\n0,0,300\n0,0,3000\n").unwrap();
+        let toolpath = format!("verne toolpath {} --tool-length 100", file.display());
+        let success = format!("{:?}", Ok::<_, String>(ExitCode::SUCCESS));
+        for line in ["verne fk --rho 674,685,250", &format!("{toolpath} -o -")] {
+            assert_eq!(status(line), (success.clone(), String::new()), "{line}");
+        }
+        // The report was not read, but the verdict is known.
+        let (status, summary) = status(&toolpath);
+        assert_eq!(status, format!("{:?}", Ok::<_, String>(ExitCode::from(3))));
+        assert!(summary.contains("cannot run the program"), "{summary}");
+    }
 }

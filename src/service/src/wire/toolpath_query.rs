@@ -159,6 +159,10 @@ impl ToolpathQuery {
 pub(crate) fn point_into_toolpath_query(error: OperationError) -> OperationError {
     let OperationError::Fields(faults) = error else { return error };
     let moved = faults.into_iter().map(|fault| {
+        // The parameters of a joint program are in the query only.
+        if fault.pointer.starts_with("/query/") {
+            return fault;
+        }
         let name = match fault.pointer.strip_prefix("/tolerance/") {
             Some(name) => format!("/{name}_tolerance"),
             None => fault.pointer,

@@ -72,6 +72,7 @@ impl ToolpathCommand {
         if rows_take_standard_output && self.report.as_deref().is_some_and(is_standard) {
             return Err("--output and --report cannot both be standard output".to_owned());
         }
+        self.refuse_equal_files()?;
         // Before the computation: the extension may be unknown.
         let format = output.map(output::format).transpose()?;
         let file = name_of(&self.file);
@@ -105,6 +106,22 @@ impl ToolpathCommand {
         // If standard error is closed, report and exit status still tell the verdict.
         drop(summary.write(err));
         Ok(if summary.is_ok() { ExitCode::SUCCESS } else { ExitCode::from(FAILS) })
+    }
+
+    /// Refuses to write over a file that the command reads, or one output over the other.
+    fn refuse_equal_files(&self) -> Result<(), String> {
+        let machine = Some(Path::new(&self.query.machine)).filter(|path| path.is_file());
+        let read = [("the program", Some(&*self.file)), ("the machine", machine)];
+        let read = read.into_iter().filter_map(|(name, path)| path.map(|path| (name, path)));
+        let written = [("--output", self.output.as_deref()), ("--report", self.report.as_deref())];
+        let written = written.into_iter().filter_map(|(flag, path)| path.map(|path| (flag, path)));
+        for (index, (flag, path)) in written.clone().enumerate() {
+            let mut others = read.clone().chain(written.clone().take(index));
+            if let Some((other, _)) = others.find(|(_, other)| output::is_same_file(path, other)) {
+                return Err(format!("{flag} {} would overwrite {other}; name another file", path.display()));
+            }
+        }
+        Ok(())
     }
 }
 

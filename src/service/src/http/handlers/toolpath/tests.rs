@@ -229,6 +229,12 @@ async fn fields_that_cannot_be_used_are_named() {
         ("/toolpath", JSON, "{}", "/program"),
         ("/toolpath", JSON, r#"{"program": "x"}"#, "/program"),
         ("/toolpath", JSON, r#"{"program": {"points": [[1, 2]]}}"#, "/program/points/0"),
+        (
+            "/toolpath",
+            JSON,
+            r#"{"program": {"points": [[1, 2, 3], {"x": 1, "y": 2, "z": 3, "Phi1": 20}]}}"#,
+            "/program/points/1/Phi1",
+        ),
         ("/toolpath", JSON, r#"{"program": {"points": [[1, 2, 3]]}, "setup": [1]}"#, "/setup"),
         ("/toolpath?tool_length=5", JSON, "{}", "/query/tool_length"),
         ("/toolpath?format=apt&start={%22theta1%22:1}", FORM, LINE, "/query/start"),

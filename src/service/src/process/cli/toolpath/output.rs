@@ -1,7 +1,7 @@
 //! The files of `verne toolpath`.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, ErrorKind, Write};
 use std::path::Path;
 
 use clap::ValueEnum;
@@ -15,6 +15,22 @@ use crate::wire::toolpath_row::RowFormat;
 /// Whether a path means standard input or output.
 pub(super) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
+}
+
+/// Whether two paths name one file. A file that does not exist yet counts as the one that would be created.
+pub(super) fn is_same_file(first: &Path, second: &Path) -> bool {
+    let file = |path: &Path| {
+        if is_standard(path) {
+            return None;
+        }
+        let existing = path.canonicalize();
+        let created = || {
+            let directory = path.parent().filter(|directory| !directory.as_os_str().is_empty());
+            Some(directory.unwrap_or(Path::new(".")).canonicalize().ok()?.join(path.file_name()?))
+        };
+        existing.ok().or_else(created)
+    };
+    file(first).is_some_and(|first| file(second) == Some(first))
 }
 
 /// What is written to the output.
@@ -101,5 +117,37 @@ pub(super) fn write_report(
     let text = to_json(&answer, pretty || !is_standard(path))?;
     let mut destination = destination(path, out)?;
     let written = writeln!(destination, "{text}").and_then(|()| destination.flush());
+    if is_standard(path) && written.as_ref().is_err_and(|error| error.kind() == ErrorKind::BrokenPipe) {
+        // The reader has read enough, and the verdict is known.
+        return Ok(());
+    }
     written.map_err(|error| format!("{}: {error}", path.display()))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use std::fs;
+
+    use super::is_same_file;
+
+    #[test]
+    fn a_file_has_many_paths_whether_it_exists_or_not() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = |name: &str| directory.path().join(name);
+        fs::create_dir(path("inside")).unwrap();
+        fs::write(path("part.csv"), "").unwrap();
+        for (first, second, same) in [
+            ("part.csv", "part.csv", true),
+            ("part.csv", "inside/../part.csv", true),
+            ("new.csv", "inside/../new.csv", true),
+            ("part.csv", "inside/part.csv", false),
+            ("part.csv", "new.csv", false),
+            ("part.csv", "missing/part.csv", false),
+        ] {
+            assert_eq!(is_same_file(&path(first), &path(second)), same, "{first} {second}");
+        }
+        assert!(is_same_file("new.csv".as_ref(), "./new.csv".as_ref()));
+        assert!(!is_same_file("-".as_ref(), "-".as_ref()));
+    }
 }

@@ -4,11 +4,14 @@ use std::io::{self, Write};
 
 use serde::Deserialize;
 
-/// Most failing stretches, and most warnings, that the summary names.
+/// Most failing stretches, most warnings, and most rapids that leave their lines, that the summary names.
 const MOST_LISTED: usize = 10;
 
 /// A margin worse than this is no distance: the position is out of proportion to the machine.
 const OUT_OF_PROPORTION: f64 = 1e9;
+
+/// A rapid that stays this close to its line does not leave it, mm.
+const ON_THE_LINE: f64 = 0.01;
 
 /// What the summary says, read from a report.
 #[derive(Debug, Deserialize)]
@@ -20,6 +23,9 @@ pub(super) struct Summary {
     margins: Vec<Margin>,
     warnings: Vec<Warning>,
     warning_count: u64,
+    retracts: u64,
+    departures: Vec<Departure>,
+    departure_count: u64,
 }
 
 #[derive(Debug, Deserialize)]
@@ -44,6 +50,13 @@ struct Warning {
     occurrences: u32,
 }
 
+/// A rapid in which the joints move straight.
+#[derive(Clone, Copy, Debug, Deserialize)]
+struct Departure {
+    line: u32,
+    distance: Option<f64>,
+}
+
 #[derive(Debug, Deserialize)]
 struct Limit {
     constraint: String,
@@ -65,6 +78,20 @@ impl Summary {
 
     /// Writes the summary.
     pub(super) fn write(&self, err: &mut impl Write) -> io::Result<()> {
+        self.write_warnings(err)?;
+        self.write_departures(err)?;
+        if self.retracts > 0 {
+            let times =
+                if self.retracts == 1 { "once".to_owned() } else { format!("{} times", self.retracts) };
+            writeln!(
+                err,
+                "warning: within a cut the tool leaves the part {times}, so that the table can turn back."
+            )?;
+        }
+        self.write_verdict(err)
+    }
+
+    fn write_warnings(&self, err: &mut impl Write) -> io::Result<()> {
         for Warning { line, word, detail, .. } in self.warnings.iter().take(MOST_LISTED) {
             let word = if word.is_empty() { String::new() } else { format!(" {word}:") };
             writeln!(err, "warning: line {line}:{word} {detail}")?;
@@ -74,6 +101,38 @@ impl Summary {
             0 => {}
             more => writeln!(err, "warning: {more} more lines have warnings; the report lists them.")?,
         }
+        Ok(())
+    }
+
+    /// The rapids that leave their lines farthest, in the order of the program: the tool may hit something there.
+    fn write_departures(&self, err: &mut impl Write) -> io::Result<()> {
+        // Without a distance the platform passes a singularity.
+        let distance = |departure: &Departure| departure.distance.unwrap_or(f64::INFINITY);
+        let mut farthest = self.departures.clone();
+        farthest.retain(|departure| distance(departure) >= ON_THE_LINE);
+        let harmless = self.departures.len() - farthest.len();
+        farthest.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
+        farthest.truncate(MOST_LISTED);
+        farthest.sort_by_key(|departure| departure.line);
+        for Departure { line, distance } in &farthest {
+            let far = match distance {
+                Some(distance) => format!("by {} mm", rounded(*distance)),
+                None => "and the platform passes a singularity".to_owned(),
+            };
+            writeln!(err, "warning: line {line}: in a rapid the tool leaves its line {far}")?;
+        }
+        match self.departure_count.saturating_sub((farthest.len() + harmless) as u64) {
+            0 => Ok(()),
+            more => {
+                writeln!(
+                    err,
+                    "warning: in {more} more rapids the tool leaves its line; the report lists them."
+                )
+            }
+        }
+    }
+
+    fn write_verdict(&self, err: &mut impl Write) -> io::Result<()> {
         if self.is_ok() {
             writeln!(err, "The machine can run the program: {} rows.", self.rows)?;
             let least = |margin: &&Margin| ["mm", "deg"].contains(&margin.limit.unit.as_str());
@@ -158,7 +217,9 @@ fn rounded(number: f64) -> String {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
-    use super::Limit;
+    use serde_json::json;
+
+    use super::{Limit, Summary};
 
     #[test]
     fn limits_are_said_in_words() {
@@ -180,5 +241,30 @@ mod tests {
             let [constraint, element, unit] = [constraint, element, unit].map(str::to_owned);
             assert_eq!(Limit { constraint, element, margin, unit }.in_words(), words);
         }
+    }
+
+    #[test]
+    fn rapids_that_leave_their_lines_and_retracts_are_named() {
+        let mut departures = vec![
+            json!({"line": 75, "distance": 62.84, "direction": [0, 0, 1]}),
+            json!({"line": 80, "distance": null, "direction": null}),
+            json!({"line": 90, "distance": 1e-7, "direction": [0, 0, 1]}),
+        ];
+        departures.extend((0..10).map(|i| json!({"line": 100 + i, "distance": 10 - i})));
+        let report = json!({
+            "verdict": "ok", "failures": [], "failure_count": 0, "rows": 9, "margins": [], "warnings": [],
+            "warning_count": 0, "retracts": 2, "departures": departures, "departure_count": 13
+        });
+        let mut text = Vec::new();
+        Summary::read(report.to_string().as_bytes()).unwrap().write(&mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let lines: Vec<_> = text.lines().collect();
+        assert_eq!(lines[0], "warning: line 75: in a rapid the tool leaves its line by 62.8 mm");
+        let singular =
+            "warning: line 80: in a rapid the tool leaves its line and the platform passes a singularity";
+        assert_eq!((lines[1], lines.len()), (singular, 13));
+        assert_eq!(lines[10], "warning: in 2 more rapids the tool leaves its line; the report lists them.");
+        assert!(lines[11].contains("leaves the part 2 times"), "{text}");
+        assert_eq!(lines[12], "The machine can run the program: 9 rows.");
     }
 }
