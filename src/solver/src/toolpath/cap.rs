@@ -1,9 +1,12 @@
 //! The cap around the pole in which phi2 is free.
 
 use super::path::{Path, count_of};
+use crate::fast_math::angle_of_vector;
 
 /// Greatest angle that linear phi1 and phi2 move through in a step, rad.
 const STEP: f64 = 0.25;
+/// Greatest number of times that a part outside the cap is halved, so that the azimuth turns by less than half a turn.
+const MOST_HALVINGS: u32 = 24;
 /// Halvings that locate where a path enters a cap.
 const HALVINGS: u32 = 60;
 /// Steps of the search for the least inclination.
@@ -39,14 +42,15 @@ impl Cap {
         path.length() + self.scale * path.turn()
     }
 
-    /// Calls `found` with the parts of a path: both ends of each, and whether it is inside the cap.
+    /// Calls `found` with the parts of a path: both ends of each, and whether it is inside the cap. On a part outside
+    /// the azimuth turns by less than half a turn, unless the path meets the pole itself.
     pub(super) fn split(&self, path: &Path, mut found: impl FnMut([f64; 2], bool)) {
         if path.is_great_circle() && self.is_clear(path.end_axes(), path.turn()) {
             found([0.0, 1.0], false);
             return;
         }
         let steps = if path.is_great_circle() { 1 } else { count_of(path.turn() / STEP) };
-        let mut parts = Parts { begun: 0.0, is_inside: self.has(path.at(0.0).axis), found };
+        let mut parts = Parts { path, begun: 0.0, is_inside: self.has(path.at(0.0).axis), found };
         for step in 0..steps {
             let [low, high] = [step, step + 1].map(|step| f64::from(step) / f64::from(steps));
             match [parts.is_inside, self.has(path.at(high).axis)] {
@@ -61,7 +65,6 @@ impl Cap {
                 [true, true] => {}
             }
             if !parts.is_inside && high < 1.0 {
-                // A part follows the azimuth through less than half a turn.
                 parts.end(high, false);
             }
         }
@@ -104,16 +107,45 @@ impl Cap {
 }
 
 /// The parts of a path as they are found.
-struct Parts<F> {
+struct Parts<'a, F> {
+    path: &'a Path,
     begun: f64,
     is_inside: bool,
     found: F,
 }
 
-impl<F: FnMut([f64; 2], bool)> Parts<F> {
+impl<F: FnMut([f64; 2], bool)> Parts<'_, F> {
     /// Ends the present part; the next one is inside the cap or not.
     fn end(&mut self, s: f64, is_next_inside: bool) {
-        (self.found)([self.begun, s], self.is_inside);
+        if self.is_inside {
+            (self.found)([self.begun, s], true);
+        } else {
+            self.outside([self.begun, s], MOST_HALVINGS);
+        }
         (self.begun, self.is_inside) = (s, is_next_inside);
+    }
+
+    /// Halves a part outside the cap until the azimuth turns by less than half a turn on each half.
+    fn outside(&mut self, [from, to]: [f64; 2], halvings: u32) {
+        if halvings == 0 || self.is_below_half_turn([from, to]) {
+            (self.found)([from, to], false);
+            return;
+        }
+        let middle = 0.5 * (from + to);
+        self.outside([from, middle], halvings - 1);
+        self.outside([middle, to], halvings - 1);
+    }
+
+    /// Whether the azimuth certainly turns by less than half a turn. The shortest way between opposite azimuths leads
+    /// over the pole.
+    fn is_below_half_turn(&self, ends: [f64; 2]) -> bool {
+        if self.path.is_great_circle() {
+            return true;
+        }
+        let [a, b] = ends.map(|s| {
+            let [i, j, k] = self.path.at(s).axis;
+            angle_of_vector(k.abs(), i.hypot(j))
+        });
+        self.path.turn_between(ends) < a + b
     }
 }

@@ -1,5 +1,7 @@
 //! The exact path of one motion: position and axis of the tool for a parameter from 0 to 1.
 
+use std::f64::consts::PI;
+
 use nalgebra::Vector3;
 
 use super::motion::{Curve, Motion, ToolPosition, Turning};
@@ -155,6 +157,24 @@ impl Path {
             AxisPath::Fixed => 0.0,
             AxisPath::GreatCircle { angle, .. } => angle,
             AxisPath::Angles { start, end, .. } => (end[0] - start[0]).abs() + (end[1] - start[1]).abs(),
+        }
+    }
+
+    /// Upper bound of the angle that the axis moves through between two parameters, rad. It is small where linear phi1
+    /// and phi2 turn the axis about itself.
+    pub(super) fn turn_between(&self, ends: [f64; 2]) -> f64 {
+        let width = ends[1] - ends[0];
+        match self.axis {
+            AxisPath::Fixed => 0.0,
+            AxisPath::GreatCircle { angle, .. } => angle * width,
+            AxisPath::Angles { start, end, .. } => {
+                let [inclination, azimuth] = [0, 1].map(|i| end[i] - start[i]);
+                let phi1 = ends.map(|s| start[0] + inclination * s);
+                // |sin phi1| has a peak between two ends with different numbers.
+                let [first, last] = phi1.map(|phi1| (phi1 / PI - 0.5).floor());
+                let sine = if first == last { phi1[0].sin().abs().max(phi1[1].sin().abs()) } else { 1.0 };
+                inclination.hypot(sine * azimuth) * width
+            }
         }
     }
 

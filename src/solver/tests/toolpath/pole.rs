@@ -1,8 +1,10 @@
 //! Paths along, through and to the pole.
 
-use verne_solver::Machine;
+use std::f64::consts::PI;
+
 use verne_solver::axis::tool_axis;
-use verne_solver::toolpath::{Motion, PlanOptions, RowKind};
+use verne_solver::toolpath::{Motion, PlanOptions, RowKind, Turning};
+use verne_solver::{Constraint, Machine};
 
 use super::random::Random;
 use super::support::{arrive, feed, planned, rapid, worst_deviation};
@@ -105,4 +107,40 @@ fn a_pure_rotation_keeps_the_tool_s_end_in_place() {
     let program =
         [arrive([30.0, 20.0, 300.0], tilted(5.0, 30.0)), feed([30.0, 20.0, 300.0], tilted(20.0, 70.0))];
     check(&program, &PlanOptions::default());
+}
+
+/// A motion with linear phi1 and phi2, degrees, in a frame that is tilted about x, and the arrival at its start.
+fn angles(tips: [[f64; 3]; 2], phi: [[f64; 2]; 2], tilt: f64) -> [Motion; 2] {
+    let (sin, cos) = tilt.to_radians().sin_cos();
+    let frame = [[1.0, 0.0, 0.0], [0.0, cos, -sin], [0.0, sin, cos]];
+    let [start, end] = phi.map(|angles| angles.map(f64::to_radians));
+    let axis = |[phi1, phi2]: [f64; 2]| {
+        let axis = tool_axis(phi1, phi2);
+        frame.map(|row| (0..3).map(|i| row[i] * axis[i]).sum())
+    };
+    let turning = Turning::Angles { start, end, frame };
+    [arrive(tips[0], axis(start)), Motion { turning, ..feed(tips[1], axis(end)) }]
+}
+
+#[test]
+fn the_azimuth_is_followed_through_half_a_turn_close_to_the_pole() {
+    let tips = [[10.0, 10.0, 331.0], [17.0, 50.0, 331.0]];
+    check(&angles(tips, [[-8.0, -8.0], [4.0, 11.0]], 1.0), &PlanOptions::default());
+}
+
+#[test]
+fn linear_angles_in_a_tilted_frame_turn_the_table_steadily_close_to_the_pole() {
+    let (machine, options, mut random) = (Machine::verne(), PlanOptions::default(), Random::new(41));
+    for number in 0..60 {
+        let tips = [0, 1].map(|_| [0, 1, 2].map(|i| [0.0, 0.0, 320.0][i] + random.between(-40.0, 40.0)));
+        let phi = [0, 1].map(|_| [random.between(-8.0, 8.0), random.between(-60.0, 60.0)]);
+        let program = angles(tips, phi, random.between(-3.0, 3.0));
+        let (report, rows) = planned(&machine, &program, &options);
+        let singular = |constraint| constraint == Constraint::ParallelSingularity;
+        assert!(!report.failures.iter().any(|failure| singular(failure.margin.constraint)), "{number}");
+        let turns = rows.windows(2).map(|pair| (pair[1].table.theta2 - pair[0].table.theta2).abs());
+        let greatest = turns.fold(0.0, f64::max);
+        assert!(greatest < 0.5 * PI, "{number}: theta2 jumps by {greatest}");
+        assert!(worst_deviation(&machine, &program, &rows, &options) <= 1.0, "{number}");
+    }
 }

@@ -69,7 +69,10 @@ fn exact(start: &ToolPosition, motion: &Motion, s: f64) -> ToolPosition {
     };
     let axis = match motion.turning {
         Turning::GreatCircle => slerp(start.axis, motion.end.axis, s),
-        Turning::Angles { start, end, .. } => tool_axis(mix(start[0], end[0]), mix(start[1], end[1])),
+        Turning::Angles { start, end, frame } => {
+            let axis = tool_axis(mix(start[0], end[0]), mix(start[1], end[1]));
+            frame.map(|row| (0..3).map(|i| row[i] * axis[i]).sum())
+        }
     };
     ToolPosition { tip, axis }
 }
