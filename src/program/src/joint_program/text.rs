@@ -14,7 +14,8 @@ pub(super) fn is_line(text: &str) -> bool {
 /// The M words that end a program, or leave it for another one.
 const LEAVING: [u32; 4] = [2, 30, 98, 99];
 
-/// Whether a text consists of M, S and T words, perhaps after a block number, that neither end the program nor leave it.
+/// Whether a text consists of M, S and T words, perhaps after a block number, and none of them ends the program or
+/// leaves it.
 pub(super) fn is_auxiliary(text: &str) -> bool {
     let compact: String = text.trim().to_ascii_uppercase().split(' ').collect();
     let starts = compact.char_indices().filter(|(_, c)| c.is_ascii_alphabetic()).map(|(start, _)| start);

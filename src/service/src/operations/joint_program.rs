@@ -2,6 +2,7 @@
 
 use verne_program::joint_program::{JointProgramError, JointProgramOptions, JointProgramWriter, JointRow};
 use verne_program::{Event, Program};
+use verne_solver::toolpath::RowKind;
 
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_row_text::{RowText, StoredRows};
@@ -88,10 +89,16 @@ pub(crate) fn check_durations(chunk: &[u8]) -> Result<(), OperationError> {
 
 fn joint_row(row: &StoredRow) -> JointRow {
     let ([rho1, rho2, rho3], table) = (row.rho, row.table);
+    // A retract begins at the part, and an approach ends there: in G0 a controller may not move the joints linearly.
+    let rapid = match row.kind {
+        RowKind::Rapid => true,
+        RowKind::Retract | RowKind::Rewind | RowKind::Approach => row.duration.is_none(),
+        RowKind::Feed | RowKind::Inserted | RowKind::Turn => false,
+    };
     JointRow {
         step: row.index as usize,
         line: row.line,
-        rapid: !row.kind.is_cut(),
+        rapid,
         joints: [rho1, rho2, rho3, table.theta1, table.theta2],
         tip: row.position.tip,
         duration: row.duration,
@@ -162,6 +169,23 @@ mod tests {
     }
 
     #[test]
+    fn a_retract_with_a_duration_is_linear() {
+        let writer = JointProgramWriter::new(Vec::new(), JointProgramOptions::default(), Vec::new());
+        let mut text = JointProgramText(writer.unwrap());
+        let rows = [
+            row(0, RowKind::Rapid, Some(1.0)),
+            row(1, RowKind::Retract, Some(1.0)),
+            row(2, RowKind::Rewind, Some(0.5)),
+            row(3, RowKind::Approach, None),
+        ];
+        let all = String::from_utf8(text.rows(&mut rows.iter().map(|row| Ok(*row))).unwrap()).unwrap();
+        assert!(
+            all.ends_with("G0 X600.0 Y600.0 Z600.0 A0.0 C0.5\nG1 X601.0 F60.0\nX602.0 F120.0\nG0 X603.0\n"),
+            "{all}"
+        );
+    }
+
+    #[test]
     fn a_row_without_duration_is_refused_with_its_line() {
         let mut chunk = Vec::new();
         write_row(&row(0, RowKind::Rapid, None), &mut chunk);
@@ -185,12 +209,13 @@ mod tests {
         let coarse = |parameter: &str, detail: &str| FieldError::new(format!("/query/{parameter}"), detail);
         let length = coarse(
             "length_decimals",
-            "words would differ from the joints by 0.05 mm, but the tool path keeps 0.005 mm; state at least 2 decimals",
+            "words would differ from the joints by 0.05 mm, but the tool path keeps 0.005 mm; state at least \
+             2 decimals",
         );
         let angle = coarse(
             "angle_decimals",
-            "words would differ from the joints by 0.5 degrees, but the tool path keeps 0.01 degrees; state at least 2 \
-             decimals",
+            "words would differ from the joints by 0.5 degrees, but the tool path keeps 0.01 degrees; state at \
+             least 2 decimals",
         );
         assert_eq!(checked(1, 5), Err(OperationError::Fields(vec![length.clone()])));
         assert_eq!(checked(1, 0), Err(OperationError::Fields(vec![length, angle])));

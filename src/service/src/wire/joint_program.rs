@@ -93,7 +93,7 @@ pub(crate) enum FeedWordName {
 }
 
 /// The word of rapids: `g0`, in which the controller decides whether the joints move linearly; `g1`, with the duration
-/// of the row. The first position is G0.
+/// of the row. The first position is G0. Retracts, rewinds and approaches that have a duration are G1 in any case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum RapidWordName {
