@@ -33,7 +33,7 @@ pub struct JointRow {
     pub step: usize,
     /// The line of the program that states the move, from 1.
     pub line: u32,
-    /// Whether the row is a place of a rapid.
+    /// Whether the row is a place of a rapid, which may be G0.
     pub rapid: bool,
     /// rho1, rho2, rho3 in mm, theta1, theta2 in radians.
     pub joints: [f64; 5],

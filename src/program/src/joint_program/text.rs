@@ -14,27 +14,24 @@ pub(super) fn is_line(text: &str) -> bool {
 /// The M words that end a program, or leave it for another one.
 const LEAVING: [u32; 4] = [2, 30, 98, 99];
 
-/// Whether a text consists of M, S and T words, perhaps after a block number, that neither end the program nor leave it.
+/// Whether a text consists of M, S and T words, perhaps after a block number, and none of them ends the program or
+/// leaves it.
 pub(super) fn is_auxiliary(text: &str) -> bool {
     let compact: String = text.trim().to_ascii_uppercase().split(' ').collect();
     let starts = compact.char_indices().filter(|(_, c)| c.is_ascii_alphabetic()).map(|(start, _)| start);
     let ends = starts.clone().skip(1).chain([compact.len()]);
     let mut words = starts.zip(ends).map(|(start, end)| compact[start..end].split_at(1)).peekable();
-    words.next_if(|(letter, number)| *letter == "N" && number.parse::<u32>().is_ok());
+    // `parse` alone would accept a sign; letters, such as those of an exponent, begin a word.
+    let whole = |number: &str| number.parse::<u32>().ok().filter(|_| !number.starts_with('+'));
+    words.next_if(|(letter, number)| *letter == "N" && whole(number).is_some());
     is_line(text.trim())
         && compact.starts_with(|c: char| c.is_ascii_alphabetic())
         && words.peek().is_some()
-        && words.all(|(letter, number)| {
-            // `parse` accepts a sign, and names of numbers that are none; the letters of those end a word.
-            let number = Some(number).filter(|number| number.starts_with(|c: char| c.is_ascii_digit()));
-            match letter {
-                "M" => {
-                    number.and_then(|number| number.parse().ok()).is_some_and(|code| !LEAVING.contains(&code))
-                }
-                "S" => number.is_some_and(|number| number.parse::<f64>().is_ok()),
-                "T" => number.is_some_and(|number| number.parse::<u32>().is_ok()),
-                _ => false,
-            }
+        && words.all(|(letter, number)| match letter {
+            "M" => whole(number).is_some_and(|code| !LEAVING.contains(&code)),
+            "S" => number.starts_with(|c: char| c.is_ascii_digit()) && number.parse::<f64>().is_ok(),
+            "T" => whole(number).is_some(),
+            _ => false,
         })
 }
 

@@ -104,6 +104,11 @@ pub(crate) enum LookupError {
          stays the same."
     )]
     Result(String),
+    #[error(
+        "No stored tool path has the id {0:?}. If the service evicted it, repeat the request that planned it; the id \
+         stays the same."
+    )]
+    Toolpath(String),
     #[error("{0:?} is a table of workspaces. Each workspace in it has its own mesh and slices.")]
     Mesh(String),
     #[error("{0:?} is not a single workspace, so it has no slices.")]

@@ -12,15 +12,14 @@ use futures_util::{Stream, stream};
 use headers::HeaderMapExt;
 
 use crate::http::conditional_response::{Conditions, IMMUTABLE, entity_tag};
-use crate::http::error::{HttpError, LookupError};
-use crate::http::handlers::results::record;
+use crate::http::error::HttpError;
+use crate::http::handlers::results::stored_toolpath;
 use crate::http::result_or_job::ResultOrJob;
 use crate::http::state::{AppState, SharedState};
 use crate::http::wait_policy::WaitPolicy;
 use crate::limits::response_memory::UnsharedBytes;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::question::Question;
-use crate::operations::question_text::QuestionKind;
 use crate::operations::results::Record;
 use crate::operations::toolpath_report::row_count;
 use crate::operations::toolpath_row_text::RowText;
@@ -100,10 +99,7 @@ pub(crate) async fn rows_or_job(
 
 /// The record of a tool path, and the number of its rows.
 pub(crate) async fn toolpath_record(state: &AppState, id: String) -> Result<(Record, u64), HttpError> {
-    let record = record(state, id).await?;
-    if record.kind != QuestionKind::Toolpath {
-        return Err(LookupError::Result(record.id.to_string()).into());
-    }
+    let record = stored_toolpath(state, id).await?;
     let count = row_count(&record.summary.bytes).ok_or(OperationError::Internal)?;
     Ok((record, count))
 }

@@ -2,23 +2,30 @@
 
 use verne_program::joint_program::{JointProgramError, JointProgramOptions, JointProgramWriter, JointRow};
 use verne_program::{Event, Program};
+use verne_solver::toolpath::RowKind;
 
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_row_text::{RowText, StoredRows};
 use crate::operations::toolpath_rows::read_chunk;
 use crate::operations::toolpath_rows::row_bytes::StoredRow;
 use crate::wire::error::{FieldError, OperationError};
+use crate::wire::toolpath::Tolerance;
 
 /// Writes rows and the events of their program as a joint program.
 pub(crate) struct JointProgramText(JointProgramWriter<Vec<u8>>);
 
 impl JointProgramText {
     /// A writer for the tool path that answers a question, with the events of its program.
+    ///
+    /// # Errors
+    ///
+    /// [`OperationError::Fields`]: an option cannot be met, or the words would be coarser than the tolerances.
     pub(crate) fn new(
         mut options: JointProgramOptions,
         question: &ToolpathQuestion,
         program: &Program,
     ) -> Result<Self, OperationError> {
+        check_decimals(&options, question.request.tolerance)?;
         let machine = &question.machine.id;
         options.comments = vec![
             format!("verne {}, tool path {}", env!("CARGO_PKG_VERSION"), question.id),
@@ -43,6 +50,28 @@ impl RowText for JointProgramText {
     }
 }
 
+/// Whether the words are as fine as the tolerances that the tool path keeps.
+fn check_decimals(options: &JointProgramOptions, tolerance: Tolerance) -> Result<(), OperationError> {
+    let half = |decimals: u8| 0.5 / 10_f64.powi(decimals.into());
+    let checked = [
+        ("length_decimals", options.length_decimals, tolerance.tip, "mm"),
+        ("angle_decimals", options.angle_decimals, tolerance.axis, "degrees"),
+    ];
+    let too_coarse = checked.into_iter().filter(|(_, decimals, tolerance, _)| half(*decimals) > *tolerance);
+    let faults: Vec<_> = too_coarse
+        .map(|(parameter, decimals, tolerance, unit)| {
+            let least = (decimals..u8::MAX).find(|decimals| half(*decimals) <= tolerance).unwrap_or(u8::MAX);
+            let detail = format!(
+                "words would differ from the joints by {} {unit}, but the tool path keeps {tolerance} {unit}; state \
+                 at least {least} decimals",
+                half(decimals)
+            );
+            FieldError::new(format!("/query/{parameter}"), detail)
+        })
+        .collect();
+    if faults.is_empty() { Ok(()) } else { Err(OperationError::Fields(faults)) }
+}
+
 /// Whether a joint program can state the speed of every row of a chunk.
 ///
 /// # Errors
@@ -60,10 +89,16 @@ pub(crate) fn check_durations(chunk: &[u8]) -> Result<(), OperationError> {
 
 fn joint_row(row: &StoredRow) -> JointRow {
     let ([rho1, rho2, rho3], table) = (row.rho, row.table);
+    // A retract begins at the part, and an approach ends there: in G0 a controller may not move the joints linearly.
+    let rapid = match row.kind {
+        RowKind::Rapid => true,
+        RowKind::Retract | RowKind::Rewind | RowKind::Approach => row.duration.is_none(),
+        RowKind::Feed | RowKind::Inserted | RowKind::Turn => false,
+    };
     JointRow {
         step: row.index as usize,
         line: row.line,
-        rapid: !row.kind.is_cut(),
+        rapid,
         joints: [rho1, rho2, rho3, table.theta1, table.theta2],
         tip: row.position.tip,
         duration: row.duration,
@@ -90,10 +125,11 @@ mod tests {
     use verne_solver::toolpath::{RowKind, ToolPosition};
     use verne_solver::{Constraint, Element, Margin, TableAngles};
 
-    use super::{JointProgramText, check_durations};
+    use super::{JointProgramText, check_decimals, check_durations};
     use crate::operations::toolpath_row_text::RowText;
     use crate::operations::toolpath_rows::row_bytes::{StoredRow, write_row};
-    use crate::wire::error::OperationError;
+    use crate::wire::error::{FieldError, OperationError};
+    use crate::wire::toolpath::Tolerance;
 
     fn row(index: u32, kind: RowKind, duration: Option<f64>) -> StoredRow {
         let rho = [600.0 + f64::from(index), 600.0, 600.0];
@@ -133,6 +169,23 @@ mod tests {
     }
 
     #[test]
+    fn a_retract_with_a_duration_is_linear() {
+        let writer = JointProgramWriter::new(Vec::new(), JointProgramOptions::default(), Vec::new());
+        let mut text = JointProgramText(writer.unwrap());
+        let rows = [
+            row(0, RowKind::Rapid, Some(1.0)),
+            row(1, RowKind::Retract, Some(1.0)),
+            row(2, RowKind::Rewind, Some(0.5)),
+            row(3, RowKind::Approach, None),
+        ];
+        let all = String::from_utf8(text.rows(&mut rows.iter().map(|row| Ok(*row))).unwrap()).unwrap();
+        assert!(
+            all.ends_with("G0 X600.0 Y600.0 Z600.0 A0.0 C0.5\nG1 X601.0 F60.0\nX602.0 F120.0\nG0 X603.0\n"),
+            "{all}"
+        );
+    }
+
+    #[test]
     fn a_row_without_duration_is_refused_with_its_line() {
         let mut chunk = Vec::new();
         write_row(&row(0, RowKind::Rapid, None), &mut chunk);
@@ -142,5 +195,29 @@ mod tests {
             unreachable!("the row has no duration")
         };
         assert!(reason.contains("line 4"), "{reason}");
+    }
+
+    #[test]
+    fn words_are_not_coarser_than_the_tolerances() {
+        let tolerance = Tolerance { tip: 0.005, axis: 0.01, rapid: 1.0 };
+        let checked = |length_decimals, angle_decimals| {
+            let options =
+                JointProgramOptions { length_decimals, angle_decimals, ..JointProgramOptions::default() };
+            check_decimals(&options, tolerance)
+        };
+        assert_eq!(checked(2, 2), Ok(()));
+        let coarse = |parameter: &str, detail: &str| FieldError::new(format!("/query/{parameter}"), detail);
+        let length = coarse(
+            "length_decimals",
+            "words would differ from the joints by 0.05 mm, but the tool path keeps 0.005 mm; state at least \
+             2 decimals",
+        );
+        let angle = coarse(
+            "angle_decimals",
+            "words would differ from the joints by 0.5 degrees, but the tool path keeps 0.01 degrees; state at \
+             least 2 decimals",
+        );
+        assert_eq!(checked(1, 5), Err(OperationError::Fields(vec![length.clone()])));
+        assert_eq!(checked(1, 0), Err(OperationError::Fields(vec![length, angle])));
     }
 }

@@ -163,15 +163,18 @@ mod tests {
     #[test]
     fn a_pipe_that_its_reader_closes_is_no_error() {
         let directory = tempfile::tempdir().unwrap();
-        let file = directory.path().join("part.csv");
-        std::fs::write(&file, "x,y,z\n0,0,300\n0,0,3000\n").unwrap();
-        let toolpath = format!("verne toolpath {} --tool-length 100", file.display());
+        let toolpath = |name: &str, rows: &str| {
+            let file = directory.path().join(name);
+            std::fs::write(&file, format!("x,y,z\n{rows}")).unwrap();
+            format!("verne toolpath {} --tool-length 100", file.display())
+        };
+        let rows = toolpath("part.csv", "-150,0,300\n150,0,300\n") + " -o -";
         let success = format!("{:?}", Ok::<_, String>(ExitCode::SUCCESS));
-        for line in ["verne fk --rho 674,685,250", &format!("{toolpath} -o -")] {
+        for line in ["verne fk --rho 674,685,250", &rows] {
             assert_eq!(status(line), (success.clone(), String::new()), "{line}");
         }
         // The report was not read, but the verdict is known.
-        let (status, summary) = status(&toolpath);
+        let (status, summary) = status(&toolpath("beyond.csv", "0,0,300\n9000,0,300\n"));
         assert_eq!(status, format!("{:?}", Ok::<_, String>(ExitCode::from(3))));
         assert!(summary.contains("cannot run the program"), "{summary}");
     }

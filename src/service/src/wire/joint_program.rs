@@ -31,12 +31,14 @@ pub(crate) struct JointProgramQuery {
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
     pub axis_offsets: Option<JointList>,
-    /// Decimals of words in mm. Half of the last one adds to the deviation of the sliders.
+    /// Decimals of words in mm. Half of the last one adds to the deviation of the sliders;
+    /// it may not exceed the tip's tolerance of the tool path.
     #[serde(default = "default_length_decimals")]
     #[arg(long, default_value_t = default_length_decimals())]
     #[param(minimum = 0, maximum = 8, default = 4)]
     pub length_decimals: u8,
-    /// Decimals of words in degrees. Half of the last one adds to the deviation of the table.
+    /// Decimals of words in degrees. Half of the last one adds to the deviation of the table;
+    /// it may not exceed the axis's tolerance of the tool path.
     #[serde(default = "default_angle_decimals")]
     #[arg(long, default_value_t = default_angle_decimals())]
     #[param(minimum = 0, maximum = 8, default = 5)]
@@ -91,7 +93,7 @@ pub(crate) enum FeedWordName {
 }
 
 /// The word of rapids: `g0`, in which the controller decides whether the joints move linearly; `g1`, with the duration
-/// of the row. The first position is G0.
+/// of the row. The first position is G0. Retracts, rewinds and approaches that have a duration are G1 in any case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum RapidWordName {

@@ -14,7 +14,8 @@ use verne_program::Row;
 pub(crate) struct ProgramPoints {
     /// Points `[x, y, z]`, `[x, y, z, phi1, phi2]` or `[x, y, z, i, j, k]`, or objects with these names and optionally
     /// `feed` (mm/min, or degrees per minute if only the axis moves), `kind` (`feed` or `rapid`) and `line`. Without an
-    /// orientation the axis is (0, 0, 1). The service rejects other names. A point's line is its number from 1 unless it has `line`.
+    /// orientation the axis is (0, 0, 1). A point's line is its number from 1 unless it has `line`. The service rejects
+    /// other names.
     #[schema(value_type = Vec<PointSchema>)]
     pub points: Vec<Row>,
 }

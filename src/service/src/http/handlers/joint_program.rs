@@ -154,7 +154,7 @@ async fn write_path(
     let id = question.id();
     let mut lines = ToolpathLines::new(rows);
     for number in 0..chunk_count(rows) {
-        let chunk = chunk(state, id, number).await.map_err(|_| LookupError::Result(id.to_string()))?;
+        let chunk = chunk(state, id, number).await.map_err(|_| LookupError::Toolpath(id.to_string()))?;
         let question = Arc::clone(&question);
         lines = run_on_pool(move |_| {
             let Question::Toolpath(question) = &*question else { return Err(OperationError::Internal) };

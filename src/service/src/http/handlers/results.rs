@@ -151,3 +151,13 @@ pub(crate) async fn record(state: &AppState, id: String) -> Result<Record, Looku
         Err(_) => Err(LookupError::Result(id)),
     }
 }
+
+/// The record of a stored tool path.
+pub(crate) async fn stored_toolpath(state: &AppState, id: String) -> Result<Record, LookupError> {
+    match record(state, id).await {
+        Ok(record) if record.kind == QuestionKind::Toolpath => Ok(record),
+        Ok(record) => Err(LookupError::Toolpath(record.id.to_string())),
+        Err(LookupError::Result(id)) => Err(LookupError::Toolpath(id)),
+        Err(other) => Err(other),
+    }
+}

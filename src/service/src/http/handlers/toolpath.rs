@@ -6,9 +6,9 @@ use axum::extract::State;
 use axum::response::Response;
 
 use crate::http::conditional_response::{Conditions, IMMUTABLE};
-use crate::http::error::{HttpError, LookupError};
+use crate::http::error::HttpError;
 use crate::http::extractors::PathParameter;
-use crate::http::handlers::results::record;
+use crate::http::handlers::results::stored_toolpath;
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
 use crate::http::openapi::body_schemas::{Binary, Text};
@@ -21,7 +21,6 @@ use crate::http::wait_policy::WaitPolicy;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::programs::{load_program, store_program};
 use crate::operations::question::Question;
-use crate::operations::question_text::QuestionKind;
 use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
 use crate::operations::toolpath_request::{ProgramSource, read_request};
 use crate::wire::error::OperationError;
@@ -99,10 +98,7 @@ pub(crate) async fn get_report(
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
-    let record = record(&state, id).await?;
-    if record.kind != QuestionKind::Toolpath {
-        return Err(LookupError::Result(record.id.to_string()).into());
-    }
+    let record = stored_toolpath(&state, id).await?;
     summary(&state, record).cached(IMMUTABLE).respond(&conditions)
 }
 

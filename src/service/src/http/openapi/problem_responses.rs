@@ -47,6 +47,9 @@ const JOB: &[Code] = &[
 /// Codes of requests for a stored result.
 const RESULT: &[Code] = &[Code::NotFound, Code::WorkspaceNotFound, Code::RangeNotSatisfiable];
 
+/// Codes of requests for a stored tool path.
+const TOOLPATH: &[Code] = &[Code::NotFound, Code::ToolpathNotFound, Code::RangeNotSatisfiable];
+
 /// Codes of requests with a program.
 const PROGRAM: &[Code] = &[Code::ProgramFault, Code::ProgramNotFound];
 
@@ -98,12 +101,12 @@ problems! {
     /// Problems of a tool path.
     ToolpathProblems: BODY, JOB, PROGRAM;
     /// Problems of the report on a tool path.
-    ReportProblems: RESULT;
+    ReportProblems: TOOLPATH;
     /// Problems of the rows of a tool path. If the store evicted them, a job computes them again, which needs a role
     /// and the program.
-    RowsProblems: RESULT, JOB, &[Code::Forbidden, Code::ProgramNotFound];
+    RowsProblems: TOOLPATH, JOB, &[Code::Forbidden, Code::ProgramNotFound];
     /// Problems of the joint program of a tool path.
-    JointProgramProblems: RESULT, JOB, &[Code::Forbidden, Code::ProgramNotFound, Code::NoJointProgram];
+    JointProgramProblems: TOOLPATH, JOB, &[Code::Forbidden, Code::ProgramNotFound, Code::NoJointProgram];
     /// Problems of a machine.
     MachineProblems: &[Code::NotFound, Code::MachineNotFound];
     /// Problems of the list of jobs.

@@ -83,6 +83,8 @@ problems! {
         Lookup(LookupError::Machine(_)) => LookupError::Machine("nautilus".to_owned());
     WorkspaceNotFound, "workspace_not_found", NOT_FOUND, "No stored result has this id.";
         Lookup(LookupError::Result(_)) => LookupError::Result("1f2e".to_owned());
+    ToolpathNotFound, "toolpath_not_found", NOT_FOUND, "No stored tool path has this id.";
+        Lookup(LookupError::Toolpath(_)) => LookupError::Toolpath("1f2e".to_owned());
     ProgramNotFound, "program_not_found", NOT_FOUND,
         "The service has no program with this id, or has evicted it; the client can send it again.";
         Operation(OperationError::ProgramNotFound(_)) => OperationError::ProgramNotFound("1f2e".to_owned());

@@ -68,7 +68,7 @@ async fn a_joint_program_has_a_block_for_each_row_and_the_events_in_their_places
 async fn options_change_the_program_or_are_refused_by_name() {
     let service = service().await;
     let path = plan(&service, RAPIDS).await["links"]["program"].as_str().unwrap().to_owned();
-    let query = "axes=U,V,-W,B,C&axis_offsets=0,0,1600&length_decimals=1&numbers=10&head=%25%0AO7&foot=M2";
+    let query = "axes=U,V,-W,B,C&axis_offsets=0,0,1600&length_decimals=2&numbers=10&head=%25%0AO7&foot=M2";
     let (status, _, body) = get(&service, &format!("{path}?{query}")).await;
     let text = std::str::from_utf8(&body).unwrap();
     assert_eq!(status, StatusCode::OK, "{text}");
@@ -82,6 +82,8 @@ async fn options_change_the_program_or_are_refused_by_name() {
         ("axes=X,X,Z,A,C", "/query/axes"),
         ("axes=X,Y,F,A,C", "/query/axes"),
         ("length_decimals=9", "/query/length_decimals"),
+        ("length_decimals=1", "/query/length_decimals"),
+        ("angle_decimals=0", "/query/angle_decimals"),
         ("greatest_feed=0", "/query/greatest_feed"),
         ("numbers=0", "/query/numbers"),
         ("head=%C3%9C", "/query/head"),

@@ -267,12 +267,11 @@ async fn a_job_of_a_tool_path_states_its_kind_and_can_be_cancelled() {
     let events = service.router.clone().oneshot(events).await.unwrap().into_body();
     let events = to_bytes(events, usize::MAX).await.unwrap();
     assert!(String::from_utf8_lossy(&events).contains("\"state\":\"cancelled\""), "{events:?}");
-    let (status, problem) = get(&service, &format!("/toolpath/{id}")).await;
-    assert_eq!(
-        (status, &problem["code"]),
-        (StatusCode::NOT_FOUND, &json!("workspace_not_found")),
-        "{problem}"
-    );
+    for path in ["", "/rows", "/program", "/path"] {
+        let (status, problem) = get(&service, &format!("/toolpath/{id}{path}")).await;
+        let expected = (StatusCode::NOT_FOUND, &json!("toolpath_not_found"));
+        assert_eq!((status, &problem["code"]), expected, "{path} {problem}");
+    }
 }
 
 #[tokio::test]
