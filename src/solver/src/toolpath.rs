@@ -9,6 +9,7 @@ mod bound;
 mod cap;
 mod choice;
 mod differential;
+mod golden_section;
 mod healing;
 mod joint_segment;
 mod linearise;

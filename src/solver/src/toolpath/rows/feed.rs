@@ -10,9 +10,6 @@ use crate::toolpath::motion::Motion;
 use crate::toolpath::path::Path;
 use crate::toolpath::stretches::Place;
 
-/// Fraction of a margin's range below which a segment's margins are examined between its ends.
-const GUARD: f64 = 0.02;
-
 impl<F: FnMut(&Row)> Rower<'_, F> {
     pub(super) fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
         self.report.length[0] += path.length();
@@ -97,17 +94,14 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let result = linearise(track, stops[0], &stops[1], &feed, &mut bend, |stop, segment, deviation| {
             let kind = kind_at(kind, stop.s);
             self.report.deviation = self.report.deviation.with(deviation);
-            let before = self.margin;
+            let (before, start) = (self.now.zip(self.margin), from);
             let mut place = RowPlace::on(track.path, from, stop.s, end);
             if let (RowKind::Turn, Some(way), Some(now)) = (kind, &mut place.way, &self.now) {
                 way.angle = (stop.node.table.theta2 - now.table.theta2).abs();
             }
             from = stop.s;
             self.row(index, kind, &place, &stop.node, motion.tool_length);
-            let least = before.unwrap_or(f64::INFINITY).min(self.margin.unwrap_or(f64::INFINITY));
-            if let Some(segment) = segment.filter(|_| least < GUARD) {
-                self.examine(index, segment, motion.tool_length);
-            }
+            self.examine_way(index, track, before, [start, stop.s], segment);
         });
         self.bends[0] = bend;
         match result {
