@@ -9,6 +9,7 @@ mod bound;
 mod cap;
 mod choice;
 mod differential;
+mod golden_section;
 mod healing;
 mod joint_segment;
 mod linearise;
@@ -58,7 +59,8 @@ pub enum OnLimit {
     Retract {
         /// Way along the tool's axis, and least height over the program's highest point, mm.
         clearance: f64,
-        /// Height of the tool's end at which the rotary axis turns, mm; `None`: `clearance` over the highest point.
+        /// Height of the tool's end at which the rotary axis turns, mm; `None`: `clearance` over the highest point. It
+        /// turns at the highest point if that is higher.
         height: Option<f64>,
     },
 }
@@ -206,7 +208,8 @@ pub fn plan<M: Motions + ?Sized>(
 
 fn retraction<M: Motions + ?Sized>(motions: &M, on_limit: OnLimit) -> Option<Retraction> {
     let OnLimit::Retract { clearance, height } = on_limit else { return None };
-    let height = height.unwrap_or_else(|| highest(motions) + clearance);
+    let top = highest(motions);
+    let height = height.unwrap_or(top + clearance).max(top);
     Some(Retraction { clearance, height })
 }
 

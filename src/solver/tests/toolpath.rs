@@ -6,6 +6,7 @@
 //! - `pole`: paths along, through and to the pole.
 //! - `machines`: programs on machines unlike the reference machine, arcs, and rapids.
 //! - `limits`: what happens at limits: retracting, and changes that heal.
+//! - `least_margins`: least margins between rows.
 //! - `timing`: times of rows.
 //! - `single_slider`: times of motions that are known in closed form.
 //! - `random_programs`: programs on machines unlike the built-in one.
@@ -24,6 +25,8 @@
 mod choices;
 #[path = "toolpath/drives.rs"]
 mod drives;
+#[path = "toolpath/least_margins.rs"]
+mod least_margins;
 #[path = "toolpath/limits.rs"]
 mod limits;
 #[path = "toolpath/lines.rs"]

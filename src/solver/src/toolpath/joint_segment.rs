@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::differential::Differential;
+use super::golden_section::{beside, least};
 use super::meridian::Span;
 use super::nearby_pose::{hermite_middle, parabola, solved};
 use super::node::{Node, Setting};
@@ -103,11 +104,25 @@ impl<'a> JointSegment<'a> {
     pub(super) fn places(&self, machine: &Machine) -> impl Iterator<Item = Option<(f64, Node)>> {
         (1..FINE_INTERVALS).map(move |i| {
             let t = f64::from(i) / f64::from(FINE_INTERVALS);
-            let (rho, table) = between(self.ends, t);
-            let guess = parabola([&self.ends[0].pose, &self.middle, &self.ends[1].pose], t);
-            let pose = solved(machine, rho, guess, self.differentials[usize::from(2 * i > FINE_INTERVALS)])?;
-            Some((t, Node::new(pose, rho, table)))
+            self.node(machine, t).map(|node| (t, node))
         })
+    }
+
+    /// The joints and the pose at a fraction of the segment. `None` if the forward problem has no solution there.
+    pub(super) fn node(&self, machine: &Machine, t: f64) -> Option<Node> {
+        let (rho, table) = between(self.ends, t);
+        let guess = parabola([&self.ends[0].pose, &self.middle, &self.ends[1].pose], t);
+        let pose = solved(machine, rho, guess, self.differentials[usize::from(t > 0.5)])?;
+        Some(Node::new(pose, rho, table))
+    }
+
+    /// The place between the ends at which `distance`, which is zero at both of them, is greatest.
+    pub(super) fn farthest(&self, machine: &Machine, distance: impl Fn(&Node) -> f64) -> Option<Node> {
+        let at = |t: f64| self.node(machine, t).map_or(0.0, |node| distance(&node));
+        let places =
+            (1..FINE_INTERVALS).map(|place| (place, at(f64::from(place) / f64::from(FINE_INTERVALS))));
+        let (place, _) = places.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        self.node(machine, least(beside(place, FINE_INTERVALS), |t| -at(t)))
     }
 
     /// The greatest deviation from the track between two stops. At each place one path parameter is compared for both

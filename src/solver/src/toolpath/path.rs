@@ -172,7 +172,8 @@ impl Path {
                 let phi1 = ends.map(|s| start[0] + inclination * s);
                 // |sin phi1| has a peak between two ends with different numbers.
                 let [first, last] = phi1.map(|phi1| (phi1 / PI - 0.5).floor());
-                let sine = if first == last { phi1[0].sin().abs().max(phi1[1].sin().abs()) } else { 1.0 };
+                let sine =
+                    if last - first == 0.0 { phi1[0].sin().abs().max(phi1[1].sin().abs()) } else { 1.0 };
                 inclination.hypot(sine * azimuth) * width
             }
         }

@@ -1,23 +1,22 @@
 //! The rows of a program for a choice of states.
 
+mod examination;
 mod feed;
 mod rapid;
 mod retract;
 
 use super::choice::{Choice, Chosen, Rewind};
-use super::joint_segment::{Deviation, JointSegment, Track};
+use super::joint_segment::{Deviation, Track};
 use super::linearise::Bend;
 use super::meridian::{Meridian, Span};
 use super::motion::{MotionKind, Motions, ToolPosition};
 use super::node::{Node, Setting};
-use super::path::{Path, places};
+use super::path::Path;
 use super::report::{LeastMargins, Report};
 use crate::error::KinematicsError;
 use crate::fast_math::angle_of;
 use crate::limit::{Constraint, Element, Margin};
-use crate::margins::Margins;
 use crate::pose::{PartPose, TableAngles};
-use crate::table::part_pose;
 
 /// The purpose of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -212,22 +211,6 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         self.h = chosen.h;
     }
 
-    /// Examines the places of a path that has no rows, for the report.
-    pub(super) fn survey(&mut self, index: usize, track: &Track<'_>) {
-        let Span { from, to, .. } = track.span;
-        let count = places(self.setting.machine.longest(), track.path, to - from);
-        for place in 0..count {
-            let s = from + (to - from) * f64::from(place) / f64::from(count);
-            match track.node(s, None) {
-                Ok(node) => {
-                    let margins = self.setting.margins(&node, track.tool_length);
-                    self.meet(index, (&node, track.tool_length), &margins);
-                }
-                Err(refusal) => self.refuse(index, track.target(s).pose, refusal),
-            }
-        }
-    }
-
     pub(super) fn refuse(&mut self, index: usize, pose: PartPose, refusal: KinematicsError) {
         let margin = match refusal {
             KinematicsError::Unreachable(margin) => margin,
@@ -241,25 +224,6 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
             }
         };
         self.report.fail(index, pose, margin, margin.value);
-    }
-
-    /// Examines the margins between the ends of a segment.
-    pub(super) fn examine(&mut self, index: usize, segment: &JointSegment<'_>, tool_length: f64) {
-        if let Some((node, margins)) = segment.worst(&self.setting, tool_length) {
-            self.meet(index, (&node, tool_length), &margins);
-        }
-    }
-
-    /// Notes the margins of a place, which is given by its joints and the tool's length; those of limits that are
-    /// broken are failures. The answer is the worst margin and its fraction of its constraint's range.
-    pub(super) fn meet(&mut self, index: usize, place: (&Node, f64), margins: &Margins) -> (Margin, f64) {
-        let (margin, fraction) = self.least.meet(self.setting.machine, index, margins);
-        if margin.value < 0.0 {
-            let (node, tool_length) = place;
-            let pose = part_pose(self.setting.machine, &node.pose, node.table, tool_length);
-            self.report.fail(index, pose, margin, fraction);
-        }
-        (margin, fraction)
     }
 
     pub(super) fn track<'p>(&self, path: &'p Path, span: Span, tool_length: f64) -> Track<'p>

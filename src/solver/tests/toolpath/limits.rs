@@ -68,6 +68,16 @@ fn the_tool_leaves_along_its_axis_and_returns_to_the_same_place() {
 }
 
 #[test]
+fn the_table_does_not_turn_below_the_highest_point() {
+    let program = helix(0.0, 1000.0);
+    let (_, rows) = planned(&Machine::verne(), &program, &retracting(1.0, Some(100.0)));
+    let highest = program.iter().map(|motion| motion.end.tip[2]).fold(0.0, f64::max);
+    let rewinds: Vec<_> = rows.iter().filter(|row| row.kind == RowKind::Rewind).collect();
+    assert!(!rewinds.is_empty());
+    assert!(rewinds.iter().all(|row| row.position.tip[2] >= highest - 1e-6), "{highest}: {rewinds:?}");
+}
+
+#[test]
 fn a_retract_beyond_the_strokes_fails() {
     let (report, _) = planned(&Machine::verne(), &helix(0.0, 1000.0), &retracting(50.0, Some(2000.0)));
     let constraints: Vec<_> = report.failures.iter().map(|failure| failure.margin.constraint).collect();

@@ -144,3 +144,13 @@ fn linear_angles_in_a_tilted_frame_turn_the_table_steadily_close_to_the_pole() {
         assert!(worst_deviation(&machine, &program, &rows, &options) <= 1.0, "{number}");
     }
 }
+
+#[test]
+fn a_cut_that_begins_out_of_reach_has_a_row_of_kind_feed_at_its_end_only() {
+    let program = angles([[3000.0, 0.0, 330.0], [0.0, 0.0, 330.0]], [[10.0, 0.0], [12.0, 70.0]], 1.0);
+    let (report, rows) = planned(&Machine::verne(), &program, &PlanOptions::default());
+    assert!(!report.is_feasible());
+    let last = rows.iter().rposition(|row| row.motion == 1).unwrap();
+    let feeds = rows.iter().enumerate().filter(|(_, row)| row.kind == RowKind::Feed);
+    assert!(feeds.map(|(place, _)| place).eq([last]) && rows.len() > 2, "{} rows", rows.len());
+}

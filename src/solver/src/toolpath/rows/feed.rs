@@ -10,9 +10,6 @@ use crate::toolpath::motion::Motion;
 use crate::toolpath::path::Path;
 use crate::toolpath::stretches::Place;
 
-/// Fraction of a margin's range below which a segment's margins are examined between its ends.
-const GUARD: f64 = 0.02;
-
 impl<F: FnMut(&Row)> Rower<'_, F> {
     pub(super) fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
         self.report.length[0] += path.length();
@@ -74,7 +71,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         } else {
             self.survey(index, &track);
             let place = RowPlace::on(path, from, to, to);
-            self.row(index, RowKind::Feed, &place, &end, motion.tool_length);
+            self.row(index, kind_at(RowKind::Feed, to), &place, &end, motion.tool_length);
         }
     }
 
@@ -90,31 +87,27 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let (feed, mut bend) = (self.settings.feed, self.bends[0]);
         if track.path.is_point() && kind != RowKind::Turn {
             let place = RowPlace::on(track.path, start, end, end);
-            self.row(index, kind, &place, &last, motion.tool_length);
+            self.row(index, kind_at(kind, end), &place, &last, motion.tool_length);
             return;
         }
         let mut from = start;
         let result = linearise(track, stops[0], &stops[1], &feed, &mut bend, |stop, segment, deviation| {
-            let is_end = stop.s >= 1.0;
-            let kind = if kind == RowKind::Feed && !is_end { RowKind::Inserted } else { kind };
+            let kind = kind_at(kind, stop.s);
             self.report.deviation = self.report.deviation.with(deviation);
-            let before = self.margin;
+            let (before, start) = (self.now.zip(self.margin), from);
             let mut place = RowPlace::on(track.path, from, stop.s, end);
             if let (RowKind::Turn, Some(way), Some(now)) = (kind, &mut place.way, &self.now) {
                 way.angle = (stop.node.table.theta2 - now.table.theta2).abs();
             }
             from = stop.s;
             self.row(index, kind, &place, &stop.node, motion.tool_length);
-            let least = before.unwrap_or(f64::INFINITY).min(self.margin.unwrap_or(f64::INFINITY));
-            if let Some(segment) = segment.filter(|_| least < GUARD) {
-                self.examine(index, segment, motion.tool_length);
-            }
+            self.examine_way(index, track, before, [start, stop.s], segment);
         });
         self.bends[0] = bend;
         match result {
             Ok(()) => {}
             Err(LineariseError::Refused(s, refusal)) => {
-                self.break_off(index, motion, track, s, refusal, &stops[1]);
+                self.break_off(index, motion, track, (s, refusal), (&stops[1], kind));
             }
             Err(LineariseError::Jump(s)) => {
                 let refusal = KinematicsError::Unreachable(Margin {
@@ -122,24 +115,28 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
                     element: Element::Platform,
                     value: 0.0,
                 });
-                self.break_off(index, motion, track, s, refusal, &stops[1]);
+                self.break_off(index, motion, track, (s, refusal), (&stops[1], kind));
             }
         }
     }
 
-    /// Notes that a part of a motion has no joints, and goes on at its end.
+    /// Notes that a part of a motion has no joints, and goes on at its end with a row of this kind.
     fn break_off(
         &mut self,
         index: usize,
         motion: &Motion,
         track: &Track<'_>,
-        s: f64,
-        refusal: KinematicsError,
-        end: &Stop,
+        (s, refusal): (f64, KinematicsError),
+        (end, kind): (&Stop, RowKind),
     ) {
         self.survey(index, track);
         self.refuse(index, track.target(s).pose, refusal);
         let place = RowPlace::of_arrival(track.path.at(end.s));
-        self.row(index, RowKind::Feed, &place, &end.node, motion.tool_length);
+        self.row(index, kind_at(kind, end.s), &place, &end.node, motion.tool_length);
     }
+}
+
+/// The kind of a row at a parameter of a motion of this kind: a feed motion ends at 1.
+fn kind_at(kind: RowKind, s: f64) -> RowKind {
+    if kind == RowKind::Feed && s < 1.0 { RowKind::Inserted } else { kind }
 }

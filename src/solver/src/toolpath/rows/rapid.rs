@@ -69,14 +69,14 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         chosen: Chosen,
     ) -> bool {
         let Some(mut now) = self.now else { return false };
-        let (mut rows, mut bend): (Vec<(f64, f64, Node)>, _) = (Vec::new(), self.bends[1]);
+        let (mut rows, mut bend): (Vec<(f64, Span, Node)>, _) = (Vec::new(), self.bends[1]);
         for span in spans {
             let track = self.track(path, *span, motion.tool_length);
             let Ok(end) = track.node(span.to, Some(&now)) else { return false };
             let stops = [Stop { s: span.from, node: now }, Stop { s: span.to, node: end }];
             let result =
                 linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _| {
-                    rows.push((stop.s, span.to, stop.node));
+                    rows.push((stop.s, *span, stop.node));
                 });
             if result.is_err() {
                 return false;
@@ -87,13 +87,16 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         if !is_chosen {
             return false;
         }
-        if rows.is_empty() {
-            rows.push((1.0, 1.0, now));
+        if let ([.., span], true) = (spans, rows.is_empty()) {
+            rows.push((1.0, *span, now));
         }
         self.bends[1] = bend;
         let mut from = 0.0;
-        for (s, end, node) in rows {
-            self.row(index, RowKind::Rapid, &RowPlace::on(path, from, s, end), &node, motion.tool_length);
+        for (s, span, node) in rows {
+            let before = self.now.zip(self.margin);
+            self.row(index, RowKind::Rapid, &RowPlace::on(path, from, s, span.to), &node, motion.tool_length);
+            let track = self.track(path, span, motion.tool_length);
+            self.examine_way(index, &track, before, [from, s], None);
             from = s;
         }
         true
@@ -115,9 +118,8 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             self.examine(index, &segment, motion.tool_length);
             let of =
                 |node: &Node| part_pose(self.setting.machine, &node.pose, node.table, motion.tool_length);
-            let places = segment.places(self.setting.machine).flatten();
-            let found = places.map(|(_, node)| from_line(path, &of(&node)));
-            found.fold((0.0, [0.0; 3]), |greatest, found| if found.0 > greatest.0 { found } else { greatest })
+            let farthest = segment.farthest(machine, |node| from_line(path, &of(node)).0);
+            farthest.map_or((0.0, [0.0; 3]), |node| from_line(path, &of(&node)))
         });
         let departure = match greatest {
             Some((distance, direction)) => Departure { motion: index, distance: Some(distance), direction },

@@ -6,8 +6,7 @@ use super::{Retraction, Row, RowKind, RowPlace, Rower, Way};
 use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
 use crate::toolpath::choice::Chosen;
-use crate::toolpath::differential::Differential;
-use crate::toolpath::joint_segment::{JointSegment, Stop, Track};
+use crate::toolpath::joint_segment::{Stop, Track};
 use crate::toolpath::linearise::{Bend, LineariseError, linearise};
 use crate::toolpath::meridian::Span;
 use crate::toolpath::motion::{Curve, Motion, MotionKind, ToolPosition, Turning};
@@ -110,13 +109,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let length = (Vector3::from(at.tip) - Vector3::from(before.tip)).norm();
         let way = Some(Way { fraction: 0.0, length, angle: (to.table.theta2 - from.table.theta2).abs() });
         self.row(index, kind, &RowPlace { at, way, ends_track: true }, to, tool_length);
-        let machine = self.setting.machine;
-        let differentials = [from, to].map(|node| Differential::of(machine, &node.rods(machine)));
-        if let [Some(first), Some(last)] = &differentials
-            && let Some(segment) = JointSegment::new(machine, [from, to], [first, last])
-        {
-            self.examine(index, &segment, tool_length);
-        }
+        self.examine_between(index, [from, to], tool_length);
     }
 }
 
