@@ -46,9 +46,10 @@ pub struct Change {
 ///
 /// The changes ±1/64, ±1/32, ±1/16, … ±512 mm are tried, and those of the first size that help are refined by
 /// bisection to 1/64 mm. So a smaller change may help too, if it lies between two that do not. If the motions fail
-/// only together with the rest of their cut, the change heals the whole cut. `None`: no change helps, `go_on` has returned `false`, the stretch has more than [`MOST_HEALED_MOTIONS`] motions or
-/// [`MOST_HEALED_ROWS`] rows, or it fails only together with the rest of the program. The rotary axis turns with the
-/// tool's axis alone, so nothing heals a failure at its limit.
+/// only together with the rest of their cut, the change heals the whole cut. `None`: no change helps, `go_on` has
+/// returned `false`, the stretch has more than [`MOST_HEALED_MOTIONS`] motions or [`MOST_HEALED_ROWS`] rows, or it
+/// fails only together with the rest of the program. The rotary axis turns with the tool's axis alone, so nothing
+/// heals a failure at its limit.
 ///
 /// # Units
 ///
