@@ -220,7 +220,11 @@ fn program_summary() -> Value {
 }
 
 fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
-    let points = json!([[0, 0, 350, 0, 0, 1], [0, 0, 300, 0, 0, 1], [20, 0, 300, 0, 0.28, 0.96]]);
+    let points = json!([
+        {"x": 0, "y": 0, "z": 350, "i": 0, "j": 0, "k": 1},
+        {"x": 0, "y": 0, "z": 300, "i": 0, "j": 0, "k": 1, "feed": 500},
+        {"x": 20, "y": 0, "z": 300, "i": 0, "j": 0.28, "k": 0.96, "feed": 1000},
+    ]);
     let request = json!({"program": {"points": points}, "setup": {"x": 10}, "tool_length": 120,
                          "tolerance": {"tip": 0.05}});
     let report = json_of(toolpath_report(&request, machines));
