@@ -86,23 +86,27 @@ pub fn healing_change<M: Motions + ?Sized>(
     go_on: impl Fn() -> bool,
 ) -> Option<Change> {
     let [first, last] = failure.motions;
-    let is_rotary = failure.margin.constraint == Constraint::Rotary;
-    if is_rotary || last >= motions.count() || last.checked_sub(first)? >= MOST_HEALED_MOTIONS {
+    if is_at_rotary_limit(failure)
+        || last >= motions.count()
+        || last.checked_sub(first)? >= MOST_HEALED_MOTIONS
+    {
         return None;
     }
     let most_rows = options.most_rows.min(MOST_HEALED_ROWS);
     let options = PlanOptions { on_limit: OnLimit::Fail, most_rows, ..options.clone() };
-    let follows = |[first, last]: [usize; 2], change| {
+    let planned = |[first, last]: [usize; 2], change| {
         let changed = Changed { motions, begin: first.saturating_sub(1), end: last, change };
-        plan(machine, &changed, &options, |_| go_on(), |_| {}).is_ok_and(|report| report.is_feasible())
+        plan(machine, &changed, &options, |_| go_on(), |_| {})
     };
+    let follows = |range, change| planned(range, change).is_ok_and(|report| report.is_feasible());
     let at = |parameter, delta| Change { parameter, delta };
     let none = at(Parameter::X, 0.0);
     let mut range = failure.motions;
     if follows(range, none) {
         // On a preimage or winding that does not serve the rest of the cut.
         range = cut_around(motions, range)?;
-        if follows(range, none) {
+        let report = planned(range, none).ok()?;
+        if report.is_feasible() || report.failures.iter().any(is_at_rotary_limit) {
             return None;
         }
     }
@@ -119,6 +123,10 @@ pub fn healing_change<M: Motions + ?Sized>(
         size *= GROWTH;
     }
     None
+}
+
+fn is_at_rotary_limit(failure: &Failure) -> bool {
+    failure.margin.constraint == Constraint::Rotary
 }
 
 /// The whole cut around some of its motions; `None` if it is too long.
