@@ -43,7 +43,7 @@ fn a_stroke_that_is_exceeded_between_rows_is_found() {
         });
         let phi = [random.between(0.0, 0.2), random.between(-PI, PI)];
         let rho = sliders(tips, phi);
-        for slider in 0..3 {
+        for slider in [0, 1, 2] {
             let of = |place: usize| rho[place][slider];
             let highest = (0..=PLACES).max_by(|a, b| of(*a).total_cmp(&of(*b))).unwrap();
             if highest == 0 || highest == PLACES {
