@@ -14,6 +14,8 @@ mod limits;
 mod operations;
 mod process;
 mod telemetry;
+#[cfg(test)]
+mod test_service;
 mod wire;
 
 pub use http::router::document;

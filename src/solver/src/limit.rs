@@ -30,6 +30,27 @@ pub enum Constraint {
 impl Constraint {
     /// Number of constraints.
     pub(crate) const COUNT: usize = Self::TableClearance as usize + 1;
+
+    /// Every constraint, in the order of their definition.
+    ///
+    /// ```
+    /// use verne_solver::Constraint;
+    ///
+    /// assert!(Constraint::ALL.iter().enumerate().all(|(index, constraint)| *constraint as usize == index));
+    /// ```
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::Stroke,
+        Self::LegLength,
+        Self::SerialSingularity,
+        Self::ParallelSingularity,
+        Self::SliderJoint,
+        Self::PlatformJoint,
+        Self::RodCrossing,
+        Self::RodInterference,
+        Self::Tilt,
+        Self::Rotary,
+        Self::TableClearance,
+    ];
 }
 
 /// The part of the machine that a margin belongs to.

@@ -136,10 +136,44 @@ impl Representation {
             (ACCEPT_RANGES, self.cache_control.map(|_| "bytes".to_owned())),
             (CACHE_CONTROL, self.cache_control.map(str::to_owned)),
             (CONTENT_LOCATION, Some(self.location.clone())),
-            (CONTENT_DISPOSITION, self.file_name.as_ref().map(|name| format!("inline; filename=\"{name}\""))),
+            (CONTENT_DISPOSITION, self.file_name.as_deref().map(inline)),
         ];
         headers.into_iter().filter_map(|(name, value)| header(name, &value?)).collect()
     }
+}
+
+/// A text that is written while it is sent: its length is not known, so the response has no ranges. Its path never
+/// returns other bytes.
+pub(crate) struct StreamedText {
+    /// The strong tag.
+    pub etag: ETag,
+    /// The request header that selects the text.
+    pub vary: &'static str,
+    /// The media type.
+    pub media: &'static str,
+    /// The name under which a browser saves the text.
+    pub file_name: String,
+}
+
+impl StreamedText {
+    /// The headers of the response; to a client that has the text already, the response 304 instead.
+    pub(crate) fn begin(self, conditions: &Conditions) -> Result<HeaderMap, Box<Response>> {
+        let always = [(CACHE_CONTROL, IMMUTABLE), (VARY, self.vary)];
+        let mut headers: HeaderMap =
+            always.into_iter().filter_map(|(name, value)| header(name, value)).collect();
+        headers.typed_insert(self.etag.clone());
+        if conditions.are_unmodified(&self.etag) {
+            return Err(Box::new((StatusCode::NOT_MODIFIED, headers).into_response()));
+        }
+        headers.extend(header(CONTENT_TYPE, self.media));
+        headers.extend(header(CONTENT_DISPOSITION, &inline(&self.file_name)));
+        Ok(headers)
+    }
+}
+
+/// A browser shows the content, and saves it under this name.
+fn inline(file_name: &str) -> String {
+    format!("inline; filename=\"{file_name}\"")
 }
 
 fn header(name: HeaderName, value: &str) -> Option<(HeaderName, HeaderValue)> {

@@ -4,19 +4,16 @@
 use std::io::{self, Write};
 
 use axum::body::{Body, Bytes};
-use axum::http::header::{
-    ACCEPT_ENCODING, CACHE_CONTROL, CONTENT_DISPOSITION, CONTENT_ENCODING, CONTENT_LENGTH, CONTENT_TYPE, VARY,
-};
-use axum::http::{HeaderMap, HeaderValue, StatusCode};
+use axum::http::header::{ACCEPT_ENCODING, CONTENT_ENCODING, CONTENT_LENGTH};
+use axum::http::{HeaderMap, HeaderValue};
 use axum::response::{IntoResponse, Response};
 use flate2::write::GzDecoder;
 use futures_util::stream::BoxStream;
 use futures_util::{Stream, StreamExt, stream};
-use headers::HeaderMapExt;
 use verne_program::Format;
 use verne_store::ContentReader;
 
-use crate::http::conditional_response::{Conditions, IMMUTABLE, entity_tag};
+use crate::http::conditional_response::{Conditions, StreamedText, entity_tag};
 use crate::http::error::HttpError;
 use crate::http::negotiation::weighted;
 use crate::limits::response_memory::UnsharedBytes;
@@ -44,17 +41,16 @@ pub(crate) fn respond_source(
     let coding = accepts_gzip(headers).then_some("gzip");
     // The id identifies the file. Its compressed bytes also depend on the pieces in which it arrived.
     let hash = if coding.is_some() { source.hash() } else { blake3::Hash::from_bytes(*id.job().as_bytes()) };
-    let etag = entity_tag(&hash, coding)?;
-    let file_name = format!("inline; filename=\"program-{id:.8}.{}\"", format.name());
-    let mut about = HeaderMap::new();
-    about.insert(CACHE_CONTROL, HeaderValue::from_static(IMMUTABLE));
-    about.insert(VARY, HeaderValue::from_static("accept-encoding"));
-    about.typed_insert(etag.clone());
-    if conditions.are_unmodified(&etag) {
-        return Ok((StatusCode::NOT_MODIFIED, about).into_response());
-    }
-    about.insert(CONTENT_TYPE, HeaderValue::from_static(media_type(format)));
-    about.insert(CONTENT_DISPOSITION, file_name.parse().map_err(|_| OperationError::Internal)?);
+    let text = StreamedText {
+        etag: entity_tag(&hash, coding)?,
+        vary: "accept-encoding",
+        media: media_type(format),
+        file_name: format!("program-{id:.8}.{}", format.name()),
+    };
+    let mut about = match text.begin(conditions) {
+        Ok(about) => about,
+        Err(unmodified) => return Ok(*unmodified),
+    };
     let length = source.len();
     if let Some(coding) = coding {
         about.insert(CONTENT_ENCODING, HeaderValue::from_static(coding));

@@ -131,7 +131,6 @@ mod tests {
     use axum::body::Body;
     use axum::extract::{ConnectInfo, Request};
     use axum::http::header::AUTHORIZATION;
-    use clap::{Args, Command, FromArgMatches};
     use serde_json::Value;
     use tempfile::TempDir;
     use tower::ServiceExt;
@@ -140,6 +139,7 @@ mod tests {
     use crate::process::config::ServeConfig;
     use crate::process::service::Service;
     use crate::telemetry::captured_log::CapturedLog;
+    use crate::test_service::settings;
 
     /// A service with one key with the role read, and the key.
     async fn service() -> (Service, Key) {
@@ -148,9 +148,7 @@ mod tests {
         let keys = directory.path().join("keys.toml");
         let entry = format!("[[key]]\nname = 'ada'\nrole = 'read'\nhash = '{}'\n", key.hash());
         std::fs::write(&keys, entry).unwrap();
-        let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
-        let config = ServeConfig::from_arg_matches(&command.get_matches_from(["--memory-only"])).unwrap();
-        (Service::open(&ServeConfig { keys: Some(keys), ..config }).await.unwrap(), key)
+        (Service::open(&ServeConfig { keys: Some(keys), ..settings("") }).await.unwrap(), key)
     }
 
     #[tokio::test]

@@ -156,13 +156,12 @@ mod tests {
     use axum::http::header::{CONTENT_TYPE, RETRY_AFTER};
     use axum::http::{Request, StatusCode};
     use axum::response::Response;
-    use clap::{Args, Command, FromArgMatches};
     use futures_util::future::join_all;
     use serde_json::Value;
     use tower::ServiceExt;
 
-    use crate::process::config::ServeConfig;
     use crate::process::service::Service;
+    use crate::test_service::service;
 
     async fn send(service: &Service, request: Request<Body>) -> Response {
         service.router.clone().oneshot(request).await.unwrap()
@@ -174,10 +173,7 @@ mod tests {
 
     /// A service with a limit of concurrent requests, and the path of a mesh.
     async fn with_mesh(requests: usize) -> (Service, String) {
-        let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
-        let flags = ["--memory-only".to_owned(), format!("--max-requests={requests}")];
-        let config = ServeConfig::from_arg_matches(&command.get_matches_from(flags)).unwrap();
-        let service = Service::open(&config).await.unwrap();
+        let service = service(&format!("--max-requests={requests}")).await;
         let question = Request::post("/workspace").header(CONTENT_TYPE, "application/json");
         let answer =
             send(&service, question.body(r#"{"kind": "part", "tolerance": 50}"#.into()).unwrap()).await;

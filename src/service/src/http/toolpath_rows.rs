@@ -5,13 +5,10 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use axum::body::{Body, Bytes};
-use axum::http::header::{CACHE_CONTROL, CONTENT_DISPOSITION, CONTENT_TYPE, VARY};
-use axum::http::{HeaderMap, HeaderValue, StatusCode};
 use axum::response::{IntoResponse, Response};
 use futures_util::{Stream, stream};
-use headers::HeaderMapExt;
 
-use crate::http::conditional_response::{Conditions, IMMUTABLE, entity_tag};
+use crate::http::conditional_response::{Conditions, StreamedText, entity_tag};
 use crate::http::error::HttpError;
 use crate::http::handlers::results::stored_toolpath;
 use crate::http::result_or_job::ResultOrJob;
@@ -48,28 +45,28 @@ pub(crate) struct RowsResponse {
 }
 
 impl RowsResponse {
-    /// The response to a request with these conditions; `writer` makes the text. If the store evicts a chunk meanwhile,
-    /// the connection breaks off.
-    pub(crate) fn respond(
+    /// The response to a request with these conditions; `writer` makes the text, if the client does not have it. If the
+    /// store evicts a chunk meanwhile, the connection breaks off.
+    pub(crate) async fn respond(
         self,
         state: &SharedState,
         conditions: &Conditions,
-        writer: impl FnOnce() -> Result<Box<dyn RowText>, OperationError>,
+        writer: impl Future<Output = Result<Box<dyn RowText>, HttpError>>,
     ) -> Result<Response, HttpError> {
         let Self { id, range, tag, media, extension } = self;
         let name = format!("{id} rows {} {} {tag}", range.start, range.end);
-        let etag = entity_tag(&blake3::hash(name.as_bytes()), None)?;
-        let mut about = HeaderMap::new();
-        about.insert(CACHE_CONTROL, HeaderValue::from_static(IMMUTABLE));
-        about.insert(VARY, HeaderValue::from_static("accept"));
-        about.typed_insert(etag.clone());
-        if conditions.are_unmodified(&etag) {
-            return Ok((StatusCode::NOT_MODIFIED, about).into_response());
-        }
-        let file_name = format!("inline; filename=\"toolpath-{id:.8}.{extension}\"");
-        about.insert(CONTENT_TYPE, HeaderValue::from_static(media));
-        about.insert(CONTENT_DISPOSITION, file_name.parse().map_err(|_| OperationError::Internal)?);
-        let writing = Writing { state: Arc::clone(state), id, next: range, chunk: None, writer: writer()? };
+        let text = StreamedText {
+            etag: entity_tag(&blake3::hash(name.as_bytes()), None)?,
+            vary: "accept",
+            media,
+            file_name: format!("toolpath-{id:.8}.{extension}"),
+        };
+        let about = match text.begin(conditions) {
+            Ok(about) => about,
+            Err(unmodified) => return Ok(*unmodified),
+        };
+        let writing =
+            Writing { state: Arc::clone(state), id, next: range, chunk: None, writer: writer.await? };
         let mut response = (about, Body::from_stream(writing.text())).into_response();
         response.extensions_mut().insert(UnsharedBytes(RESPONSE_BYTES));
         Ok(response)

@@ -13,8 +13,8 @@ use crate::telemetry::metrics::computations::ComputationMetrics;
 use crate::wire::error::OperationError;
 use crate::wire::result_id::ResultId;
 
-/// Plans a tool path, unless the store has its report and all its rows. The report is stored last: whoever finds it
-/// expects the rows.
+/// Plans a tool path, unless the store has its report and all its rows. The report is stored last: a process that
+/// finds it expects the rows.
 pub(crate) fn answer_toolpath(
     store: &BlockingResults,
     question: &ToolpathQuestion,

@@ -135,16 +135,14 @@ mod tests {
 
     use super::{ProbeState, run, serve};
     use crate::http::readiness::Readiness;
-    use crate::process::config::ServeConfig;
     use crate::process::config::worker::WorkerConfig;
     use crate::process::server::listener_config::{ListenerConfig, Timeouts};
     use crate::process::storage::Storage;
     use crate::telemetry::metrics::Metrics;
+    use crate::test_service::settings;
 
     async fn probe_state(stopping: CancellationToken) -> Arc<ProbeState> {
-        let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
-        let config = ServeConfig::from_arg_matches(&command.get_matches_from(["--memory-only"])).unwrap();
-        let Storage { results, jobs, computations, .. } = Storage::open(&config).await.unwrap();
+        let Storage { results, jobs, computations, .. } = Storage::open(&settings("")).await.unwrap();
         let metrics = Metrics::new(Arc::clone(&jobs), results.store(), &computations);
         Arc::new(ProbeState { readiness: Readiness::new(results, jobs, stopping), metrics })
     }

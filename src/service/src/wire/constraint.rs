@@ -10,21 +10,6 @@ use utoipa::{PartialSchema, ToSchema};
 use verne_solver::workspace::Binding;
 use verne_solver::{Constraint, Element, Margin};
 
-/// Every constraint, in the order of the OpenAPI document.
-const CONSTRAINTS: [Constraint; 11] = [
-    Constraint::Stroke,
-    Constraint::LegLength,
-    Constraint::SerialSingularity,
-    Constraint::ParallelSingularity,
-    Constraint::SliderJoint,
-    Constraint::PlatformJoint,
-    Constraint::RodCrossing,
-    Constraint::RodInterference,
-    Constraint::Tilt,
-    Constraint::Rotary,
-    Constraint::TableClearance,
-];
-
 /// The name of a constraint and the unit of its margins.
 const fn name_and_unit(constraint: Constraint) -> (&'static str, Unit) {
     match constraint {
@@ -84,7 +69,7 @@ impl PartialSchema for ConstraintName {
         ObjectBuilder::new()
             .schema_type(Type::String)
             .description(Some("A constraint of the workspace."))
-            .enum_values(Some(CONSTRAINTS.map(|constraint| name_and_unit(constraint).0)))
+            .enum_values(Some(Constraint::ALL.map(|constraint| name_and_unit(constraint).0)))
             .into()
     }
 }

@@ -46,7 +46,7 @@ pub(crate) struct JointProgramQuery {
     /// The meaning of F.
     #[serde(default)]
     #[arg(long, default_value = "inverse_time")]
-    #[param(inline, default = "inverse_time")]
+    #[param(inline)]
     pub feed_word: FeedWordName,
     /// The greatest F.
     #[serde(default = "default_greatest_feed")]
@@ -56,7 +56,7 @@ pub(crate) struct JointProgramQuery {
     /// The word of rapids.
     #[serde(default)]
     #[arg(long, default_value = "g0")]
-    #[param(inline, default = "g0")]
+    #[param(inline)]
     pub rapid_word: RapidWordName,
     /// The step of block numbers (N). Without it, blocks have no numbers.
     #[arg(long, value_name = "STEP")]
@@ -84,6 +84,7 @@ pub(crate) struct JointProgramQuery {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[value(rename_all = "snake_case")]
+#[schema(default = "inverse_time")]
 pub(crate) enum FeedWordName {
     /// One over the duration of the block in minutes: G93.
     #[default]
@@ -96,6 +97,7 @@ pub(crate) enum FeedWordName {
 /// of the row. The first position is G0. Retracts, rewinds and approaches that have a duration are G1 in any case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
+#[schema(default = "g0")]
 pub(crate) enum RapidWordName {
     /// The controller decides whether the joints move linearly.
     #[default]

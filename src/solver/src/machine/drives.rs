@@ -1,4 +1,4 @@
-//! What the drives of a machine can do.
+//! Velocities and accelerations of a machine's drives.
 
 /// The greatest velocity and acceleration of a drive, in both directions.
 #[derive(Clone, Copy, Debug, PartialEq)]

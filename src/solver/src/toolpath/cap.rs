@@ -1,5 +1,6 @@
 //! The cap around the pole in which phi2 is free.
 
+use super::golden_section;
 use super::path::{Path, count_of};
 use crate::fast_math::angle_of_vector;
 
@@ -11,7 +12,6 @@ const MOST_HALVINGS: u32 = 24;
 const HALVINGS: u32 = 60;
 /// Steps of the search for the least inclination.
 const GOLDEN_STEPS: u32 = 50;
-const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
 /// The size of the cap, and what phi2 is spread over.
 #[derive(Clone, Copy, Debug)]
@@ -74,26 +74,18 @@ impl Cap {
 
     /// A parameter inside the cap between two outside, if the path passes through it.
     fn least(&self, path: &Path, low: f64, high: f64) -> Option<f64> {
-        let square = |s: f64| {
-            let [i, j, k] = path.at(s).axis;
-            if k > 0.0 { i * i + j * j } else { 1.0 }
+        let nearest = if path.is_great_circle() {
+            path.nearest_to_pole()
+        } else if self.is_clear([low, high].map(|s| path.at(s).axis), path.turn_between([low, high])) {
+            None
+        } else {
+            let square = |s: f64| {
+                let [i, j, k] = path.at(s).axis;
+                if k > 0.0 { i * i + j * j } else { 1.0 }
+            };
+            Some(golden_section::least([low, high], GOLDEN_STEPS, square))
         };
-        if path.is_great_circle() {
-            return path.nearest_to_pole().filter(|&s| self.has(path.at(s).axis));
-        }
-        let (mut a, mut b) = (low, high);
-        for _ in 0..GOLDEN_STEPS {
-            let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-            if square(c) < square(d) {
-                b = d;
-            } else {
-                a = c;
-            }
-            if square(c).min(square(d)) <= self.sine * self.sine {
-                return Some(if square(c) < square(d) { c } else { d });
-            }
-        }
-        None
+        nearest.filter(|&s| self.has(path.at(s).axis))
     }
 
     /// Where a path crosses the cap's edge between a parameter outside and one inside; a parameter inside.

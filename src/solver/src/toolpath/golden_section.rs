@@ -1,15 +1,16 @@
 //! The place of a least value, by golden section.
 
-/// Steps of the search: the interval shrinks to 6e-6 of its width.
-const STEPS: u32 = 25;
+/// Steps that shrink the interval to 6e-6 of its width.
+pub(super) const STEPS: u32 = 25;
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
-/// Where `value` is least between two parameters, if it has one minimum there. It is examined inside them only.
-pub(super) fn least([mut low, mut high]: [f64; 2], mut value: impl FnMut(f64) -> f64) -> f64 {
+/// Where `value` is least between two parameters, if it has one minimum there. It is examined inside them only, and the
+/// answer is the place with the least of the examined values.
+pub(super) fn least([mut low, mut high]: [f64; 2], steps: u32, mut value: impl FnMut(f64) -> f64) -> f64 {
     let inner = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
     let [mut a, mut b] = inner(low, high);
     let [mut at_a, mut at_b] = [value(a), value(b)];
-    for _ in 0..STEPS {
+    for _ in 0..steps {
         if at_a < at_b {
             (high, b, at_b) = (b, a, at_a);
             a = inner(low, high)[0];

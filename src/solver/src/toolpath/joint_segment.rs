@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::differential::Differential;
-use super::golden_section::{beside, least};
+use super::golden_section::{STEPS, beside, least};
 use super::meridian::Span;
 use super::nearby_pose::{hermite_middle, parabola, solved};
 use super::node::{Node, Setting};
@@ -122,7 +122,7 @@ impl<'a> JointSegment<'a> {
         let places =
             (1..FINE_INTERVALS).map(|place| (place, at(f64::from(place) / f64::from(FINE_INTERVALS))));
         let (place, _) = places.max_by(|a, b| a.1.total_cmp(&b.1))?;
-        self.node(machine, least(beside(place, FINE_INTERVALS), |t| -at(t)))
+        self.node(machine, least(beside(place, FINE_INTERVALS), STEPS, |t| -at(t)))
     }
 
     /// The greatest deviation from the track between two stops. At each place one path parameter is compared for both

@@ -23,6 +23,7 @@ use crate::operations::question::Question;
 use crate::operations::results::hashed;
 use crate::operations::toolpath_glb::ToolpathLines;
 use crate::operations::toolpath_report::is_feasible;
+use crate::operations::toolpath_row_text::RowText;
 use crate::operations::toolpath_rows::chunk_count;
 use crate::wire::error::OperationError;
 use crate::wire::joint_program::JointProgramQuery;
@@ -70,14 +71,15 @@ pub(crate) async fn get_joint_program(
             let Question::Toolpath(question) = &*question else {
                 return Err(OperationError::Internal.into());
             };
-            let program = load_program(&state.results, question.request.program).await?;
-            all_durations(&state, record.id, count).await?;
             let tag = format!("program {options:?}");
-            RowsResponse { id: record.id, range: 0..count, tag, media: GCODE, extension: "ngc" }.respond(
-                &state,
-                &conditions,
-                || Ok(Box::new(JointProgramText::new(options, question, &program)?)),
-            )?
+            let rows = RowsResponse { id: record.id, range: 0..count, tag, media: GCODE, extension: "ngc" };
+            let writer = async {
+                let program = load_program(&state.results, question.request.program).await?;
+                all_durations(&state, record.id, count).await?;
+                let text: Box<dyn RowText> = Box::new(JointProgramText::new(options, question, &program)?);
+                Ok(text)
+            };
+            rows.respond(&state, &conditions, writer).await?
         }
         ResultOrJob::Job(job) => accepted(&job, &state.base)?,
     };

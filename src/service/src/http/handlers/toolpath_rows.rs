@@ -14,7 +14,7 @@ use crate::http::result_or_job::ResultOrJob;
 use crate::http::state::SharedState;
 use crate::http::toolpath_rows::{RowsResponse, rows_or_job, toolpath_record};
 use crate::http::wait_policy::WaitPolicy;
-use crate::operations::toolpath_row_text::RowTextWriter;
+use crate::operations::toolpath_row_text::{RowText, RowTextWriter};
 use crate::wire::toolpath_row::{RowFormat, RowsQuery, ToolpathRows};
 
 /// The joint motion of a program
@@ -53,9 +53,9 @@ pub(crate) async fn get_rows(
     let mut response = match rows_or_job(&state, &record, range.clone(), &wait_policy).await? {
         ResultOrJob::Result(_) => {
             let (tag, media, extension) = (format.name().to_owned(), format.media(), format.name());
-            let first = range.start;
-            RowsResponse { id, range, tag, media, extension }
-                .respond(&state, &conditions, || Ok(Box::new(RowTextWriter::new(id, format, first))))?
+            let writer: Box<dyn RowText> = Box::new(RowTextWriter::new(id, format, range.start));
+            let rows = RowsResponse { id, range, tag, media, extension };
+            rows.respond(&state, &conditions, async { Ok(writer) }).await?
         }
         ResultOrJob::Job(job) => accepted(&job, &state.base)?,
     };
@@ -79,20 +79,13 @@ fn check(from: u64, to: Option<u64>, count: u64) -> Result<(), HttpError> {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
-    use axum::body::{Body, Bytes, to_bytes};
+    use axum::body::{Body, Bytes};
     use axum::http::header::{ACCEPT, CONTENT_TYPE, ETAG, IF_NONE_MATCH};
     use axum::http::{HeaderMap, HeaderName, Request, StatusCode};
-    use clap::{Args, Command, FromArgMatches};
     use serde_json::{Value, json};
-    use tower::ServiceExt;
 
-    use crate::process::config::ServeConfig;
     use crate::process::service::Service;
-
-    async fn send(service: &Service, request: Request<Body>) -> (StatusCode, HeaderMap, Bytes) {
-        let (head, body) = service.router.clone().oneshot(request).await.unwrap().into_parts();
-        (head.status, head.headers, to_bytes(body, usize::MAX).await.unwrap())
-    }
+    use crate::test_service::{send, service};
 
     async fn get(
         service: &Service,
@@ -105,9 +98,7 @@ mod tests {
 
     /// A service, the path of the rows of a tool path, and their number: several chunks.
     async fn planned() -> (Service, String, usize) {
-        let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
-        let config = ServeConfig::from_arg_matches(&command.get_matches_from(["--memory-only"])).unwrap();
-        let service = Service::open(&config).await.unwrap();
+        let service = service("").await;
         let points: Vec<_> = (0..9000).map(|i| json!([i % 90, i % 70, 300 + i % 2])).collect();
         let body = json!({"program": {"points": points}, "tool_length": 50, "tolerance": {"tip": 50}});
         let request = Request::post("/toolpath").header(CONTENT_TYPE, "application/json");

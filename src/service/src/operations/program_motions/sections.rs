@@ -195,10 +195,11 @@ impl<'a> Divider<'a> {
 
     fn fault(&mut self, fault: ProgramError) {
         if self.faults.contains(&fault) {
-        } else if self.faults.len() < MOST_FAULTS {
+            return;
+        }
+        self.is_complete &= self.faults.len() < MOST_FAULTS;
+        if self.is_complete {
             self.faults.push(fault);
-        } else {
-            self.is_complete = false;
         }
     }
 

@@ -18,21 +18,6 @@ const KINDS: [RowKind; 7] = [
     RowKind::Approach,
 ];
 
-/// Every constraint. The code of a constraint is its index.
-const CONSTRAINTS: [Constraint; 11] = [
-    Constraint::Stroke,
-    Constraint::LegLength,
-    Constraint::SerialSingularity,
-    Constraint::ParallelSingularity,
-    Constraint::SliderJoint,
-    Constraint::PlatformJoint,
-    Constraint::RodCrossing,
-    Constraint::RodInterference,
-    Constraint::Tilt,
-    Constraint::Rotary,
-    Constraint::TableClearance,
-];
-
 /// A row as it is stored: mm, radians and seconds, in the part frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct StoredRow {
@@ -70,7 +55,7 @@ pub(crate) fn write_row(row: &StoredRow, bytes: &mut Vec<u8>) {
     bytes.extend_from_slice(&row.index.to_le_bytes());
     let [element, first, second] = element_code(row.margin.element);
     let kind = code_of(&KINDS, &row.kind);
-    let constraint = code_of(&CONSTRAINTS, &row.margin.constraint);
+    let constraint = code_of(&Constraint::ALL, &row.margin.constraint);
     let has_duration = u8::from(row.duration.is_some());
     bytes.extend_from_slice(&[kind, has_duration, constraint, element, first, second, 0, 0]);
     let ToolPosition { tip, axis } = row.position;
@@ -100,7 +85,7 @@ pub(crate) fn read_row(bytes: &[u8]) -> Option<StoredRow> {
         table: TableAngles { theta1, theta2 },
         duration: (has_duration == 1).then_some(duration),
         margin: Margin {
-            constraint: *CONSTRAINTS.get(usize::from(constraint))?,
+            constraint: *Constraint::ALL.get(usize::from(constraint))?,
             element: element_of([element, first, second])?,
             value,
         },

@@ -7,7 +7,7 @@ use super::cost::Cost;
 use super::state::State;
 use crate::toolpath::node::Setting;
 
-/// What the least rotary margin has to gain for another place of the same turns, rad.
+/// Least gain of the least rotary margin that moves a rewind to another place, rad.
 const LEAST_GAIN: f64 = 0.05;
 /// Greatest number of whole turns to each side.
 const MOST_TURNS: f64 = 8.0;

@@ -6,7 +6,7 @@ use crate::machine::Machine;
 use crate::margins::Margins;
 use crate::table::part_pose;
 use crate::toolpath::differential::Differential;
-use crate::toolpath::golden_section::{beside, least};
+use crate::toolpath::golden_section::{STEPS, beside, least};
 use crate::toolpath::joint_segment::{JointSegment, Track};
 use crate::toolpath::meridian::Span;
 use crate::toolpath::node::Node;
@@ -103,7 +103,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         for (constraint, (fraction, place)) in lowest.into_iter().enumerate() {
             if fraction.abs() < NEAR {
                 let value = |t: f64| fractions(t).map_or(f64::INFINITY, |found| found[constraint]);
-                if let Some((node, margins)) = margins(least(beside(place, INTERVALS), value)) {
+                if let Some((node, margins)) = margins(least(beside(place, INTERVALS), STEPS, value)) {
                     self.meet(index, (&node, tool_length), &margins);
                 }
             }

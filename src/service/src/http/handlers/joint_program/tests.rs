@@ -1,29 +1,16 @@
 //! What users of joint programs and paths rely on.
 
-use axum::body::{Body, Bytes, to_bytes};
+use axum::body::{Body, Bytes};
 use axum::http::header::{CONTENT_TYPE, ETAG, IF_NONE_MATCH};
 use axum::http::{HeaderMap, Request, StatusCode};
-use clap::{Args, Command, FromArgMatches};
 use serde_json::{Value, json};
-use tower::ServiceExt;
 
-use crate::process::config::ServeConfig;
 use crate::process::service::Service;
+use crate::test_service::{send, service};
 
 /// Rapids over the table, with events.
 const RAPIDS: &str = "UNITS/MM\nLOADTL/3\nSPINDL/RPM,6000,CLW\nRAPID\nGOTO/-50,0,300\nCOOLNT/ON\nPPRINT a) G0 X0 (b\n\
     RAPID\nGOTO/50,0,300\nFINI\n";
-
-async fn service() -> Service {
-    let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
-    let config = ServeConfig::from_arg_matches(&command.get_matches_from(["--memory-only"])).unwrap();
-    Service::open(&config).await.unwrap()
-}
-
-async fn send(service: &Service, request: Request<Body>) -> (StatusCode, HeaderMap, Bytes) {
-    let (head, body) = service.router.clone().oneshot(request).await.unwrap().into_parts();
-    (head.status, head.headers, to_bytes(body, usize::MAX).await.unwrap())
-}
 
 async fn get(service: &Service, path: &str) -> (StatusCode, HeaderMap, Bytes) {
     send(service, Request::get(path).body(Body::empty()).unwrap()).await
@@ -44,7 +31,7 @@ async fn plan(service: &Service, text: &'static str) -> Value {
 
 #[tokio::test]
 async fn a_joint_program_has_a_block_for_each_row_and_the_events_in_their_places() {
-    let service = service().await;
+    let service = service("").await;
     let report = plan(&service, RAPIDS).await;
     let path = report["links"]["program"].as_str().unwrap();
     let (status, headers, body) = get(&service, path).await;
@@ -66,7 +53,7 @@ async fn a_joint_program_has_a_block_for_each_row_and_the_events_in_their_places
 
 #[tokio::test]
 async fn options_change_the_program_or_are_refused_by_name() {
-    let service = service().await;
+    let service = service("").await;
     let path = plan(&service, RAPIDS).await["links"]["program"].as_str().unwrap().to_owned();
     let query = "axes=U,V,-W,B,C&axis_offsets=0,0,1600&length_decimals=2&numbers=10&head=%25%0AO7&foot=M2";
     let (status, _, body) = get(&service, &format!("{path}?{query}")).await;
@@ -97,7 +84,7 @@ async fn options_change_the_program_or_are_refused_by_name() {
 
 #[tokio::test]
 async fn a_program_that_the_machine_cannot_run_has_no_joint_program() {
-    let service = service().await;
+    let service = service("").await;
     let report = plan(&service, "UNITS/MM\nRAPID\nGOTO/0,0,300\nRAPID\nGOTO/9000,0,300\nFINI\n").await;
     assert_eq!((&report["verdict"], &report["links"]["program"]), (&json!("fails"), &Value::Null));
     let path = format!("{}/program", report["links"]["self"].as_str().unwrap());
@@ -107,7 +94,7 @@ async fn a_program_that_the_machine_cannot_run_has_no_joint_program() {
 
 #[tokio::test]
 async fn the_path_is_a_glb_in_the_frame_of_the_part() {
-    let service = service().await;
+    let service = service("").await;
     let report =
         plan(&service, "UNITS/MM\nRAPID\nGOTO/-150,0,300\nFEDRAT/1000,MMPM\nGOTO/150,0,300\nFINI\n").await;
     let path = report["links"]["path"].as_str().unwrap();

@@ -3,18 +3,16 @@
 use std::convert::Infallible;
 use std::io::Read;
 
-use axum::body::{Body, Bytes, to_bytes};
+use axum::body::{Body, Bytes};
 use axum::http::header::{ACCEPT_ENCODING, CONTENT_ENCODING, CONTENT_TYPE, ETAG, IF_NONE_MATCH, LOCATION};
 use axum::http::{HeaderMap, Request, StatusCode};
-use clap::{Args, Command, FromArgMatches};
 use flate2::Compression;
 use flate2::read::{GzDecoder, GzEncoder};
 use futures_util::stream;
 use serde_json::{Value, json};
-use tower::ServiceExt;
 
-use crate::process::config::ServeConfig;
 use crate::process::service::Service;
+use crate::test_service::{self, service};
 
 const FILE: &str = "UNITS/MM\nLOADTL/3\n$$ a comment\nGOTO/0,0,320\nGOTO/0,0,300\n";
 
@@ -25,19 +23,10 @@ struct Answer {
     json: Value,
 }
 
-async fn service(flags: &str) -> Service {
-    let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
-    let flags = flags.split_whitespace().chain(["--memory-only"]);
-    let config = ServeConfig::from_arg_matches(&command.get_matches_from(flags)).unwrap();
-    Service::open(&config).await.unwrap()
-}
-
 async fn send(service: &Service, request: Request<Body>) -> Answer {
-    let answer = service.router.clone().oneshot(request).await.unwrap();
-    let (head, body) = answer.into_parts();
-    let bytes = to_bytes(body, usize::MAX).await.unwrap();
+    let (status, headers, bytes) = test_service::send(service, request).await;
     let json = serde_json::from_slice(&bytes).unwrap_or_default();
-    Answer { status: head.status, headers: head.headers, bytes, json }
+    Answer { status, headers, bytes, json }
 }
 
 async fn post(service: &Service, query: &str, body: impl Into<Body>) -> Answer {

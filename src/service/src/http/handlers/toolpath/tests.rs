@@ -2,17 +2,15 @@
 
 mod time;
 
-use axum::body::{Body, to_bytes};
+use axum::body::Body;
 use axum::http::header::{CONTENT_TYPE, LOCATION};
 use axum::http::{HeaderMap, Request, StatusCode};
-use clap::{Args, Command, FromArgMatches};
 use serde_json::{Value, json};
-use tower::ServiceExt;
 
 use crate::operations::toolpath_rows::row_bytes::StoredRow;
 use crate::operations::toolpath_rows::{chunk_count, chunk_name, read_chunk};
-use crate::process::config::ServeConfig;
 use crate::process::service::Service;
+use crate::test_service;
 
 mod limits;
 
@@ -23,15 +21,12 @@ const FORM: &str = "application/x-www-form-urlencoded";
 const LINE: &str = "UNITS/MM\nRAPID\nGOTO/-150,0,300\nFEDRAT/1000,MMPM\nGOTO/150,0,300\nFINI\n";
 
 async fn service() -> Service {
-    let command = ServeConfig::augment_args(Command::new("verne").no_binary_name(true));
-    let config = ServeConfig::from_arg_matches(&command.get_matches_from(["--memory-only"])).unwrap();
-    Service::open(&config).await.unwrap()
+    test_service::service("").await
 }
 
 async fn send(service: &Service, request: Request<Body>) -> (StatusCode, HeaderMap, Value) {
-    let (head, body) = service.router.clone().oneshot(request).await.unwrap().into_parts();
-    let bytes = to_bytes(body, usize::MAX).await.unwrap();
-    (head.status, head.headers, serde_json::from_slice(&bytes).unwrap_or_default())
+    let (status, headers, bytes) = test_service::send(service, request).await;
+    (status, headers, serde_json::from_slice(&bytes).unwrap_or_default())
 }
 
 async fn post(service: &Service, path: &str, media: &str, body: impl Into<Body>) -> (StatusCode, Value) {
@@ -264,8 +259,7 @@ async fn a_job_of_a_tool_path_states_its_kind_and_can_be_cancelled() {
     let id = job["id"].as_str().unwrap();
     // The events end with the job.
     let events = Request::get(format!("{path}/events")).body(Body::empty()).unwrap();
-    let events = service.router.clone().oneshot(events).await.unwrap().into_body();
-    let events = to_bytes(events, usize::MAX).await.unwrap();
+    let (_, _, events) = test_service::send(&service, events).await;
     assert!(String::from_utf8_lossy(&events).contains("\"state\":\"cancelled\""), "{events:?}");
     for path in ["", "/rows", "/program", "/path"] {
         let (status, problem) = get(&service, &format!("/toolpath/{id}{path}")).await;
