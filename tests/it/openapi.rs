@@ -85,7 +85,7 @@ async fn send_example(service: &Router, path: &str, method: &str, operation: &Va
         }
     }
     let method = Method::from_bytes(method.to_ascii_uppercase().as_bytes()).unwrap();
-    let file = bodies["text/plain"]["example"].as_str().unwrap_or_default().to_owned();
+    let file = bodies["application/octet-stream"]["example"].as_str().unwrap_or_default().to_owned();
     send_to(service.clone(), Request::builder().method(method).uri(uri).body(Body::from(file)).unwrap()).await
 }
 

@@ -2,7 +2,7 @@
 //!
 //! May import `operations`, `telemetry`, `limits` and `wire`.
 //!
-//! - Add a route: `router`.
+//! - Add a route: `router`; a path for each format of a file: `format_paths`.
 //! - 200 or 202: `result_or_job`; the wait before 202: `wait_policy`.
 //! - Errors and their statuses: `error`, `problem::code`.
 //! - What a request passes before its handler: `middleware`, then `access_control`.
@@ -15,6 +15,7 @@ pub(crate) mod conditional_response;
 pub(crate) mod content_coding;
 pub(crate) mod error;
 pub(crate) mod extractors;
+pub(crate) mod format_paths;
 pub(crate) mod forwarded_for;
 pub(crate) mod handlers;
 pub(crate) mod job_document;

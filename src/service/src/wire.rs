@@ -29,6 +29,7 @@ pub(crate) mod machine_list;
 pub(crate) mod machine_ref;
 pub(crate) mod margins;
 pub(crate) mod missing;
+pub(crate) mod openapi_version;
 pub(crate) mod parse;
 pub(crate) mod program;
 pub(crate) mod program_points;

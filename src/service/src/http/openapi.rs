@@ -3,14 +3,24 @@
 pub(crate) mod body_schemas;
 pub(crate) mod examples;
 pub(crate) mod machine_schema;
+mod one_media_type;
+mod operations;
+mod optional_fields;
 pub(crate) mod problem_responses;
 pub(crate) mod security;
+mod version_3_0;
+pub(crate) mod versions;
+
+use std::collections::HashSet;
 
 use serde_json::{Value, json};
 use utoipa::OpenApi;
 
 use crate::http::openapi::examples::examples;
 use crate::http::openapi::machine_schema::join_descriptions;
+use crate::http::openapi::one_media_type::keep_one_media_type;
+use crate::http::openapi::operations::components;
+use crate::http::openapi::optional_fields::describe_defaults;
 use crate::http::problem::Problem;
 use crate::wire::dexterity::DexteritySummary;
 use crate::wire::family::FamilySummary;
@@ -63,12 +73,35 @@ use crate::wire::workspace_summary::WorkspaceSummary;
 )]
 pub(crate) struct Document;
 
-/// The document as JSON, with an example of each request and its answer.
+/// The document as JSON, as generators of clients read it, with an example of each request and its answer.
 pub(crate) fn complete(api: &utoipa::openapi::OpenApi) -> Value {
     let mut document = json!(api);
+    keep_one_media_type(&mut document);
     for example in examples() {
         example.write_into(&mut document);
     }
     join_descriptions(&mut document);
+    describe_defaults(&mut document);
+    drop_unused_examples(&mut document);
     document
+}
+
+/// Drops the examples of codes that no operation lists, such as that of an unknown path.
+fn drop_unused_examples(document: &mut Value) {
+    let mut used = HashSet::new();
+    collect_references(document, &mut used);
+    if let Some(examples) = components(document, "examples") {
+        examples.retain(|name, _| used.contains(&format!("#/components/examples/{name}")));
+    }
+}
+
+fn collect_references(value: &Value, references: &mut HashSet<String>) {
+    match value {
+        Value::Object(members) => {
+            references.extend(members.get("$ref").and_then(Value::as_str).map(str::to_owned));
+            members.values().for_each(|member| collect_references(member, references));
+        }
+        Value::Array(items) => items.iter().for_each(|item| collect_references(item, references)),
+        _ => {}
+    }
 }

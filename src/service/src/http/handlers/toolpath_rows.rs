@@ -20,9 +20,9 @@ use crate::wire::toolpath_row::{RowFormat, RowsQuery, ToolpathRows};
 /// The joint motion of a program
 ///
 /// Returns the rows of a tool path: the joints to which the machine moves, all of them linearly from the row before,
-/// with the tool's end and axis in the part frame, and the worst margin. `format` or Accept selects the format; the
-/// default is JSON. `from` and `to` select rows by their number. The service sends the rows while it reads them, and
-/// supports strong ETags.
+/// with the tool's end and axis in the part frame, and the worst margin. `from` and `to` select rows by their number.
+/// The path without the extension selects the format by `format` or Accept; its default is JSON. The service sends the
+/// rows while it reads them, and supports strong ETags.
 #[utoipa::path(
     get, path = "/toolpath/{id}/rows", operation_id = "toolpath_rows", tag = "toolpath",
     params(("id" = String, Path, description = "The id from an answer of /toolpath."), RowsQuery),

@@ -10,7 +10,7 @@ use crate::http::error::{HttpError, LookupError};
 use crate::http::extractors::{JsonBody, QueryString};
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
-use crate::http::openapi::body_schemas::{Binary, SummaryOrMesh};
+use crate::http::openapi::body_schemas::{Binary, WorkspaceAnswer};
 use crate::http::openapi::problem_responses::{WorkspaceBodyProblems, WorkspaceQueryProblems};
 use crate::http::result_or_job::ResultOrJob;
 use crate::http::result_representation::{Surface, mesh_or_job, summary_or_job};
@@ -23,6 +23,7 @@ use crate::wire::format::MeshFormat;
 use crate::wire::query::point_into_query;
 use crate::wire::workspace::WorkspaceRequest;
 use crate::wire::workspace_query::{MeshQuery, WorkspaceQuery};
+use crate::wire::workspace_summary::WorkspaceSummary;
 
 /// The answer depends on the published machines, which change only with a restart.
 const CACHEABLE: &str = "public, max-age=300";
@@ -38,7 +39,7 @@ const CACHEABLE: &str = "public, max-age=300";
     get, path = "/workspace", operation_id = "workspace", tag = "workspace", params(WorkspaceQuery),
     responses(
         (status = 200, description = "The summary or the mesh.", content(
-            (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
+            (WorkspaceSummary = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
             (Binary = "model/ply"),
         )),
         (status = 202, description = "The job that computes the result. The header Location has its path.", body =
@@ -71,7 +72,7 @@ pub(crate) async fn get_workspace(
     request_body(content = WorkspaceRequest, description = "The workspace or workspaces, and the tolerance."),
     responses(
         (status = 200, description = "The summary, the table or the mesh.", content(
-            (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
+            (WorkspaceAnswer = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
             (Binary = "model/ply"),
         )),
         (status = 202, description = "The job that computes the result. The header Location has its path.", body =

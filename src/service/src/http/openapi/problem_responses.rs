@@ -100,6 +100,8 @@ problems! {
     ProgramProblems: &[Code::NotFound, Code::ProgramNotFound];
     /// Problems of a tool path.
     ToolpathProblems: BODY, JOB, PROGRAM;
+    /// Problems of a tool path whose program is the body.
+    ToolpathFileProblems: PROGRAM_BODY, JOB;
     /// Problems of the report on a tool path.
     ReportProblems: TOOLPATH;
     /// Problems of the rows of a tool path. If the store evicted them, a job computes them again, which needs a role
