@@ -42,5 +42,8 @@ fn item(path: &str) -> Option<&'static Value> {
             }
         }
     };
-    paths.get(path).or_else(|| paths.iter().find(|(template, _)| fits(template)).map(|(_, item)| item))
+    let found =
+        paths.get(path).or_else(|| paths.iter().find(|(template, _)| fits(template)).map(|(_, item)| item));
+    // The document lists the paths of the formats only.
+    found.or_else(|| if path.ends_with(".json") { None } else { item(&format!("{path}.json")) })
 }

@@ -1,5 +1,6 @@
 //! The OpenAPI document: generated from the handlers, with examples whose answers the solver computes.
 
+mod alternatives;
 pub(crate) mod body_schemas;
 pub(crate) mod examples;
 pub(crate) mod machine_schema;
@@ -11,15 +12,14 @@ pub(crate) mod security;
 mod version_3_0;
 pub(crate) mod versions;
 
-use std::collections::HashSet;
-
 use serde_json::{Value, json};
 use utoipa::OpenApi;
 
+use crate::http::openapi::alternatives::bare_alternatives;
 use crate::http::openapi::examples::examples;
 use crate::http::openapi::machine_schema::join_descriptions;
 use crate::http::openapi::one_media_type::keep_one_media_type;
-use crate::http::openapi::operations::components;
+use crate::http::openapi::operations::drop_unused;
 use crate::http::openapi::optional_fields::describe_defaults;
 use crate::http::problem::Problem;
 use crate::wire::dexterity::DexteritySummary;
@@ -81,27 +81,9 @@ pub(crate) fn complete(api: &utoipa::openapi::OpenApi) -> Value {
         example.write_into(&mut document);
     }
     join_descriptions(&mut document);
+    bare_alternatives(&mut document);
     describe_defaults(&mut document);
-    drop_unused_examples(&mut document);
+    // No operation lists some codes, such as that of an unknown path.
+    drop_unused(&mut document, "examples");
     document
-}
-
-/// Drops the examples of codes that no operation lists, such as that of an unknown path.
-fn drop_unused_examples(document: &mut Value) {
-    let mut used = HashSet::new();
-    collect_references(document, &mut used);
-    if let Some(examples) = components(document, "examples") {
-        examples.retain(|name, _| used.contains(&format!("#/components/examples/{name}")));
-    }
-}
-
-fn collect_references(value: &Value, references: &mut HashSet<String>) {
-    match value {
-        Value::Object(members) => {
-            references.extend(members.get("$ref").and_then(Value::as_str).map(str::to_owned));
-            members.values().for_each(|member| collect_references(member, references));
-        }
-        Value::Array(items) => items.iter().for_each(|item| collect_references(item, references)),
-        _ => {}
-    }
 }

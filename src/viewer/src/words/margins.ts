@@ -1,6 +1,6 @@
 /** Every margin of a pose as a bar with a sentence, worst first. */
 
-import type { Limit, Machine, Margins } from "../api/client";
+import type { Limit, Machine, Margins } from "verne-client";
 import { broken } from "./limits";
 import { degrees, mm, number } from "./numbers";
 import { end, lowest, rods } from "./elements";

@@ -25,7 +25,7 @@ fn json(body: Bytes) -> JsonBytes {
 /// Computes the working solution of each row, in order. If a row is malformed, has no solution or breaks a limit, the
 /// answer states this at the index of the row. The other rows are not affected.
 #[utoipa::path(
-    post, path = "/fk/batch", operation_id = "fk_batch", tag = "kinematics",
+    post, path = "/fk/batch", operation_id = "post_fk_batch", tag = "kinematics",
     request_body(content = FkBatchNumbers, description = "The rows of joints."),
     responses((status = 200, description = "One entry for each row.", body = FkBatchAnswer), BatchProblems)
 )]
@@ -45,7 +45,7 @@ pub(crate) async fn fk_batch(
 /// With `continuous` the rows are a path: each row continues from the row before, and `jump` marks rows that cannot.
 /// POST /toolpath looks ahead, and adds the rows that keep the tool within a tolerance.
 #[utoipa::path(
-    post, path = "/ik/batch", operation_id = "ik_batch", tag = "kinematics",
+    post, path = "/ik/batch", operation_id = "post_ik_batch", tag = "kinematics",
     request_body(content = IkBatchNumbers, description = "The rows of poses."),
     responses((status = 200, description = "One entry for each row.", body = IkBatchAnswer), BatchProblems)
 )]
@@ -63,7 +63,7 @@ pub(crate) async fn ik_batch(
 /// columns have the order of the points. If a point is malformed, the answer states this at the index of the point. The
 /// other points are not affected.
 #[utoipa::path(
-    post, path = "/workspace/contains", operation_id = "workspace_contains", tag = "workspace",
+    post, path = "/workspace/contains", operation_id = "post_workspace_contains", tag = "workspace",
     request_body(content = ContainsRequest, description = "The points."),
     responses((status = 200, description = "One entry for each point.", body = ContainsAnswer), BatchProblems)
 )]

@@ -28,7 +28,7 @@ use crate::wire::dexterity::{DexterityBody, DexterityCells, DexteritySummary};
 /// inclination) and of the dexterous points (all inclinations). The job takes long; with `Prefer: respond-async` the
 /// service returns its address immediately.
 #[utoipa::path(
-    post, path = "/workspace/dexterity", operation_id = "dexterity", tag = "workspace",
+    post, path = "/workspace/dexterity", operation_id = "post_dexterity", tag = "workspace",
     request_body(content = DexterityBody, description = "The inclinations, the tool and the grid."),
     responses(
         (status = 200, description = "The summary of the map.", body = DexteritySummary),
@@ -55,7 +55,7 @@ pub(crate) async fn post_dexterity(
 /// Returns the intervals of phi1 at each point. The service supports strong ETags, conditional requests and byte
 /// ranges.
 #[utoipa::path(
-    get, path = "/workspace/{id}/cells", operation_id = "dexterity_cells", tag = "workspace",
+    get, path = "/workspace/{id}/cells", operation_id = "get_dexterity_cells", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace/dexterity.")),
     responses(
         (status = 200, description = "The points.", body = DexterityCells),

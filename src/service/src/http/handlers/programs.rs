@@ -29,7 +29,7 @@ use crate::wire::result_id::ResultId;
 /// 201 for a new program, and 200 with the same id if the service has it already. The service evicts programs like
 /// results when it needs space.
 #[utoipa::path(
-    post, path = "/programs", operation_id = "programs_post", tag = "programs", params(ProgramQuery),
+    post, path = "/programs", operation_id = "post_program", tag = "programs", params(ProgramQuery),
     request_body(content(
         (Text = "text/plain"), (Text = "text/csv"), (Text = "application/x-ndjson"),
         (Binary = "application/octet-stream"),
@@ -66,7 +66,7 @@ pub(crate) async fn post_program(
 /// Returns the answer that POST /programs gave with this id. If the service has evicted the program, send it again; the
 /// id stays the same.
 #[utoipa::path(
-    get, path = "/programs/{id}", operation_id = "program", tag = "programs",
+    get, path = "/programs/{id}", operation_id = "get_program", tag = "programs",
     params(("id" = String, Path, description = "The id from an answer of /programs.")),
     responses((status = 200, description = "The summary.", body = ProgramSummary), ProgramProblems)
 )]
@@ -86,7 +86,7 @@ pub(crate) async fn get_program(
 ///
 /// Returns the bytes that the client sent, decoded. The media type of rows is `text/csv` or `application/x-ndjson`. With `Accept-Encoding: gzip` the service sends them compressed.
 #[utoipa::path(
-    get, path = "/programs/{id}/source", operation_id = "program_source", tag = "programs",
+    get, path = "/programs/{id}/source", operation_id = "get_program_source", tag = "programs",
     params(("id" = String, Path, description = "The id from an answer of /programs.")),
     responses(
         (status = 200, description = "The file.", content(

@@ -31,7 +31,7 @@ use crate::wire::workspace_query::SliceQuery;
 /// the request to /workspace, it returns the same id and the same bytes. The id is a hash of the request, so a client
 /// that knows the id knows the request. Therefore any key may read the result.
 #[utoipa::path(
-    get, path = "/workspace/{id}", operation_id = "workspace_summary", tag = "workspace",
+    get, path = "/workspace/{id}", operation_id = "get_workspace_summary", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace.")),
     responses(
         (status = 200, description = "The summary of a workspace or a dexterity map, or the table of a family.", body =
@@ -59,7 +59,7 @@ pub(crate) async fn get_summary(
 /// there. The path without the extension selects the format by `format` or Accept; its default is GLB. The service
 /// supports strong ETags, conditional requests and byte ranges.
 #[utoipa::path(
-    get, path = "/workspace/{id}/mesh", operation_id = "workspace_mesh", tag = "workspace",
+    get, path = "/workspace/{id}/mesh", operation_id = "get_workspace_mesh", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace."), StoredMeshQuery),
     responses(
         (status = 200, description = "The mesh.", content(
@@ -97,7 +97,7 @@ pub(crate) async fn get_mesh(
 /// the workspace's tolerance of the true boundary. The service does not use the mesh for it. The path without the
 /// extension selects the format by `format` or Accept.
 #[utoipa::path(
-    get, path = "/workspace/{id}/slice", operation_id = "workspace_slice", tag = "workspace",
+    get, path = "/workspace/{id}/slice", operation_id = "get_workspace_slice", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace."), SliceQuery),
     responses(
         (status = 200, description = "The slice.", content(

@@ -20,7 +20,7 @@ use crate::wire::openapi_version::OpenapiQuery;
 ///
 /// OpenAPI 3.1, or 3.0.3 with `v=3.0`, generated from the handlers. `/docs` displays it in a browser.
 #[utoipa::path(
-    get, path = "/openapi.json", operation_id = "openapi", tag = "service", params(OpenapiQuery),
+    get, path = "/openapi.json", operation_id = "get_openapi", tag = "service", params(OpenapiQuery),
     responses((status = 200, description = "The document.", body = Object), CommonProblems)
 )]
 pub(crate) async fn get_openapi(
@@ -37,7 +37,7 @@ pub(crate) async fn get_openapi(
 ///
 /// The process is running.
 #[utoipa::path(
-    get, path = "/livez", operation_id = "livez", tag = "service",
+    get, path = "/livez", operation_id = "get_livez", tag = "service",
     responses((status = 200, description = "The process is running.", body = Health), CommonProblems)
 )]
 pub(crate) async fn get_livez() -> Json<Health> {
@@ -50,7 +50,7 @@ pub(crate) async fn get_livez() -> Json<Health> {
 /// or while its disk rejects writes. If a shared broker or result store does not respond, the answer names it and the
 /// status stays 200; requests that need neither still work.
 #[utoipa::path(
-    get, path = "/readyz", operation_id = "readyz", tag = "service",
+    get, path = "/readyz", operation_id = "get_readyz", tag = "service",
     responses((status = 200, description = "The service is ready.", body = Health), ReadyProblems)
 )]
 pub(crate) async fn get_readyz(State(state): State<SharedState>) -> Result<Json<Health>, HttpError> {
@@ -61,7 +61,7 @@ pub(crate) async fn get_readyz(State(state): State<SharedState>) -> Result<Json<
 ///
 /// Returns metrics in the text format of Prometheus: requests, use of every limit, jobs and results.
 #[utoipa::path(
-    get, path = "/metrics", operation_id = "metrics", tag = "service",
+    get, path = "/metrics", operation_id = "get_metrics", tag = "service",
     responses((status = 200, description = "The metrics.", content((Text = "application/openmetrics-text"))),
         CommonProblems)
 )]

@@ -40,7 +40,7 @@ use crate::wire::toolpath_report::ToolpathReport;
 /// longer than the wait, the answer is 202 with the job. The header `Prefer: wait=N` sets the wait; `Prefer:
 /// respond-async` skips it (RFC 7240).
 #[utoipa::path(
-    post, path = "/toolpath", operation_id = "toolpath", tag = "toolpath", params(ProgramQuery, ToolpathQuery),
+    post, path = "/toolpath", operation_id = "post_toolpath", tag = "toolpath", params(ProgramQuery, ToolpathQuery),
     request_body(content(
         (ToolpathRequest = "application/json"), (Text = "text/plain"), (Text = "text/csv"),
         (Text = "application/x-ndjson"), (Binary = "application/octet-stream"),
@@ -76,7 +76,7 @@ pub(crate) async fn post_toolpath(
 ///
 /// Answers as POST /toolpath. The body is the file of a program; `format` and the other fields are parameters.
 #[utoipa::path(
-    post, path = "/toolpath/file", operation_id = "toolpath_file", tag = "toolpath",
+    post, path = "/toolpath/file", operation_id = "post_toolpath_file", tag = "toolpath",
     params(ProgramQuery, ToolpathQuery),
     request_body(content(
         (Text = "text/plain"), (Text = "text/csv"), (Text = "application/x-ndjson"),
@@ -115,7 +115,7 @@ async fn report(
 ///
 /// Returns the answer that POST /toolpath gave with this id. If the service has evicted it, repeat the request.
 #[utoipa::path(
-    get, path = "/toolpath/{id}", operation_id = "toolpath_report", tag = "toolpath",
+    get, path = "/toolpath/{id}", operation_id = "get_toolpath", tag = "toolpath",
     params(("id" = String, Path, description = "The id from an answer of /toolpath.")),
     responses((status = 200, description = "The report.", body = ToolpathReport), ReportProblems)
 )]

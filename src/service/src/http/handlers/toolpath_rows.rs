@@ -24,7 +24,7 @@ use crate::wire::toolpath_row::{RowFormat, RowsQuery, ToolpathRows};
 /// The path without the extension selects the format by `format` or Accept; its default is JSON. The service sends the
 /// rows while it reads them, and supports strong ETags.
 #[utoipa::path(
-    get, path = "/toolpath/{id}/rows", operation_id = "toolpath_rows", tag = "toolpath",
+    get, path = "/toolpath/{id}/rows", operation_id = "get_toolpath_rows", tag = "toolpath",
     params(("id" = String, Path, description = "The id from an answer of /toolpath."), RowsQuery),
     responses(
         (status = 200, description = "The rows.", content(

@@ -36,7 +36,7 @@ const CACHEABLE: &str = "public, max-age=300";
 /// computation takes longer than the wait, the answer is 202 with the job. The header `Prefer: wait=N` sets the wait;
 /// `Prefer: respond-async` skips it (RFC 7240).
 #[utoipa::path(
-    get, path = "/workspace", operation_id = "workspace", tag = "workspace", params(WorkspaceQuery),
+    get, path = "/workspace", operation_id = "get_workspace", tag = "workspace", params(WorkspaceQuery),
     responses(
         (status = 200, description = "The summary or the mesh.", content(
             (WorkspaceSummary = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
@@ -68,7 +68,7 @@ pub(crate) async fn get_workspace(
 /// result under its id, and GET returns it. If `tool_length`, `phi1` or `phi2` is a list or a range in steps, the
 /// answer is a table of all combinations, and each combination has an id of its own.
 #[utoipa::path(
-    post, path = "/workspace", operation_id = "workspace_post", tag = "workspace", params(MeshQuery),
+    post, path = "/workspace", operation_id = "post_workspace", tag = "workspace", params(MeshQuery),
     request_body(content = WorkspaceRequest, description = "The workspace or workspaces, and the tolerance."),
     responses(
         (status = 200, description = "The summary, the table or the mesh.", content(

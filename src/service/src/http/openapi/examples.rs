@@ -243,7 +243,7 @@ fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
         Example {
             method: "post",
             path: "/toolpath/file",
-            request: json!({"format": "apt", "tool_length": 120, "tip_tolerance": 0.05}),
+            request: json!({"format": "apt", "tool_length": "120", "tip_tolerance": 0.05}),
             file: Some(PROGRAM),
             answer: None,
         },

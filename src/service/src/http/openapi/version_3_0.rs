@@ -8,7 +8,7 @@ mod schema;
 
 use serde_json::{Map, Value, json};
 
-use crate::http::openapi::operations::{components, content, operations};
+use crate::http::openapi::operations::{components, content, drop_unused, operations};
 use crate::http::openapi::version_3_0::schema::Schemas;
 
 /// The document in version 3.0.3.
@@ -30,6 +30,8 @@ pub(crate) fn to_3_0(mut document: Value) -> Value {
     if let Some(schemas) = components(&mut document, "schemas") {
         *schemas = converted;
     }
+    // A nullable reference to alternatives has become the alternatives.
+    drop_unused(&mut document, "schemas");
     document
 }
 
@@ -72,9 +74,18 @@ fn join_answers(operation: &mut Map<String, Value>, named: &mut Map<String, Valu
                     *schema = json!({"$ref": format!("#/components/schemas/{name}")});
                 }
             }
-            named.insert(name, json!({"oneOf": [a, b]}));
+            let mut alternatives = alternatives(&a, named);
+            alternatives.push(b);
+            named.insert(name, json!({"oneOf": alternatives}));
         }
     }
+}
+
+/// The alternatives of a schema, or the schema.
+fn alternatives(schema: &Value, named: &Map<String, Value>) -> Vec<Value> {
+    let target = name_of(schema).and_then(|name| named.get(name));
+    let alternatives = target.and_then(|target| target["oneOf"].as_array());
+    alternatives.cloned().unwrap_or_else(|| vec![schema.clone()])
 }
 
 fn json_schema<'a>(responses: &'a mut Map<String, Value>, status: &str) -> Option<&'a mut Value> {
@@ -110,7 +121,9 @@ mod tests {
         let document = to_3_0(json!({
             "openapi": "3.1.0",
             "info": {"license": {"name": "MIT", "identifier": "MIT"}},
-            "components": {"schemas": {"A": {"type": "object"}, "Job": {"type": ["string", "null"]}}},
+            "components": {"schemas": {
+                "A": {"type": "object"}, "Job": {"type": ["string", "null"]}, "Unused": {"type": "string"},
+            }},
             "paths": {
                 "/a": {"get": {"responses": {"200": answer("A"), "202": answer("Job"), "404": answer("P")}}},
                 "/b": {"post": {"responses": {"200": answer("A"), "201": answer("A")}}},
@@ -131,6 +144,7 @@ mod tests {
         let schemas = &document["components"]["schemas"];
         assert_eq!(schemas["Job"], json!({"type": "string", "nullable": true}));
         let both = ["A", "Job"].map(|name| json!({"$ref": format!("#/components/schemas/{name}")}));
+        assert_eq!(schemas.get("Unused"), None);
         assert_eq!(schemas["AOrJob"], json!({"oneOf": both}));
     }
 

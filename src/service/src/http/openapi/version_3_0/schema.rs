@@ -1,5 +1,7 @@
 //! Schemas of OpenAPI 3.1, which are JSON Schema, as schemas of 3.0.
 
+use std::collections::HashSet;
+
 use serde_json::{Map, Value, json};
 
 /// Keywords that 3.0 does not have and that have no counterpart.
@@ -23,6 +25,7 @@ impl Schemas<'_> {
             schema.remove(keyword);
         }
         self.convert_members(&mut schema);
+        join_colliding_fields(&mut schema);
         if let Some(value) = schema.remove("const") {
             schema.insert("enum".to_owned(), json!([value]));
         }
@@ -131,6 +134,27 @@ impl Schemas<'_> {
     }
 }
 
+/// Makes a map of an object if the names of two fields differ only in case, such as `D1` and `d1`: generators write
+/// names in the case of their language, and would make one field of both.
+fn join_colliding_fields(schema: &mut Map<String, Value>) {
+    let Some(fields) = schema.get("properties").and_then(Value::as_object) else { return };
+    let lowercase: HashSet<String> = fields.keys().map(|name| name.to_lowercase()).collect();
+    let Some(first) = fields.values().next().filter(|_| lowercase.len() < fields.len()) else { return };
+    let about = |(name, field): (&String, &Value)| {
+        format!("`{name}`: {}", field["description"].as_str().unwrap_or_default())
+    };
+    let fields_in_words = fields.iter().map(about).collect::<Vec<_>>().join(" ");
+    let description = schema.get("description").and_then(Value::as_str).unwrap_or_default();
+    let map = json!({
+        "type": "object",
+        "description": format!("{description} {fields_in_words}").trim(),
+        "additionalProperties": {"type": first["type"], "format": first["format"]},
+    });
+    if let Value::Object(map) = map {
+        *schema = map;
+    }
+}
+
 fn is_null(schema: &Value) -> bool {
     schema.as_object().is_some_and(|members| members.len() == 1) && schema["type"] == "null"
 }
@@ -162,6 +186,14 @@ mod tests {
             (json!({"items": {"const": 1}}), json!({"items": {"enum": [1]}})),
             // Fields with the names of keywords.
             (json!({"properties": {"const": {"const": 1}}}), json!({"properties": {"const": {"enum": [1]}}})),
+            (
+                json!({"type": "object", "description": "Sizes.", "required": ["D"], "properties": {
+                    "D": {"type": "number", "format": "double", "description": "Wide."},
+                    "d": {"type": "number", "format": "double", "description": "Narrow."},
+                }}),
+                json!({"type": "object", "description": "Sizes. `D`: Wide. `d`: Narrow.",
+                       "additionalProperties": {"type": "number", "format": "double"}}),
+            ),
             (name.clone(), name.clone()),
             (
                 json!({"$ref": "#/components/schemas/Name", "description": "A name."}),
@@ -169,7 +201,7 @@ mod tests {
             ),
             (json!({"oneOf": [name, null]}), nullable_name.clone()),
             (
-                json!({"oneOf": [{"$ref": "#/components/schemas/Name", "description": "A name."}, null]}),
+                json!({"oneOf": [name, null], "description": "A name."}),
                 json!({"type": "string", "nullable": true, "allOf": [name], "description": "A name."}),
             ),
             (

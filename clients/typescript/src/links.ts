@@ -1,6 +1,4 @@
-/** Links of the service, seen from the page. */
-
-/** The address of a link of the service whose page is at `base`, which has no slash at its end. */
+/** The address of a link of the service at `base`, which has no slash at its end. The link may contain the prefix. */
 export function linked(base: string, link: string): string {
   const { origin, pathname } = new URL(base);
   const prefix = pathname.replace(/\/$/, "");

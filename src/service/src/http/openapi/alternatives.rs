@@ -1,0 +1,63 @@
+//! Leaves bare references in lists of alternatives.
+//!
+//! Some generators make a type without a name of a reference that has a description beside it, and then lose the type.
+
+use serde_json::{Map, Value, json};
+
+/// Removes the description beside each reference in a list of alternatives. If the only other alternative is null, it
+/// becomes the description of the list.
+pub(crate) fn bare_alternatives(value: &mut Value) {
+    match value {
+        Value::Array(items) => items.iter_mut().for_each(bare_alternatives),
+        Value::Object(members) => {
+            members.values_mut().for_each(bare_alternatives);
+            for keyword in ["anyOf", "oneOf"] {
+                make_bare(members, keyword);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn make_bare(schema: &mut Map<String, Value>, keyword: &str) {
+    let Some(Value::Array(alternatives)) = schema.get_mut(keyword) else { return };
+    let is_optional = alternatives.len() == 2 && alternatives.contains(&json!({"type": "null"}));
+    let mut description = None;
+    for alternative in alternatives.iter_mut().filter_map(Value::as_object_mut) {
+        if alternative.contains_key("$ref") {
+            description = alternative.remove("description").or(description);
+        }
+    }
+    if let Some(description) = description.filter(|_| is_optional) {
+        schema.entry("description").or_insert(description);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::bare_alternatives;
+
+    #[test]
+    fn references_lose_or_pass_on_their_descriptions() {
+        let (a, b, null) = (json!({"$ref": "a"}), json!({"$ref": "b"}), json!({"type": "null"}));
+        let about = json!({"$ref": "a", "description": "A."});
+        let mut document = json!({
+            "one": {"oneOf": [about, b]},
+            "two": [{"oneOf": [null, about]}],
+            "three": {"anyOf": [about, null], "description": "Three."},
+            "four": about,
+            "five": {"oneOf": [{"type": "string", "description": "B."}, b]},
+        });
+        bare_alternatives(&mut document);
+        let expected = json!({
+            "one": {"oneOf": [a, b]},
+            "two": [{"oneOf": [null, a], "description": "A."}],
+            "three": {"anyOf": [a, null], "description": "Three."},
+            "four": about,
+            "five": {"oneOf": [{"type": "string", "description": "B."}, b]},
+        });
+        assert_eq!(document, expected);
+    }
+}
