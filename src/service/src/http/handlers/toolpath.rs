@@ -36,8 +36,8 @@ use crate::wire::toolpath_report::ToolpathReport;
 /// limit. The report says whether the machine can run the program; if not, it names the lines, the limits, and how much
 /// is missing.
 ///
-/// The body is JSON with all fields. It may also be the file of a program, as for /toolpath/file. If the computation takes
-/// longer than the wait, the answer is 202 with the job. The header `Prefer: wait=N` sets the wait; `Prefer:
+/// The body is JSON with all fields. It may also be the file of a program, as for /toolpath/file. If the computation
+/// takes longer than the wait, the answer is 202 with the job. The header `Prefer: wait=N` sets the wait; `Prefer:
 /// respond-async` skips it (RFC 7240).
 #[utoipa::path(
     post, path = "/toolpath", operation_id = "post_toolpath", tag = "toolpath", params(ProgramQuery, ToolpathQuery),
