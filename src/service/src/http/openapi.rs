@@ -1,6 +1,6 @@
 //! The OpenAPI document: generated from the handlers, with examples whose answers the solver computes.
 
-mod alternatives;
+mod bare_references;
 pub(crate) mod body_schemas;
 pub(crate) mod examples;
 pub(crate) mod machine_schema;
@@ -15,7 +15,7 @@ pub(crate) mod versions;
 use serde_json::{Value, json};
 use utoipa::OpenApi;
 
-use crate::http::openapi::alternatives::bare_alternatives;
+use crate::http::openapi::bare_references::bare_references;
 use crate::http::openapi::examples::examples;
 use crate::http::openapi::machine_schema::join_descriptions;
 use crate::http::openapi::one_media_type::keep_one_media_type;
@@ -81,7 +81,7 @@ pub(crate) fn complete(api: &utoipa::openapi::OpenApi) -> Value {
         example.write_into(&mut document);
     }
     join_descriptions(&mut document);
-    bare_alternatives(&mut document);
+    bare_references(&mut document);
     describe_defaults(&mut document);
     // No operation lists some codes, such as that of an unknown path.
     drop_unused(&mut document, "examples");

@@ -1,17 +1,17 @@
-//! Leaves bare references in lists of alternatives.
+//! Leaves bare references in lists of schemas.
 //!
 //! Some generators make a type without a name of a reference that has a description beside it, and then lose the type.
 
 use serde_json::{Map, Value, json};
 
-/// Removes the description beside each reference in a list of alternatives. If the only other alternative is null, it
-/// becomes the description of the list.
-pub(crate) fn bare_alternatives(value: &mut Value) {
+/// Removes the description beside each reference in a list of schemas. If the only other schema is null, it becomes the
+/// description of the list.
+pub(crate) fn bare_references(value: &mut Value) {
     match value {
-        Value::Array(items) => items.iter_mut().for_each(bare_alternatives),
+        Value::Array(items) => items.iter_mut().for_each(bare_references),
         Value::Object(members) => {
-            members.values_mut().for_each(bare_alternatives);
-            for keyword in ["anyOf", "oneOf"] {
+            members.values_mut().for_each(bare_references);
+            for keyword in ["allOf", "anyOf", "oneOf"] {
                 make_bare(members, keyword);
             }
         }
@@ -20,12 +20,12 @@ pub(crate) fn bare_alternatives(value: &mut Value) {
 }
 
 fn make_bare(schema: &mut Map<String, Value>, keyword: &str) {
-    let Some(Value::Array(alternatives)) = schema.get_mut(keyword) else { return };
-    let is_optional = alternatives.len() == 2 && alternatives.contains(&json!({"type": "null"}));
+    let Some(Value::Array(schemas)) = schema.get_mut(keyword) else { return };
+    let is_optional = schemas.len() == 2 && schemas.contains(&json!({"type": "null"}));
     let mut description = None;
-    for alternative in alternatives.iter_mut().filter_map(Value::as_object_mut) {
-        if alternative.contains_key("$ref") {
-            description = alternative.remove("description").or(description);
+    for schema in schemas.iter_mut().filter_map(Value::as_object_mut) {
+        if schema.contains_key("$ref") {
+            description = schema.remove("description").or(description);
         }
     }
     if let Some(description) = description.filter(|_| is_optional) {
@@ -37,7 +37,7 @@ fn make_bare(schema: &mut Map<String, Value>, keyword: &str) {
 mod tests {
     use serde_json::json;
 
-    use super::bare_alternatives;
+    use super::bare_references;
 
     #[test]
     fn references_lose_or_pass_on_their_descriptions() {
@@ -49,14 +49,16 @@ mod tests {
             "three": {"anyOf": [about, null], "description": "Three."},
             "four": about,
             "five": {"oneOf": [{"type": "string", "description": "B."}, b]},
+            "six": {"allOf": [about, {"type": "object"}]},
         });
-        bare_alternatives(&mut document);
+        bare_references(&mut document);
         let expected = json!({
             "one": {"oneOf": [a, b]},
             "two": [{"oneOf": [null, a], "description": "A."}],
             "three": {"anyOf": [a, null], "description": "Three."},
             "four": about,
             "five": {"oneOf": [{"type": "string", "description": "B."}, b]},
+            "six": {"allOf": [a, {"type": "object"}]},
         });
         assert_eq!(document, expected);
     }
