@@ -41,12 +41,12 @@ mod tests {
 
     #[test]
     fn references_lose_or_pass_on_their_descriptions() {
-        let (a, b, null) = (json!({"$ref": "a"}), json!({"$ref": "b"}), json!({"type": "null"}));
+        let (a, b, none) = (json!({"$ref": "a"}), json!({"$ref": "b"}), json!({"type": "null"}));
         let about = json!({"$ref": "a", "description": "A."});
         let mut document = json!({
             "one": {"oneOf": [about, b]},
-            "two": [{"oneOf": [null, about]}],
-            "three": {"anyOf": [about, null], "description": "Three."},
+            "two": [{"oneOf": [none, about]}],
+            "three": {"anyOf": [about, none], "description": "Three."},
             "four": about,
             "five": {"oneOf": [{"type": "string", "description": "B."}, b]},
             "six": {"allOf": [about, {"type": "object"}]},
@@ -54,8 +54,8 @@ mod tests {
         bare_references(&mut document);
         let expected = json!({
             "one": {"oneOf": [a, b]},
-            "two": [{"oneOf": [null, a], "description": "A."}],
-            "three": {"anyOf": [a, null], "description": "Three."},
+            "two": [{"oneOf": [none, a], "description": "A."}],
+            "three": {"anyOf": [a, none], "description": "Three."},
             "four": about,
             "five": {"oneOf": [{"type": "string", "description": "B."}, b]},
             "six": {"allOf": [a, {"type": "object"}]},

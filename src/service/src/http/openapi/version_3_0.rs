@@ -8,8 +8,8 @@ mod schema;
 
 use serde_json::{Map, Value, json};
 
-use crate::http::openapi::operations::{components, content, drop_unused, operations};
-use crate::http::openapi::version_3_0::schema::Schemas;
+use crate::http::openapi::operations::{components, content, operations};
+use crate::http::openapi::version_3_0::schema::converted;
 
 /// The document in version 3.0.3.
 pub(crate) fn to_3_0(mut document: Value) -> Value {
@@ -23,31 +23,26 @@ pub(crate) fn to_3_0(mut document: Value) -> Value {
     for operation in operations(&mut document) {
         join_answers(operation, &mut named);
     }
-    let schemas = Schemas(&named);
-    convert_schemas(&mut document, &schemas);
-    let converted = named.iter().map(|(name, schema)| (name.clone(), schemas.converted(schema.clone())));
-    let converted = converted.collect();
+    convert_schemas(&mut document);
     if let Some(schemas) = components(&mut document, "schemas") {
-        *schemas = converted;
+        *schemas = named.into_iter().map(|(name, schema)| (name, converted(schema))).collect();
     }
-    // A nullable reference to alternatives has become the alternatives.
-    drop_unused(&mut document, "schemas");
     document
 }
 
 /// Converts the schemas of parameters, bodies and headers.
-fn convert_schemas(value: &mut Value, schemas: &Schemas<'_>) {
+fn convert_schemas(value: &mut Value) {
     match value {
         Value::Object(members) => {
             for (name, member) in members {
                 match name.as_str() {
-                    "schema" => *member = schemas.converted(member.take()),
+                    "schema" => *member = converted(member.take()),
                     "example" | "examples" => {}
-                    _ => convert_schemas(member, schemas),
+                    _ => convert_schemas(member),
                 }
             }
         }
-        Value::Array(items) => items.iter_mut().for_each(|item| convert_schemas(item, schemas)),
+        Value::Array(items) => items.iter_mut().for_each(convert_schemas),
         _ => {}
     }
 }
@@ -121,9 +116,7 @@ mod tests {
         let document = to_3_0(json!({
             "openapi": "3.1.0",
             "info": {"license": {"name": "MIT", "identifier": "MIT"}},
-            "components": {"schemas": {
-                "A": {"type": "object"}, "Job": {"type": ["string", "null"]}, "Unused": {"type": "string"},
-            }},
+            "components": {"schemas": {"A": {"type": "object"}, "Job": {"type": ["string", "null"]}}},
             "paths": {
                 "/a": {"get": {"responses": {"200": answer("A"), "202": answer("Job"), "404": answer("P")}}},
                 "/b": {"post": {"responses": {"200": answer("A"), "201": answer("A")}}},
@@ -144,7 +137,6 @@ mod tests {
         let schemas = &document["components"]["schemas"];
         assert_eq!(schemas["Job"], json!({"type": "string", "nullable": true}));
         let both = ["A", "Job"].map(|name| json!({"$ref": format!("#/components/schemas/{name}")}));
-        assert_eq!(schemas.get("Unused"), None);
         assert_eq!(schemas["AOrJob"], json!({"oneOf": both}));
     }
 
