@@ -8,7 +8,7 @@ mod schema;
 
 use serde_json::{Map, Value, json};
 
-use crate::http::openapi::operations::{components, content, operations};
+use crate::http::openapi::operations::{components, content, drop_unused, operations};
 use crate::http::openapi::version_3_0::schema::converted;
 
 /// The document in version 3.0.3.
@@ -27,6 +27,8 @@ pub(crate) fn to_3_0(mut document: Value) -> Value {
     if let Some(schemas) = components(&mut document, "schemas") {
         *schemas = named.into_iter().map(|(name, schema)| (name, converted(schema))).collect();
     }
+    // The alternatives of an answer have become those of the answer or its job.
+    drop_unused(&mut document, "schemas");
     document
 }
 
@@ -116,7 +118,7 @@ mod tests {
         let document = to_3_0(json!({
             "openapi": "3.1.0",
             "info": {"license": {"name": "MIT", "identifier": "MIT"}},
-            "components": {"schemas": {"A": {"type": "object"}, "Job": {"type": ["string", "null"]}}},
+            "components": {"schemas": {"A": {"type": "object"}, "Job": {"type": ["string", "null"]}, "B": {}}},
             "paths": {
                 "/a": {"get": {"responses": {"200": answer("A"), "202": answer("Job"), "404": answer("P")}}},
                 "/b": {"post": {"responses": {"200": answer("A"), "201": answer("A")}}},
@@ -136,6 +138,7 @@ mod tests {
         assert_eq!(c["200"]["description"], "A file. Status 202: Job");
         let schemas = &document["components"]["schemas"];
         assert_eq!(schemas["Job"], json!({"type": "string", "nullable": true}));
+        assert_eq!(schemas.get("B"), None);
         let both = ["A", "Job"].map(|name| json!({"$ref": format!("#/components/schemas/{name}")}));
         assert_eq!(schemas["AOrJob"], json!({"oneOf": both}));
     }
