@@ -84,8 +84,8 @@ pub(crate) async fn get_program(
 
 /// The file of a program
 ///
-/// Returns the bytes that the client sent, decoded. The media type of rows is `text/csv` or `application/x-ndjson`. With
-/// `Accept-Encoding: gzip` the service sends them compressed.
+/// Returns the bytes that the client sent, decoded. The media type of rows is `text/csv` or `application/x-ndjson`.
+/// With `Accept-Encoding: gzip` the service sends them compressed.
 #[utoipa::path(
     get, path = "/programs/{id}/source", operation_id = "get_program_source", tag = "programs",
     params(("id" = String, Path, description = "The id from an answer of /programs.")),
