@@ -1,0 +1,129 @@
+//! A column: its name and its values.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, Int8Type};
+use arrow_array::{
+    Array, ArrayRef, BooleanArray, DictionaryArray, Float64Array, Int8Array, StringArray, UInt32Array,
+};
+use arrow_schema::{DataType, Field, FieldRef};
+
+use crate::error::WriteError;
+use crate::numbers::Numbers;
+
+/// Marks texts that are JSON values: the canonical extension type of Arrow.
+const EXTENSION: (&str, &str) = ("ARROW:extension:name", "arrow.json");
+
+/// A column.
+///
+/// ```
+/// use verne_rows::{Column, Names};
+///
+/// let status = Names::new(&["ok", "unreachable"])?;
+/// let column = Column::names("status", &status, [Some(1), None, Some(0)])?;
+/// assert_eq!((column.name(), column.len()), ("status", 3));
+/// # Ok::<(), verne_rows::WriteError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Column {
+    pub(crate) field: FieldRef,
+    pub(crate) values: ArrayRef,
+}
+
+/// The words of which a column has one in each row.
+#[derive(Clone, Debug)]
+pub struct Names(ArrayRef);
+
+impl Names {
+    /// At most 128 words.
+    ///
+    /// # Errors
+    ///
+    /// There are more.
+    pub fn new<T: AsRef<str>>(words: &[T]) -> Result<Self, WriteError> {
+        if words.len() > 128 {
+            return Err(WriteError::Columns("a column has at most 128 names".to_owned()));
+        }
+        Ok(Self(Arc::new(StringArray::from_iter_values(words.iter().map(AsRef::as_ref)))))
+    }
+}
+
+impl Column {
+    pub(crate) fn new(name: &str, values: ArrayRef) -> Self {
+        Self { field: Arc::new(Field::new(name, values.data_type().clone(), true)), values }
+    }
+
+    /// Numbers in double precision.
+    pub fn numbers(name: &str, values: impl IntoIterator<Item = Option<f64>>) -> Self {
+        Self::new(name, Arc::new(values.into_iter().collect::<Float64Array>()))
+    }
+
+    /// Whole numbers.
+    pub fn whole_numbers(name: &str, values: impl IntoIterator<Item = Option<u32>>) -> Self {
+        Self::new(name, Arc::new(values.into_iter().collect::<UInt32Array>()))
+    }
+
+    /// True or false.
+    pub fn flags(name: &str, values: impl IntoIterator<Item = Option<bool>>) -> Self {
+        Self::new(name, Arc::new(values.into_iter().collect::<BooleanArray>()))
+    }
+
+    /// Texts.
+    pub fn texts<T: AsRef<str>>(name: &str, values: impl IntoIterator<Item = Option<T>>) -> Self {
+        Self::new(name, Arc::new(values.into_iter().collect::<StringArray>()))
+    }
+
+    /// One of the names in each row, by its index: a dictionary column of Arrow.
+    ///
+    /// # Errors
+    ///
+    /// An index has no name.
+    pub fn names(
+        name: &str,
+        names: &Names,
+        values: impl IntoIterator<Item = Option<i8>>,
+    ) -> Result<Self, WriteError> {
+        let keys = values.into_iter().collect::<Int8Array>();
+        let values = DictionaryArray::<Int8Type>::try_new(keys, Arc::clone(&names.0))?;
+        Ok(Self::new(name, Arc::new(values)))
+    }
+
+    /// Values of JSON, each as its text.
+    pub(crate) fn json(name: &str, values: StringArray) -> Self {
+        let mark = HashMap::from([(EXTENSION.0.to_owned(), EXTENSION.1.to_owned())]);
+        let field = Field::new(name, DataType::Utf8, true).with_metadata(mark);
+        Self { field: Arc::new(field), values: Arc::new(values) }
+    }
+
+    /// Whether the values are those of [`json`](Self::json).
+    pub(crate) fn is_json(&self) -> bool {
+        self.field.metadata().get(EXTENSION.0).is_some_and(|kind| kind == EXTENSION.1)
+    }
+
+    /// The name.
+    pub fn name(&self) -> &str {
+        self.field.name()
+    }
+
+    /// The number of rows.
+    pub fn len(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// The numbers, if it is a column of numbers in double precision.
+    pub fn as_numbers(&self) -> Option<Numbers<'_>> {
+        self.values.as_primitive_opt::<Float64Type>().map(Numbers)
+    }
+
+    /// The rows from `start` on.
+    pub(crate) fn slice(&self, start: usize, length: usize) -> Self {
+        Self { field: Arc::clone(&self.field), values: self.values.slice(start, length) }
+    }
+}
