@@ -20,6 +20,11 @@ pub struct RowFault {
 }
 
 impl Chunk {
+    /// No rows of these columns, which have none.
+    pub fn without_rows(columns: Vec<Column>) -> Self {
+        Self { rows: 0, columns, faults: Vec::new() }
+    }
+
     /// The number of rows.
     pub fn rows(&self) -> usize {
         self.rows

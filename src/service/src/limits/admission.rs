@@ -5,6 +5,8 @@
 //!   waits for a job.
 //! - A batch has a permit of its own from the end of its body until its response is sent. The worker threads compute
 //!   batches in order.
+//! - A batch that is answered while its rows arrive has a permit of another kind: it may last for any time. Each holds
+//!   the memory of one body at most. The worker threads compute its chunks in turn with all other work.
 //! - The encoding of a mesh as a file has a permit. Few encodings run at once; the others wait in order.
 //! - Bodies that are read and responses that are sent are counted by their memory.
 //!
@@ -63,6 +65,8 @@ pub(crate) struct Admission {
     pub(super) bodies: Arc<Quota>,
     /// Batches whose bodies are complete, until their responses are sent.
     pub batches: Arc<Quota>,
+    /// Batches that are answered while their rows arrive, until their answers are sent.
+    pub row_streams: Arc<Quota>,
     /// Encodings of meshes that wait or run.
     pub(super) meshes: Arc<Quota>,
     /// Encodings of meshes that run.
@@ -86,6 +90,7 @@ impl Admission {
             slow_requests: Quota::new(requests - requests / 4),
             bodies: Quota::new(bodies),
             batches: Quota::new(batches),
+            row_streams: Quota::new(batches / 2),
             meshes: Quota::new(batches),
             running_meshes: Quota::new(MESHES),
             programs: Quota::new(2 * pages(PROGRAM_BYTES as u64)),

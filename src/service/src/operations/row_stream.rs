@@ -1,0 +1,93 @@
+//! A batch whose rows come in columns: it is answered chunk by chunk, while further rows arrive.
+
+use verne_rows::{Chunk, Column, Format, ReadError, Reader, Writer};
+use verne_solver::workspace::Observer;
+
+use crate::operations::column_rows::pointer;
+use crate::operations::machine_registry::IdentifiedMachine;
+use crate::operations::outcome_columns::write_error;
+use crate::wire::error::{FieldError, OperationError};
+
+/// Answers the rows of a batch, chunk by chunk.
+pub(crate) trait RowAnswer: Send {
+    /// The names of the columns of numbers.
+    fn numbers(&self) -> &'static [&'static str];
+
+    /// Checks which columns there are. Called once, before the first rows.
+    fn begin(&mut self, columns: &[Column]) -> Result<(), OperationError>;
+
+    /// The columns of the answer to the next rows.
+    fn answer(&mut self, chunk: &Chunk, observer: &dyn Observer) -> Result<Vec<Column>, OperationError>;
+
+    /// The machine.
+    fn machine(&self) -> &IdentifiedMachine;
+}
+
+/// The rows of a batch and their answers, as bytes.
+pub(crate) struct RowStream {
+    answer: Box<dyn RowAnswer>,
+    reader: Reader,
+    format: Format,
+    writer: Option<Writer>,
+    ended: bool,
+}
+
+impl RowStream {
+    /// Reads rows in one format and answers them in another. `message_bytes` is the greatest size of a message of Arrow.
+    pub(crate) fn new(answer: Box<dyn RowAnswer>, from: Format, to: Format, message_bytes: usize) -> Self {
+        let reader = Reader::new(from, answer.numbers(), message_bytes);
+        Self { answer, reader, format: to, writer: None, ended: false }
+    }
+
+    /// Takes the next bytes of the request. Take no more before [`next`](Self::next) returns `None`.
+    pub(crate) fn push(&mut self, bytes: &[u8]) {
+        self.reader.push(bytes);
+    }
+
+    /// No bytes follow.
+    pub(crate) fn end(&mut self) {
+        self.reader.end();
+        self.ended = true;
+    }
+
+    /// The next bytes of the answer. `None` before more bytes of the request arrive, and after the end. Call it on the
+    /// compute pool.
+    pub(crate) fn next(&mut self, observer: &dyn Observer) -> Result<Option<Vec<u8>>, OperationError> {
+        let chunk = self.reader.next_chunk().map_err(read_error)?;
+        if self.writer.is_none()
+            && let Some(columns) = self.reader.columns()
+        {
+            self.answer.begin(&columns)?;
+            let columns = self.answered(&Chunk::without_rows(columns), observer)?;
+            self.writer = Some(Writer::new(self.format, &columns).map_err(write_error)?);
+        }
+        if let Some(chunk) = chunk {
+            let columns = self.answered(&chunk, observer)?;
+            let writer = self.writer.as_mut().ok_or(OperationError::Internal)?;
+            return writer.write(&columns).map(Some).map_err(write_error);
+        }
+        if !self.ended {
+            return Ok(None);
+        }
+        let rest = self.writer.take().map(Writer::finish).transpose().map_err(write_error)?;
+        Ok(rest.filter(|bytes| !bytes.is_empty()))
+    }
+
+    /// The columns that the answer passes on, and those of the answer.
+    fn answered(&mut self, chunk: &Chunk, observer: &dyn Observer) -> Result<Vec<Column>, OperationError> {
+        let numbers = self.answer.numbers();
+        let extra = chunk.columns().iter().filter(|column| !numbers.contains(&column.name()));
+        let mut columns: Vec<_> = extra.cloned().collect();
+        columns.extend(self.answer.answer(chunk, observer)?);
+        Ok(columns)
+    }
+}
+
+fn read_error(error: ReadError) -> OperationError {
+    match error {
+        ReadError::Column { name, detail } => {
+            OperationError::Fields(vec![FieldError::new(pointer(&name), detail)])
+        }
+        ReadError::Malformed(reason) => OperationError::Rows(reason),
+    }
+}
