@@ -1,7 +1,7 @@
 //! The names of the columns, and which of them are numbers.
 
 use crate::error::ReadError;
-use crate::reader::MOST_COLUMNS;
+use crate::limits::MOST_COLUMNS;
 
 /// The columns of a text, in their order.
 #[derive(Debug)]

@@ -1,8 +1,8 @@
 //! Rows in columns with names: readers and writers of Arrow streams, CSV and NDJSON.
 //!
-//! A [`Reader`] takes bytes as they arrive and returns [`Chunk`]s of rows; a [`Writer`] makes bytes of chunks. Both need
-//! memory for one chunk, and the reader of Arrow for one message, whatever the number of rows. The crate knows names and
-//! types. It does not know machines, units or HTTP.
+//! A [`Reader`] takes bytes as they arrive and returns [`Chunk`]s of rows; a [`Writer`] makes bytes of chunks. Both
+//! need memory for one chunk, and the reader of Arrow for one message, whatever the number of rows. The crate knows
+//! names and types. It does not know machines, units or HTTP.
 //!
 //! The caller names the columns that are numbers. The others are *extra columns*: the reader keeps their values as they
 //! are, so that a writer can pass them on.
@@ -32,14 +32,17 @@ mod column;
 mod error;
 mod format;
 mod header;
+mod limits;
 mod numbers;
 mod reader;
+mod source;
 mod writer;
 
 pub use chunk::{Chunk, RowFault};
 pub use column::{Column, Names};
 pub use error::{ReadError, WriteError};
 pub use format::Format;
+pub use limits::{CHUNK_ROWS, LONGEST_ROW, MOST_COLUMNS};
 pub use numbers::Numbers;
-pub use reader::{CHUNK_ROWS, LONGEST_ROW, MOST_COLUMNS, Reader};
+pub use reader::Reader;
 pub use writer::Writer;

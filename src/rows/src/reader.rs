@@ -6,8 +6,6 @@ mod csv;
 mod messages;
 mod ndjson;
 
-use std::fmt;
-
 use crate::chunk::Chunk;
 use crate::column::Column;
 use crate::error::ReadError;
@@ -15,15 +13,7 @@ use crate::format::Format;
 use crate::reader::arrow::ArrowSource;
 use crate::reader::csv::CsvSource;
 use crate::reader::ndjson::NdjsonSource;
-
-/// Most rows of a chunk.
-pub const CHUNK_ROWS: usize = 8192;
-
-/// Most columns.
-pub const MOST_COLUMNS: usize = 256;
-
-/// Most bytes of a row of text.
-pub const LONGEST_ROW: usize = 64 << 10;
+use crate::source::Source;
 
 /// Reads rows.
 ///
@@ -49,16 +39,6 @@ pub struct Reader {
     ended: bool,
 }
 
-/// Reads the rows of one format.
-trait Source: fmt::Debug + Send {
-    /// Takes bytes.
-    fn push(&mut self, bytes: &[u8]);
-    /// The next rows. `ended` says that no bytes follow.
-    fn next_chunk(&mut self, ended: bool) -> Result<Option<Chunk>, ReadError>;
-    /// The columns without rows, as soon as they are known.
-    fn columns(&self) -> Option<Vec<Column>>;
-}
-
 impl Reader {
     /// A reader that has read nothing yet. `numbers` are the names of the columns that must be numbers.
     /// `message_bytes` is the greatest size of a message of Arrow, which has to be in memory as a whole.
@@ -81,8 +61,8 @@ impl Reader {
         self.ended = true;
     }
 
-    /// The next rows, at least one and at most [`CHUNK_ROWS`]. `None` if there is none before more bytes arrive, or at
-    /// the end.
+    /// The next rows, at least one and at most [`CHUNK_ROWS`](crate::CHUNK_ROWS). `None` if there is none before more
+    /// bytes arrive, or at the end.
     ///
     /// # Errors
     ///

@@ -12,8 +12,8 @@ use crate::column::Column;
 use crate::error::WriteError;
 use crate::format::Format;
 
-/// Most bytes of text that rows written at once may have. A short dictionary of Arrow can name a long text in any number
-/// of rows.
+/// Most bytes of text that rows written at once may have. A short dictionary of Arrow can name a long text in any
+/// number of rows.
 const TEXT_BYTES: usize = 64 << 20;
 
 /// Writes rows.

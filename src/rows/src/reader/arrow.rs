@@ -1,5 +1,6 @@
 //! Streams of Apache Arrow.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
@@ -12,9 +13,10 @@ use crate::chunk::Chunk;
 use crate::column::Column;
 use crate::error::ReadError;
 use crate::header::Header;
+use crate::limits::CHUNK_ROWS;
 use crate::numbers::to_numbers;
 use crate::reader::messages::{Messages, malformed};
-use crate::reader::{CHUNK_ROWS, Source};
+use crate::source::Source;
 
 /// The mark of the end of a stream.
 const END: [u8; 8] = [0xFF, 0xFF, 0xFF, 0xFF, 0, 0, 0, 0];
@@ -52,7 +54,9 @@ impl ArrowSource {
 
     /// Decodes a message; returns the rows of a record batch.
     fn decode(&mut self, mut message: Buffer) -> Result<Option<RecordBatch>, ReadError> {
-        let batch = self.decoder.decode(&mut message)?;
+        // The decoder panics at some contradictions of a message. It is not used again after an error.
+        let decoded = catch_unwind(AssertUnwindSafe(|| self.decoder.decode(&mut message)));
+        let batch = decoded.map_err(|_| malformed("a message contradicts itself"))??;
         if self.columns.is_none()
             && let Some(schema) = self.decoder.schema()
         {
@@ -130,7 +134,8 @@ fn check_type(field: &Field, is_number: bool) -> Result<(), ReadError> {
     }
 }
 
-/// Texts in place of views of texts: a part of an array of views keeps all its texts, and many views may be of one text.
+/// Texts in place of views of texts: a part of an array of views keeps all its texts, and many views may be of one
+/// text.
 fn without_views(values: &ArrayRef, most_bytes: usize) -> Result<ArrayRef, ReadError> {
     let Some(views) = values.as_string_view_opt() else { return Ok(Arc::clone(values)) };
     let bytes: usize = views.lengths().map(|length| length as usize).sum();

@@ -6,8 +6,9 @@ use crate::chunk::Chunk;
 use crate::column::Column;
 use crate::error::ReadError;
 use crate::header::Header;
+use crate::limits::{CHUNK_ROWS, LONGEST_ROW, MOST_COLUMNS};
 use crate::reader::builders::{Builders, Texts, empty_columns};
-use crate::reader::{CHUNK_ROWS, LONGEST_ROW, MOST_COLUMNS, Source};
+use crate::source::Source;
 
 /// The mark that some editors put before UTF-8 text.
 const UTF8_MARK: &str = "\u{FEFF}";

@@ -1,7 +1,7 @@
 //! Splits the bytes of an Arrow stream into messages, so that their sizes are known before they are in memory.
 
 use arrow_buffer::Buffer;
-use arrow_ipc::{MessageHeader, root_as_message};
+use arrow_ipc::{Message, MessageHeader, root_as_message};
 
 use crate::error::ReadError;
 
@@ -58,6 +58,7 @@ impl Messages {
         if body > self.limit {
             return Err(self.too_large(body));
         }
+        check_buffers(&message)?;
         let Some(whole) = rest.get(..body_start + body) else { return incomplete() };
         if message.header_type() == MessageHeader::DictionaryBatch {
             self.dictionaries += body;
@@ -78,6 +79,23 @@ impl Messages {
             "a record batch has {bytes} bytes; the limit is {limit}. Write smaller batches, as \
              write_table(table, max_chunksize=65536) of pyarrow does"
         ))
+    }
+}
+
+/// Checks that the buffers of a message are within its body.
+fn check_buffers(message: &Message<'_>) -> Result<(), ReadError> {
+    let batch = message.header_as_record_batch();
+    let batch = batch.or_else(|| message.header_as_dictionary_batch()?.data());
+    let buffers = batch.and_then(|batch| batch.buffers());
+    let is_within = |offset: i64, length: i64| {
+        offset >= 0
+            && length >= 0
+            && offset.checked_add(length).is_some_and(|end| end <= message.bodyLength())
+    };
+    if buffers.into_iter().flatten().all(|buffer| is_within(buffer.offset(), buffer.length())) {
+        Ok(())
+    } else {
+        Err(malformed("a buffer lies outside its message"))
     }
 }
 

@@ -10,8 +10,9 @@ use crate::chunk::Chunk;
 use crate::column::Column;
 use crate::error::ReadError;
 use crate::header::Header;
+use crate::limits::{CHUNK_ROWS, LONGEST_ROW};
 use crate::reader::builders::{Builders, Texts, empty_columns};
-use crate::reader::{CHUNK_ROWS, LONGEST_ROW, Source};
+use crate::source::Source;
 
 /// Reads NDJSON. The first object names the columns. A later line that is no such object is a fault of this row alone.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! The body of a request that is read ahead, in bounded memory, while its first bytes are used.
 //!
-//! Many clients send the whole body before they read anything. Such a client and a service that waits until its answer is
-//! read would wait for each other; up to the limit of memory the service therefore reads on.
+//! Many clients send the whole body before they read anything. Such a client and a service that waits until its answer
+//! is read would wait for each other; up to the limit of memory the service therefore reads on.
 
 use std::sync::Arc;
 use std::time::Duration;

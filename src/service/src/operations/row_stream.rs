@@ -33,7 +33,8 @@ pub(crate) struct RowStream {
 }
 
 impl RowStream {
-    /// Reads rows in one format and answers them in another. `message_bytes` is the greatest size of a message of Arrow.
+    /// Reads rows in one format and answers them in another. `message_bytes` is the greatest size of a message of
+    /// Arrow.
     pub(crate) fn new(answer: Box<dyn RowAnswer>, from: Format, to: Format, message_bytes: usize) -> Self {
         let reader = Reader::new(from, answer.numbers(), message_bytes);
         Self { answer, reader, format: to, writer: None, ended: false }

@@ -5,8 +5,8 @@ use serde::Deserialize;
 use utoipa::ToSchema;
 use verne_rows::Format;
 
-/// Format of rows: `arrow`, the streaming format of Apache Arrow; `csv`, with the names of the columns in the first line;
-/// `ndjson`, an object in each line; `json`, one document.
+/// Format of rows: `arrow`, the streaming format of Apache Arrow; `csv`, with the names of the columns in the first
+/// line; `ndjson`, an object in each line; `json`, one document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum RowFormat {

@@ -19,8 +19,8 @@ use crate::wire::workspace::{KindName, WorkspaceRequest};
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct IkRowsQuery {
-    /// Answer in this format. It overrides Accept. If Content-Type states no format, it is also that of the body. A JSON
-    /// body is answered in JSON and takes no other parameter.
+    /// Answer in this format. It overrides Accept. If Content-Type states no format, it is also that of the body. A
+    /// JSON body is answered in JSON and takes no other parameter.
     #[param(inline, nullable = false)]
     pub format: Option<RowFormat>,
     /// Name of the machine.
@@ -82,8 +82,8 @@ fn five_joints(joints: &JointList) -> Result<FiveJoints, OperationError> {
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct FkRowsQuery {
-    /// Answer in this format. It overrides Accept. If Content-Type states no format, it is also that of the body. A JSON
-    /// body is answered in JSON and takes no other parameter.
+    /// Answer in this format. It overrides Accept. If Content-Type states no format, it is also that of the body. A
+    /// JSON body is answered in JSON and takes no other parameter.
     #[param(inline, nullable = false)]
     pub format: Option<RowFormat>,
     /// Name of the machine.
@@ -125,8 +125,8 @@ impl From<FkRowsQuery> for FkBatchNumbers {
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct ContainsRowsQuery {
-    /// Answer in this format. It overrides Accept. If Content-Type states no format, it is also that of the body. A JSON
-    /// body is answered in JSON and takes no other parameter.
+    /// Answer in this format. It overrides Accept. If Content-Type states no format, it is also that of the body. A
+    /// JSON body is answered in JSON and takes no other parameter.
     #[param(inline, nullable = false)]
     pub format: Option<RowFormat>,
     /// Name of the machine.

@@ -84,8 +84,8 @@ pub(crate) async fn fk_batch(
 /// POST /toolpath looks ahead, and adds the rows that keep the tool within a tolerance.
 ///
 /// Instead of JSON the body may be a stream of Apache Arrow, CSV or NDJSON, with the columns x, y, z and phi1, phi2 or
-/// i, j, k in any order; the query then has what is not a row. The service answers rows while later rows arrive, and any
-/// number of them. Other columns are passed on.
+/// i, j, k in any order; the query then has what is not a row. The service answers rows while later rows arrive, and
+/// any number of them. Other columns are passed on.
 #[utoipa::path(
     post, path = "/ik/batch", operation_id = "ik_batch", tag = "kinematics", params(IkRowsQuery),
     request_body(description = "The rows of poses.", content(
@@ -121,8 +121,8 @@ pub(crate) async fn ik_batch(
 /// other points are not affected.
 ///
 /// Instead of JSON the body may be a stream of Apache Arrow, CSV or NDJSON, with the columns x, y and z in any order;
-/// the query then has what is not a point. The service answers points while later points arrive, and any number of them.
-/// Other columns are passed on.
+/// the query then has what is not a point. The service answers points while later points arrive, and any number of
+/// them. Other columns are passed on.
 #[utoipa::path(
     post, path = "/workspace/contains", operation_id = "workspace_contains", tag = "workspace",
     params(ContainsRowsQuery),
