@@ -122,6 +122,29 @@ impl Column {
         self.values.as_primitive_opt::<Float64Type>().map(Numbers)
     }
 
+    /// The text of each row, if it is a column of texts; `None` where the row has none.
+    ///
+    /// ```
+    /// let column = verne_rows::Column::texts("kind", [Some("feed"), None]);
+    /// assert_eq!(column.as_texts(), Some(vec![Some("feed"), None]));
+    /// ```
+    pub fn as_texts(&self) -> Option<Vec<Option<&str>>> {
+        if let Some(texts) = self.values.as_string_opt::<i32>() {
+            return Some(texts.iter().collect());
+        }
+        if let Some(texts) = self.values.as_string_opt::<i64>() {
+            return Some(texts.iter().collect());
+        }
+        let dictionary = self.values.as_any_dictionary_opt()?;
+        let words = dictionary.values().as_string_opt::<i32>()?;
+        if words.is_empty() {
+            return Some(vec![None; self.len()]);
+        }
+        let keys = dictionary.normalized_keys().into_iter().enumerate();
+        let has_word = |row, key| dictionary.is_valid(row) && words.is_valid(key);
+        Some(keys.map(|(row, key)| has_word(row, key).then(|| words.value(key))).collect())
+    }
+
     /// The rows from `start` on.
     pub(crate) fn slice(&self, start: usize, length: usize) -> Self {
         Self { field: Arc::clone(&self.field), values: self.values.slice(start, length) }

@@ -26,6 +26,7 @@ pub(crate) mod continuous_rows;
 pub(crate) mod dexterity_map;
 pub(crate) mod dexterity_question;
 pub(crate) mod dexterity_subtasks;
+pub(crate) mod dexterity_table;
 pub(crate) mod drawing;
 pub(crate) mod family_question;
 pub(crate) mod family_table;
