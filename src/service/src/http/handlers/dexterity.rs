@@ -101,8 +101,8 @@ pub(crate) async fn get_cells(
     let question = state.results.questions.get_or_read(id, &record.question)?;
     let cells = state.blob_or_job(&question, &wait_policy, None, find).await?;
     let cells = match (cells, format.columns()) {
-        (ResultOrJob::Result(stored), Some(format)) => {
-            let mut response = respond_table(id, stored.bytes, format, &conditions).await?;
+        (ResultOrJob::Result(_), Some(format)) => {
+            let mut response = respond_table(&state, id, format, &conditions).await?;
             wait_policy.state_preference(&mut response);
             return Ok(response);
         }
@@ -115,8 +115,8 @@ pub(crate) async fn get_cells(
 
 /// The stored points as a table, which is written while it is sent.
 async fn respond_table(
+    state: &SharedState,
     id: ResultId,
-    stored: Bytes,
     format: Format,
     conditions: &Conditions,
 ) -> Result<Response, HttpError> {
@@ -131,6 +131,7 @@ async fn respond_table(
         Ok(about) => about,
         Err(unmodified) => return Ok(*unmodified),
     };
+    let stored = state.results.blob(id, CELLS).await.ok_or(OperationError::Internal)?.bytes;
     // The points are parsed: some times their stored bytes.
     let memory = 3 * stored.len() as u64;
     let table = run_on_pool(move |_| DexterityTable::new(&stored, format)).await?;

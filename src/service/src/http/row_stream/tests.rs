@@ -204,9 +204,9 @@ async fn an_error_before_the_first_row_is_a_problem() {
             Some("/columns/theta1"),
         ),
         ("/fk/batch", csv, "rho1,rho2,rho3,theta1\n", 422, "invalid_request", Some("/columns/theta2")),
-        ("/ik/batch", csv, "1,2,3\n", 400, "bad_rows", None),
-        ("/ik/batch", Format::Arrow.media(), "x,y,z\n", 400, "bad_rows", None),
-        ("/ik/batch", Format::Ndjson.media(), "nonsense", 400, "bad_rows", None),
+        ("/ik/batch", csv, "1,2,3\n", 422, "bad_rows", None),
+        ("/ik/batch", Format::Arrow.media(), "x,y,z\n", 422, "bad_rows", None),
+        ("/ik/batch", Format::Ndjson.media(), "nonsense", 422, "bad_rows", None),
         ("/ik/batch", "text/plain", "x,y,z\n", 415, "unsupported_media_type", None),
     ] {
         let (found, _, problem) = post(&service, path, media, body).await;

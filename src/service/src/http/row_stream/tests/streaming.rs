@@ -65,7 +65,7 @@ async fn an_error_in_the_middle_is_reported_as_the_format_permits() {
                 let last: Value = serde_json::from_slice(last).unwrap();
                 assert_eq!(
                     (&last["error"]["code"], &last["error"]["status"]),
-                    (&"bad_rows".into(), &400.into())
+                    (&"bad_rows".into(), &422.into())
                 );
             }
             _ => assert!(answer.is_err(), "the connection breaks off"),
