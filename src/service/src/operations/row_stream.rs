@@ -6,6 +6,7 @@ use verne_solver::workspace::Observer;
 use crate::operations::column_rows::pointer;
 use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::outcome_columns::write_error;
+use crate::operations::row_tally::RowTally;
 use crate::wire::error::{FieldError, OperationError};
 
 /// Answers the rows of a batch, chunk by chunk.
@@ -19,6 +20,9 @@ pub(crate) trait RowAnswer: Send {
     /// The columns of the answer to the next rows.
     fn answer(&mut self, chunk: &Chunk, observer: &dyn Observer) -> Result<Vec<Column>, OperationError>;
 
+    /// The outcomes of all rows so far.
+    fn tally(&self) -> &RowTally;
+
     /// The machine.
     fn machine(&self) -> &IdentifiedMachine;
 }
@@ -29,7 +33,10 @@ pub(crate) struct RowStream {
     reader: Reader,
     format: Format,
     writer: Option<Writer>,
+    /// Whether no bytes of the request follow.
     ended: bool,
+    /// Whether the whole answer is returned.
+    is_complete: bool,
 }
 
 impl RowStream {
@@ -37,7 +44,7 @@ impl RowStream {
     /// Arrow.
     pub(crate) fn new(answer: Box<dyn RowAnswer>, from: Format, to: Format, message_bytes: usize) -> Self {
         let reader = Reader::new(from, answer.numbers(), message_bytes);
-        Self { answer, reader, format: to, writer: None, ended: false }
+        Self { answer, reader, format: to, writer: None, ended: false, is_complete: false }
     }
 
     /// Takes the next bytes of the request. Take no more before [`next`](Self::next) returns `None`.
@@ -54,6 +61,9 @@ impl RowStream {
     /// The next bytes of the answer. `None` before more bytes of the request arrive, and after the end. Call it on the
     /// compute pool.
     pub(crate) fn next(&mut self, observer: &dyn Observer) -> Result<Option<Vec<u8>>, OperationError> {
+        if self.is_complete {
+            return Ok(None);
+        }
         let chunk = self.reader.next_chunk().map_err(read_error)?;
         if self.writer.is_none()
             && let Some(columns) = self.reader.columns()
@@ -70,8 +80,14 @@ impl RowStream {
         if !self.ended {
             return Ok(None);
         }
+        self.is_complete = true;
         let rest = self.writer.take().map(Writer::finish).transpose().map_err(write_error)?;
         Ok(rest.filter(|bytes| !bytes.is_empty()))
+    }
+
+    /// The outcomes of all rows so far.
+    pub(crate) fn tally(&self) -> &RowTally {
+        self.answer.tally()
     }
 
     /// The columns that the answer passes on, and those of the answer.

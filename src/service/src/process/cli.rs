@@ -1,9 +1,13 @@
 //! The command line: one module for each command except `serve` and `worker`.
 
 pub(crate) mod answer;
+pub(crate) mod batch;
+pub(crate) mod files;
 pub(crate) mod health;
 pub(crate) mod key;
 pub(crate) mod kinematics;
+pub(crate) mod limit_words;
+pub(crate) mod one_or_batch;
 pub(crate) mod progress;
 pub(crate) mod result_pipe;
 pub(crate) mod store;
@@ -78,7 +82,7 @@ impl Cli {
     }
 
     /// Runs the command, and returns the exit status. Results go to `out`, with line breaks if `pretty`; the key of
-    /// `verne key new` and the summary of `verne toolpath` go to `err`. The error is a message for people.
+    /// `verne key new` and the summaries of tool paths and batches go to `err`. The error is a message for people.
     ///
     /// If the reader of `out` closes it early, as `head` does, the command stops without a message, and succeeds.
     pub fn run(self, out: &mut impl Write, err: &mut impl Write, pretty: bool) -> Result<ExitCode, String> {
@@ -104,10 +108,7 @@ impl Cli {
             Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, pretty),
             Command::Toolpath(command) => return command.run(out, err, pretty),
-            Command::Kinematics(command) => {
-                let answer = command.answer(pretty)?;
-                writeln!(out, "{answer}").map_err(|error| format!("cannot write the answer: {error}"))
-            }
+            Command::Kinematics(command) => return command.run(out, err, pretty),
         };
         done.map(|()| ExitCode::SUCCESS)
     }
@@ -169,8 +170,11 @@ mod tests {
             format!("verne toolpath {} --tool-length 100", file.display())
         };
         let rows = toolpath("part.csv", "-150,0,300\n150,0,300\n") + " -o -";
+        let poses = directory.path().join("poses.csv");
+        std::fs::write(&poses, "x,y,z\n0,0,300\n").unwrap();
+        let batch = format!("verne contains --batch {}", poses.display());
         let success = format!("{:?}", Ok::<_, String>(ExitCode::SUCCESS));
-        for line in ["verne fk --rho 674,685,250", &rows] {
+        for line in ["verne fk --rho 674,685,250", &rows, &batch] {
             assert_eq!(status(line), (success.clone(), String::new()), "{line}");
         }
         // The report was not read, but the verdict is known.
