@@ -28,8 +28,16 @@ pub(crate) struct RowStream {
     answer: Box<dyn RowAnswer>,
     reader: Reader,
     format: Format,
-    writer: Option<Writer>,
+    writer: Stage,
     ended: bool,
+}
+
+/// The writer of the answer.
+enum Stage {
+    /// The columns are not known.
+    Beginning,
+    Writing(Box<Writer>),
+    Finished,
 }
 
 impl RowStream {
@@ -37,7 +45,7 @@ impl RowStream {
     /// Arrow.
     pub(crate) fn new(answer: Box<dyn RowAnswer>, from: Format, to: Format, message_bytes: usize) -> Self {
         let reader = Reader::new(from, answer.numbers(), message_bytes);
-        Self { answer, reader, format: to, writer: None, ended: false }
+        Self { answer, reader, format: to, writer: Stage::Beginning, ended: false }
     }
 
     /// Takes the next bytes of the request. Take no more before [`next`](Self::next) returns `None`.
@@ -55,23 +63,26 @@ impl RowStream {
     /// compute pool.
     pub(crate) fn next(&mut self, observer: &dyn Observer) -> Result<Option<Vec<u8>>, OperationError> {
         let chunk = self.reader.next_chunk().map_err(read_error)?;
-        if self.writer.is_none()
+        if matches!(self.writer, Stage::Beginning)
             && let Some(columns) = self.reader.columns()
         {
             self.answer.begin(&columns)?;
             let columns = self.answered(&Chunk::without_rows(columns), observer)?;
-            self.writer = Some(Writer::new(self.format, &columns).map_err(write_error)?);
+            self.writer = Stage::Writing(Box::new(Writer::new(self.format, &columns).map_err(write_error)?));
         }
         if let Some(chunk) = chunk {
             let columns = self.answered(&chunk, observer)?;
-            let writer = self.writer.as_mut().ok_or(OperationError::Internal)?;
+            let Stage::Writing(writer) = &mut self.writer else { return Err(OperationError::Internal) };
             return writer.write(&columns).map(Some).map_err(write_error);
         }
         if !self.ended {
             return Ok(None);
         }
-        let rest = self.writer.take().map(Writer::finish).transpose().map_err(write_error)?;
-        Ok(rest.filter(|bytes| !bytes.is_empty()))
+        let Stage::Writing(writer) = std::mem::replace(&mut self.writer, Stage::Finished) else {
+            return Ok(None);
+        };
+        let rest = writer.finish().map_err(write_error)?;
+        Ok(Some(rest).filter(|bytes| !bytes.is_empty()))
     }
 
     /// The columns that the answer passes on, and those of the answer.

@@ -245,6 +245,19 @@ async fn headers_and_the_query_choose_the_formats() {
 }
 
 #[tokio::test]
+async fn the_examples_of_tables_are_answers() {
+    let service = service("").await;
+    let document = crate::document();
+    for path in ["/ik/batch", "/fk/batch", "/workspace/contains"] {
+        let operation = &document["paths"][path]["post"];
+        let request = operation["requestBody"]["content"]["text/csv"]["example"].as_str().unwrap();
+        let (status, _, answer) = post(&service, path, "text/csv", request.to_owned()).await;
+        let expected = operation["responses"]["200"]["content"]["text/csv"]["example"].as_str().unwrap();
+        assert_eq!((status, str::from_utf8(&answer).unwrap()), (StatusCode::OK, expected));
+    }
+}
+
+#[tokio::test]
 async fn compressed_rows_are_decoded_while_they_arrive() {
     let service = service("").await;
     let body = written(Format::Csv, &columns(&["x", "y", "z", "phi1", "phi2"], &poses(3000)));
