@@ -96,7 +96,7 @@ mod tests {
 
     fn client() -> Client {
         let name = "a".to_owned();
-        Client { name, role: Role::Read, has_quota: false, is_cross_origin: false, key: None }
+        Client { name, role: Role::Read, has_quota: false, is_cross_origin: false, bucket: None, key: None }
     }
 
     #[tokio::test]

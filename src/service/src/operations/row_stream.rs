@@ -30,6 +30,8 @@ pub(crate) struct RowStream {
     format: Format,
     writer: Stage,
     ended: bool,
+    /// Rows that are answered.
+    rows: usize,
 }
 
 /// The writer of the answer.
@@ -45,7 +47,7 @@ impl RowStream {
     /// Arrow.
     pub(crate) fn new(answer: Box<dyn RowAnswer>, from: Format, to: Format, message_bytes: usize) -> Self {
         let reader = Reader::new(from, answer.numbers(), message_bytes);
-        Self { answer, reader, format: to, writer: Stage::Beginning, ended: false }
+        Self { answer, reader, format: to, writer: Stage::Beginning, ended: false, rows: 0 }
     }
 
     /// Takes the next bytes of the request. Take no more before [`next`](Self::next) returns `None`.
@@ -72,6 +74,7 @@ impl RowStream {
         }
         if let Some(chunk) = chunk {
             let columns = self.answered(&chunk, observer)?;
+            self.rows += chunk.rows();
             let Stage::Writing(writer) = &mut self.writer else { return Err(OperationError::Internal) };
             return writer.write(&columns).map(Some).map_err(write_error);
         }
@@ -83,6 +86,11 @@ impl RowStream {
         };
         let rest = writer.finish().map_err(write_error)?;
         Ok(Some(rest).filter(|bytes| !bytes.is_empty()))
+    }
+
+    /// How many rows are answered since the last call.
+    pub(crate) fn take_rows(&mut self) -> usize {
+        std::mem::take(&mut self.rows)
     }
 
     /// The columns that the answer passes on, and those of the answer.
