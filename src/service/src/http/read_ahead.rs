@@ -20,7 +20,7 @@ use crate::limits::error::LimitError;
 const UNIT: usize = 1024;
 
 /// How long the client may send nothing.
-const LONGEST_PAUSE: Duration = Duration::from_secs(60);
+const LONGEST_PAUSE: Duration = Duration::from_mins(1);
 
 /// Bytes of the body, with their part of the memory.
 type Held = (Bytes, OwnedSemaphorePermit);

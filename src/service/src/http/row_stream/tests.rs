@@ -107,7 +107,7 @@ async fn inverse_rows_are_the_same_in_every_format() {
                 let query = format!("tool_length=50&continuous={continuous}&format={}", to.name());
                 let path = format!("/ik/batch?{query}");
                 let (status, headers, answer) = post(&service, &path, from.media(), body.clone()).await;
-                assert_eq!((status, &headers[CONTENT_TYPE]), (StatusCode::OK, &to.media()));
+                assert_eq!((status, headers[CONTENT_TYPE].to_str().ok()), (StatusCode::OK, Some(to.media())));
                 assert_eq!(headers["machine-hash"].to_str().ok(), expected["machine"]["hash"].as_str());
                 let rows = objects(to, &answer);
                 assert_eq!(rows.len(), poses.len());
@@ -236,7 +236,8 @@ async fn headers_and_the_query_choose_the_formats() {
         let (status, headers, answer) = send(&service, request.body(body.into()).unwrap()).await;
         match expected {
             Some(format) => {
-                assert_eq!((status, &headers[CONTENT_TYPE]), (StatusCode::OK, &format.media()), "{accept}");
+                assert_eq!(status, StatusCode::OK, "{accept}");
+                assert_eq!(headers[CONTENT_TYPE], format.media(), "{accept}");
                 assert_eq!(objects(format, &answer)[0]["status"], "ok", "{accept}");
             }
             None => assert_eq!(status, StatusCode::NOT_ACCEPTABLE),
