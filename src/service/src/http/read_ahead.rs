@@ -20,7 +20,7 @@ use crate::limits::error::LimitError;
 const UNIT: usize = 1024;
 
 /// How long the client may send nothing.
-const LONGEST_PAUSE: Duration = Duration::from_secs(60);
+const LONGEST_PAUSE: Duration = Duration::from_mins(1);
 
 /// Bytes of the body, with their part of the memory.
 type Held = (Bytes, OwnedSemaphorePermit);
@@ -96,7 +96,7 @@ mod tests {
 
     fn client() -> Client {
         let name = "a".to_owned();
-        Client { name, role: Role::Read, has_quota: false, is_cross_origin: false, key: None }
+        Client { name, role: Role::Read, has_quota: false, is_cross_origin: false, bucket: None, key: None }
     }
 
     #[tokio::test]

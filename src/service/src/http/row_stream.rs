@@ -20,6 +20,7 @@ use crate::http::problem::Problem;
 use crate::http::read_ahead::ReadAhead;
 use crate::http::state::SharedState;
 use crate::limits::client_quota::QuotaPermit;
+use crate::limits::rate::RowCharge;
 use crate::limits::response_memory::UnsharedBytes;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::row_stream::{RowAnswer, RowStream};
@@ -105,8 +106,9 @@ pub(crate) async fn answer_rows(
         step: if coding.is_some() { COMPRESSED_BYTES } else { PIECE_BYTES },
         ended: false,
     };
+    let charge = RowCharge::new(client.bucket.clone(), state.limits.rows);
     let body = ReadAhead::new(request.into_body(), client, memory);
-    let mut answering = Answering { body, worker: Some(worker), format: to, _permit: permit };
+    let mut answering = Answering { body, worker: Some(worker), format: to, charge, _permit: permit };
     let first = answering.next_piece().await?;
     let rest = stream::unfold(Some(answering), |answering| async move {
         let mut answering = answering?;
@@ -128,6 +130,7 @@ struct Answering {
     /// `None` after an error.
     worker: Option<Worker>,
     format: Format,
+    charge: RowCharge,
     _permit: QuotaPermit,
 }
 
@@ -143,6 +146,7 @@ impl Answering {
             .await?;
             let worker = self.worker.insert(worker);
             if let Some(piece) = piece {
+                self.charge.charge(worker.stream.take_rows()).await;
                 return Ok(Some(piece.into()));
             }
             if worker.ended {

@@ -24,30 +24,22 @@ pub(crate) fn row_names(
     groups: &[Group],
     needs_group: bool,
 ) -> Result<RowNames, OperationError> {
-    let has = |name: &&&str| columns.iter().any(|column| column.name() == **name);
-    let mut given = groups.iter().filter(|group| group.iter().any(|name| has(&name)));
-    let (group, other) = (given.next(), given.next());
-    let faults: Vec<FieldError> = if let Some(name) = other.and_then(|other| other.iter().find(has)) {
-        let first = group.map(|group| group.join(", ")).unwrap_or_default();
-        vec![FieldError::new(pointer(name), format!("cannot stand beside {first}"))]
-    } else if let (None, true) = (group, needs_group) {
+    let has = |name: &str| columns.iter().any(|column| column.name() == name);
+    let mut given = groups.iter().filter(|group| group.iter().any(|name| has(name)));
+    let (group, other) = (given.next().copied(), given.next());
+    let names: RowNames = required.iter().chain(group.into_iter().flatten()).copied().collect();
+    let absent = names.iter().filter(|name| !has(name));
+    let mut faults: Vec<_> = absent.map(|name| FieldError::missing(pointer(name), name)).collect();
+    let first = groups.first().and_then(|group| group.first()).filter(|_| needs_group && group.is_none());
+    if let Some(first) = first {
         let accepted: Vec<_> = groups.iter().map(|group| group.join(", ")).collect();
-        let detail = format!("`{}` is missing; expected are {}", missing(groups), accepted.join(", or "));
-        vec![FieldError::new(pointer(&missing(groups)), detail)]
-    } else {
-        let names = required.iter().chain(group.into_iter().copied().flatten());
-        names.filter(|name| !has(name)).map(|name| FieldError::missing(pointer(name), name)).collect()
-    };
-    if faults.is_empty() {
-        Ok(required.iter().chain(group.into_iter().copied().flatten()).copied().collect())
-    } else {
-        Err(OperationError::Fields(faults))
+        let detail = format!("`{first}` is missing; expected are {}", accepted.join(", or "));
+        faults.push(FieldError::new(pointer(first), detail));
     }
-}
-
-/// The first name that is missing if there is no group.
-fn missing(groups: &[Group]) -> String {
-    groups.iter().find_map(|group| group.first()).copied().unwrap_or_default().to_owned()
+    if let (Some(group), Some(name)) = (group, other.and_then(|other| other.iter().find(|name| has(name)))) {
+        faults.push(FieldError::new(pointer(name), format!("cannot stand beside {}", group.join(", "))));
+    }
+    if faults.is_empty() { Ok(names) } else { Err(OperationError::Fields(faults)) }
 }
 
 /// Fails if there is a column of these names; `reason` says why it cannot be used.

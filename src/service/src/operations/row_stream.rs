@@ -32,11 +32,18 @@ pub(crate) struct RowStream {
     answer: Box<dyn RowAnswer>,
     reader: Reader,
     format: Format,
-    writer: Option<Writer>,
-    /// Whether no bytes of the request follow.
+    writer: Stage,
     ended: bool,
-    /// Whether the whole answer is returned.
-    is_complete: bool,
+    /// Rows that are answered.
+    rows: usize,
+}
+
+/// The writer of the answer.
+enum Stage {
+    /// The columns are not known.
+    Beginning,
+    Writing(Box<Writer>),
+    Finished,
 }
 
 impl RowStream {
@@ -44,7 +51,7 @@ impl RowStream {
     /// Arrow.
     pub(crate) fn new(answer: Box<dyn RowAnswer>, from: Format, to: Format, message_bytes: usize) -> Self {
         let reader = Reader::new(from, answer.numbers(), message_bytes);
-        Self { answer, reader, format: to, writer: None, ended: false, is_complete: false }
+        Self { answer, reader, format: to, writer: Stage::Beginning, ended: false, rows: 0 }
     }
 
     /// Takes the next bytes of the request. Take no more before [`next`](Self::next) returns `None`.
@@ -61,28 +68,33 @@ impl RowStream {
     /// The next bytes of the answer. `None` before more bytes of the request arrive, and after the end. Call it on the
     /// compute pool.
     pub(crate) fn next(&mut self, observer: &dyn Observer) -> Result<Option<Vec<u8>>, OperationError> {
-        if self.is_complete {
-            return Ok(None);
-        }
         let chunk = self.reader.next_chunk().map_err(read_error)?;
-        if self.writer.is_none()
+        if matches!(self.writer, Stage::Beginning)
             && let Some(columns) = self.reader.columns()
         {
             self.answer.begin(&columns)?;
             let columns = self.answered(&Chunk::without_rows(columns), observer)?;
-            self.writer = Some(Writer::new(self.format, &columns).map_err(write_error)?);
+            self.writer = Stage::Writing(Box::new(Writer::new(self.format, &columns).map_err(write_error)?));
         }
         if let Some(chunk) = chunk {
             let columns = self.answered(&chunk, observer)?;
-            let writer = self.writer.as_mut().ok_or(OperationError::Internal)?;
+            self.rows += chunk.rows();
+            let Stage::Writing(writer) = &mut self.writer else { return Err(OperationError::Internal) };
             return writer.write(&columns).map(Some).map_err(write_error);
         }
         if !self.ended {
             return Ok(None);
         }
-        self.is_complete = true;
-        let rest = self.writer.take().map(Writer::finish).transpose().map_err(write_error)?;
-        Ok(rest.filter(|bytes| !bytes.is_empty()))
+        let Stage::Writing(writer) = std::mem::replace(&mut self.writer, Stage::Finished) else {
+            return Ok(None);
+        };
+        let rest = writer.finish().map_err(write_error)?;
+        Ok(Some(rest).filter(|bytes| !bytes.is_empty()))
+    }
+
+    /// How many rows are answered since the last call.
+    pub(crate) fn take_rows(&mut self) -> usize {
+        std::mem::take(&mut self.rows)
     }
 
     /// The outcomes of all rows so far.

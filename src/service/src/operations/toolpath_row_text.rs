@@ -66,6 +66,9 @@ impl RowText for RowWriter {
     }
 }
 
+/// The name of a column of numbers, and its number in a row.
+type NumberColumn = (&'static str, fn(&RowObject) -> f64);
+
 /// The words of the columns, which all pieces of an answer share.
 pub(crate) struct RowColumns {
     kinds: Names,
@@ -85,7 +88,7 @@ impl RowColumns {
             Column::whole_numbers("line", rows.iter().map(|row| Some(row.line))),
             Column::names("kind", &self.kinds, kinds).map_err(defect)?,
         ];
-        let numbers: [(&str, fn(&RowObject) -> f64); 11] = [
+        let numbers: [NumberColumn; 11] = [
             ("x", |row| row.x),
             ("y", |row| row.y),
             ("z", |row| row.z),

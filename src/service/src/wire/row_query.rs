@@ -80,13 +80,11 @@ impl IkRowsQuery {
 
 fn five_joints(joints: &JointList) -> Result<FiveJoints, OperationError> {
     let FixedArray([rho1, rho2, rho3]) = joints.first;
-    match (joints.optional(0), joints.optional(1)) {
-        (Some(theta1), Some(theta2)) => Ok(FixedArray([rho1, rho2, rho3, theta1, theta2])),
-        _ => {
-            let detail = "expected rho1,rho2,rho3,theta1,theta2";
-            Err(OperationError::Fields(vec![FieldError::new("/start", detail)]))
-        }
-    }
+    let [Some(theta1), Some(theta2)] = [0, 1].map(|i| joints.optional(i)) else {
+        let detail = "expected rho1,rho2,rho3,theta1,theta2";
+        return Err(OperationError::Fields(vec![FieldError::new("/start", detail)]));
+    };
+    Ok(FixedArray([rho1, rho2, rho3, theta1, theta2]))
 }
 
 /// Parameters of POST /fk/batch with rows in columns.

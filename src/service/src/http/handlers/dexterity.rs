@@ -65,8 +65,8 @@ pub(crate) async fn post_dexterity(
 /// The points of a dexterity map
 ///
 /// Returns the intervals of phi1 at each point. For JSON the service supports strong ETags, conditional requests and
-/// byte ranges. As a table (Arrow, CSV or NDJSON) the answer has a row for each interval: the number of the point, its x,
-/// y and z in the part frame, and `from` and `to`.
+/// byte ranges. As a table (Arrow, CSV or NDJSON) the answer has a row for each interval: the number of the point, its
+/// x, y and z in the part frame, and `from` and `to`.
 #[utoipa::path(
     get, path = "/workspace/{id}/cells", operation_id = "dexterity_cells", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace/dexterity."), CellsQuery),

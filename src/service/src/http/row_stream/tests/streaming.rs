@@ -74,7 +74,7 @@ async fn an_error_in_the_middle_is_reported_as_the_format_permits() {
     let whole = written(Format::Arrow, &columns(&NAMES, &poses(20_000)));
     let parts = [whole.clone(), whole[whole.len() / 2..].to_vec()].concat();
     let request = Request::post("/ik/batch").header(CONTENT_TYPE, Format::Arrow.media());
-    let response = service.router.clone().oneshot(request.body(parts.into()).unwrap()).await.unwrap();
+    let response = service.router.clone().oneshot(request.body(Body::from(parts)).unwrap()).await.unwrap();
     assert_eq!(response.status(), StatusCode::OK);
     assert!(response.into_body().collect().await.is_err());
 }
