@@ -1,6 +1,7 @@
 //! The command line, as its users type it.
 
 mod batch;
+mod commands;
 
 use std::ffi::OsString;
 use std::io::{Read, Write};

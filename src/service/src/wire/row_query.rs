@@ -40,8 +40,8 @@ pub(crate) struct IkRowsQuery {
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
     /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
-    /// part frame), mm. Only frame `part` has it. The default is the limit of the machine; if the machine has none, the service does
-    /// not check the table.
+    /// part frame), mm. Only frame `part` has it. The default is the limit of the machine; if the machine has none, the
+    /// service does not check the table.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
@@ -108,8 +108,8 @@ pub(crate) struct FkRowsQuery {
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
     /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
-    /// part frame), mm. Needs theta1. The default is the limit of the machine; if the machine has none, the service does
-    /// not check the table.
+    /// part frame), mm. Needs theta1. The default is the limit of the machine; if the machine has none, the service
+    /// does not check the table.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,
@@ -163,8 +163,8 @@ pub(crate) struct ContainsRowsQuery {
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
     /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
-    /// part frame), mm. Only kind `part` has it. The default is the limit of the machine; if the machine has none, the service does
-    /// not check the table.
+    /// part frame), mm. Only kind `part` has it. The default is the limit of the machine; if the machine has none, the
+    /// service does not check the table.
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, nullable = false)]
     pub table_clearance: Option<f64>,

@@ -1,11 +1,10 @@
-//! `verne fk`, `verne ik`, `verne contains` and `verne openapi`: the answers of the HTTP service without a server.
+//! `verne fk`, `verne ik` and `verne contains`: the answers of the HTTP service without a server.
 
 use std::io::Write;
 use std::process::ExitCode;
 
 use clap::Subcommand;
 
-use crate::http::router::document;
 use crate::operations::forward::answer_fk;
 use crate::operations::inverse::answer_ik;
 use crate::operations::machine_registry::MachineRegistry;
@@ -31,8 +30,6 @@ pub(crate) enum KinematicsCommand {
     /// Test whether the points of a file, with the columns x, y and z, belong to a workspace. The exit status is 3 if a
     /// row is not a point.
     Contains(BatchCommand<ContainsRowsQuery>),
-    /// Print the OpenAPI document.
-    Openapi,
 }
 
 impl KinematicsCommand {
@@ -44,28 +41,21 @@ impl KinematicsCommand {
         err: &mut impl Write,
         pretty: bool,
     ) -> Result<ExitCode, String> {
-        let answer = match self {
+        let (answer, pretty) = match self {
             Self::Forward(command) => match *command {
-                OneOrBatch::One(query) => forward(query)?,
+                OneOrBatch::One(question) => (forward(question.query)?, pretty || question.pretty),
                 OneOrBatch::Batch(batch) => return batch.run(out, err, pretty),
             },
             Self::Inverse(command) => match *command {
-                OneOrBatch::One(query) => inverse(query)?,
+                OneOrBatch::One(question) => (inverse(question.query)?, pretty || question.pretty),
                 OneOrBatch::Batch(batch) => return batch.run(out, err, pretty),
             },
             Self::Contains(batch) => return batch.run(out, err, pretty),
-            Self::Openapi => {
-                print(&to_json(&document(), true)?, out)?;
-                return Ok(ExitCode::SUCCESS);
-            }
         };
-        print(&to_json(&answer, pretty)?, out)?;
+        let text = to_json(&answer, pretty)?;
+        writeln!(out, "{text}").map_err(|error| format!("cannot write the answer: {error}"))?;
         Ok(exit_status(!answer.solutions.is_empty()))
     }
-}
-
-fn print(text: &str, out: &mut impl Write) -> Result<(), String> {
-    writeln!(out, "{text}").map_err(|error| format!("cannot write the answer: {error}"))
 }
 
 fn forward(query: FkQuery) -> Result<Answer, String> {

@@ -7,11 +7,21 @@ use crate::process::cli::batch::{BatchCommand, BatchQuery};
 /// The flag that decides.
 const BATCH: &str = "batch";
 
+/// One question.
+#[derive(Debug, Args)]
+pub(crate) struct OneCommand<Q: Args> {
+    #[command(flatten)]
+    pub query: Q,
+    /// Print JSON with line breaks. On a terminal verne always does.
+    #[arg(long)]
+    pub pretty: bool,
+}
+
 /// One question or a batch. Arguments that both have are defined by the question.
 #[derive(Debug)]
-pub(crate) enum OneOrBatch<One, Rows: BatchQuery> {
+pub(crate) enum OneOrBatch<One: Args, Rows: BatchQuery> {
     /// One question.
-    One(One),
+    One(OneCommand<One>),
     /// A batch.
     Batch(BatchCommand<Rows>),
 }
@@ -19,7 +29,7 @@ pub(crate) enum OneOrBatch<One, Rows: BatchQuery> {
 impl<One: Args, Rows: BatchQuery> Args for OneOrBatch<One, Rows> {
     fn augment_args(command: Command) -> Command {
         let batch = BatchCommand::<Rows>::augment_args(Command::new(BATCH));
-        let mut command = One::augment_args(command);
+        let mut command = OneCommand::<One>::augment_args(command);
         let of_one: Vec<_> = command.get_arguments().map(|arg| arg.get_id().clone()).collect();
         let of_batch: Vec<_> = batch.get_arguments().map(|arg| arg.get_id().clone()).collect();
         for id in of_one.iter().filter(|id| !of_batch.contains(id)) {
@@ -27,7 +37,8 @@ impl<One: Args, Rows: BatchQuery> Args for OneOrBatch<One, Rows> {
         }
         for arg in batch.get_arguments().filter(|arg| !of_one.contains(arg.get_id())).cloned() {
             let decides = *arg.get_id() == BATCH;
-            command = command.arg(if decides { arg.required(false) } else { arg.requires(BATCH) });
+            let arg = if decides { arg.required(false) } else { arg.requires(BATCH) };
+            command = command.arg(arg.help_heading("Batches"));
         }
         command
     }
@@ -37,12 +48,12 @@ impl<One: Args, Rows: BatchQuery> Args for OneOrBatch<One, Rows> {
     }
 }
 
-impl<One: FromArgMatches, Rows: BatchQuery> FromArgMatches for OneOrBatch<One, Rows> {
+impl<One: Args, Rows: BatchQuery> FromArgMatches for OneOrBatch<One, Rows> {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
         if matches.contains_id(BATCH) {
             BatchCommand::from_arg_matches(matches).map(Self::Batch)
         } else {
-            One::from_arg_matches(matches).map(Self::One)
+            OneCommand::from_arg_matches(matches).map(Self::One)
         }
     }
 
