@@ -1,4 +1,4 @@
-//! What the broker has forbidden to this process. The broker does not answer a request with a forbidden subject; it
+//! The subjects that the broker has forbidden to this process. The broker does not answer a request with a forbidden subject; it
 //! sends a denial beside the answers.
 
 use std::sync::Arc;
