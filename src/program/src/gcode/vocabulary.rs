@@ -188,7 +188,10 @@ fn offset(tenths: u32) -> Option<WorkOffset> {
 /// Why a G code is refused.
 fn refused(tenths: u32) -> &'static str {
     match tenths {
-        50..=53 | 62 => "G5 and G6.2 are splines, which are not read; post lines and arcs",
+        50..=53 | 62 => {
+            "G5 to G5.3 and G6.2 are splines, which are not read, or for Fanuc a mode such as G5.1 Q1; post lines and \
+             arcs without the mode"
+        }
         100..=109 => {
             "G10 changes the controller's tables, which are data of the request: setup, offsets and tool_length"
         }
@@ -209,6 +212,9 @@ fn refused(tenths: u32) -> &'static str {
         }
         920..=929 => {
             "G92 shifts the origin, which is not read; state the origin with setup or offsets in the request"
+        }
+        2340 => {
+            "G234 of Haas begins control of the tool centre point; state G234 in tcp_on, and G49 in tcp_off"
         }
         _ => UNKNOWN,
     }

@@ -41,12 +41,7 @@ impl MapInput<'_> {
             .collect()
     }
 
-    fn node(
-        &self,
-        number: [u32; 3],
-        section: &[MonotonePiece],
-        row: &mut Row,
-    ) -> Result<(), WorkspaceError> {
+    fn node(&self, number: [u32; 3], section: &[MonotonePiece], row: &mut Row) -> Result<(), WorkspaceError> {
         let [_, v1, z] = self.grid.node(number);
         let found = intervals_at(self.tool, section, [v1, z], self.request.phi1);
         row.counts.push(counted(found.len())?);
