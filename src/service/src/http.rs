@@ -36,6 +36,7 @@ pub(crate) mod router;
 pub(crate) mod security_headers;
 pub(crate) mod state;
 pub(crate) mod static_content;
+pub(crate) mod time_limit;
 pub(crate) mod toolpath_body;
 pub(crate) mod toolpath_rows;
 pub(crate) mod unknown_parameters;

@@ -39,6 +39,7 @@ pub(crate) mod request;
 pub(crate) mod result_id;
 pub(crate) mod role;
 pub(crate) mod slice;
+pub(crate) mod start;
 pub(crate) mod strict_object;
 pub(crate) mod sweep;
 pub(crate) mod tool;

@@ -83,9 +83,7 @@ impl CheckedToolpath {
             faults.add("/cycle", detail);
         }
         if let Some(start) = &request.start {
-            faults.lengths("/start/rho", start.rho.as_ref().map_or(&[][..], |rho| &rho.0[..]));
-            faults.angle("/start/theta1", Some(start.theta1));
-            faults.angle("/start/theta2", Some(start.theta2));
+            start.check(&mut faults);
         }
         let machine = machines.resolve(&request.machine);
         faults.into_result()?;

@@ -10,10 +10,10 @@ use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 use verne_program::Units;
 
-use crate::wire::fixed_array::Triple;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::program_points::ProgramPoints;
 use crate::wire::program_query::units;
+use crate::wire::start::Start;
 use crate::wire::strict_object::{StrictObject, optional_strict_object, strict_object};
 
 /// A request for the joint motion of a program.
@@ -282,19 +282,4 @@ impl Default for Tolerance {
     fn default() -> Self {
         Self { tip: 0.01, axis: 0.05, rapid: 1.0 }
     }
-}
-
-/// Where the machine stands before the program.
-#[derive(Clone, Copy, Debug, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Start {
-    /// The three sliders, mm. They do not change the plan.
-    #[schema(inline, nullable = false)]
-    pub rho: Option<Triple>,
-    /// Tilting angle of the table, degrees.
-    #[schema(minimum = -36000, maximum = 36000)]
-    pub theta1: f64,
-    /// Rotary angle of the table, degrees.
-    #[schema(minimum = -36000, maximum = 36000)]
-    pub theta2: f64,
 }

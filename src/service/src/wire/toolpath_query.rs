@@ -9,9 +9,10 @@ use utoipa::IntoParams;
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::json_text::JsonText;
 use crate::wire::machine_ref::{MachineRef, REFERENCE, reference_name};
+use crate::wire::start::Start;
 use crate::wire::strict_object::StrictObject;
 use crate::wire::toolpath::{
-    OnLimitName, OrientationName, RapidsName, Setup, Start, TipName, Tolerance, ToolLengths, ToolpathRequest,
+    OnLimitName, OrientationName, RapidsName, Setup, TipName, Tolerance, ToolLengths, ToolpathRequest,
 };
 
 /// The fields of a request for a tool path whose program is the body.

@@ -243,6 +243,22 @@ async fn fields_that_cannot_be_used_are_named() {
 }
 
 #[tokio::test]
+async fn points_state_their_orientations_in_their_own_ways() {
+    let service = service().await;
+    let points = json!([[0, 0, 300], [10, 0, 300, 10, 30], [20, 0, 300, 0, -0.1, 1],
+        {"x": 30, "y": 0, "z": 300, "phi1": 5, "phi2": 0, "feed": 500}, [40, 0, 300]]);
+    let report = plan(&service, &json!({"program": {"points": points}, "tool_length": 50})).await;
+    assert_eq!(report["verdict"], "ok", "{report}");
+    assert!(report["warnings"].to_string().contains("its axis is (0, 0, 1)"), "{report}");
+    let rows = rows_of(&service, &report).await;
+    let axis = rows.iter().rev().find(|row| row.line == 4).unwrap().position.axis;
+    let [sine, cosine] = [5_f64.to_radians().sin(), 5_f64.to_radians().cos()];
+    for (axis, expected) in axis.into_iter().zip([0.0, -sine, cosine]) {
+        assert!((axis - expected).abs() < 1e-9, "{axis} {expected}");
+    }
+}
+
+#[tokio::test]
 async fn a_job_of_a_tool_path_states_its_kind_and_can_be_cancelled() {
     let service = service().await;
     let points: Vec<Value> = (0..20_000).map(|i| json!([i % 100, i % 97, 300 + i % 31])).collect();
