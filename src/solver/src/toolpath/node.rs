@@ -1,7 +1,6 @@
 //! The joints at one place of the path.
 
 use std::f64::consts::PI;
-use std::ops::RangeInclusive;
 
 use super::azimuth::inclination;
 use super::meridian::Span;
@@ -137,10 +136,12 @@ impl Setting<'_> {
         Margins::of_rods(self.machine, &node.pose, node.rho, &rods, node.table, clearance.as_ref())
     }
 
-    /// h for which theta2 is within its range, or nearest to it.
-    pub(super) fn half_turns(&self, phi2: f64) -> RangeInclusive<i32> {
+    /// h for which theta2 is within its range, or nearest to it: any, or odd or even ones only.
+    pub(super) fn half_turns(&self, phi2: f64, is_odd: Option<bool>) -> impl Iterator<Item = i32> {
         let [low, high] = self.machine.limits().rotary;
-        let turns = |theta2: f64| (-theta2 - phi2) / PI;
+        let (step, offset) = is_odd.map_or((1, 0), |is_odd| (2, i32::from(is_odd)));
+        let [width, first_phi2] = [PI * f64::from(step), phi2 + PI * f64::from(offset)];
+        let turns = |theta2: f64| (-theta2 - first_phi2) / width;
         let (first, last) = ((turns(high) - 1e-12).ceil(), (turns(low) + 1e-12).floor());
         let middle = turns(0.5 * (low + high)).round();
         let most = f64::from(MOST_HALF_TURNS);
@@ -149,7 +150,7 @@ impl Setting<'_> {
         } else {
             [middle, middle]
         };
-        whole(first)..=whole(last)
+        (whole(first)..=whole(last)).map(move |number| offset + step * number)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::cost::Cost;
 use crate::margins::Margins;
 use crate::toolpath::node::{Node, Setting, Target};
+use crate::toolpath::start::Start;
 
 /// How far the machine may move for a worst margin of the whole range until the limits are examined again.
 const WAY: f64 = 1.0 / 32.0;
@@ -17,6 +18,14 @@ pub(super) struct State {
     pub(super) parent: usize,
     /// An earlier state that differs by whole turns of theta2 alone.
     pub(super) twin: Option<usize>,
+}
+
+impl State {
+    /// The state before the program. Its limits are examined at the next place.
+    pub(super) fn of_start(start: Start) -> Self {
+        let reserve = Reserve { holds: false, way: 0.0 };
+        Self { h: [0; 2], node: Some(start.node()), reserve, cost: Cost::START, parent: 0, twin: None }
+    }
 }
 
 /// The limits but the rotary axis'.
