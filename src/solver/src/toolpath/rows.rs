@@ -238,7 +238,7 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
                 Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value: f64::MIN }
             }
         };
-        self.report.fail(index, pose, margin, margin.value);
+        self.report.fail(index, (pose, None), (margin, margin.value));
     }
 
     pub(super) fn track<'p>(&self, path: &'p Path, span: Span, tool_length: f64) -> Track<'p>
