@@ -51,6 +51,7 @@ pub(crate) mod toolpath_report;
 pub(crate) mod toolpath_row;
 pub(crate) mod toolpath_start;
 pub(crate) mod toolpath_time;
+pub(crate) mod windings;
 pub(crate) mod workspace;
 pub(crate) mod workspace_query;
 pub(crate) mod workspace_summary;

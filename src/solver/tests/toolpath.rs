@@ -8,6 +8,7 @@
 //! - `starts`: programs that begin where the machine stands.
 //! - `tool_changes`: motions that begin with another tool in the same joints.
 //! - `held`: programs whose phi2 is kept at the pole.
+//! - `unlimited`: programs on a machine whose table turns without a limit.
 //! - `limits`: what happens at limits: retracting, and changes that heal.
 //! - `least_margins`: least margins between rows.
 //! - `timing`: times of rows.
@@ -54,3 +55,5 @@ mod support;
 mod timing;
 #[path = "toolpath/tool_changes.rs"]
 mod tool_changes;
+#[path = "toolpath/unlimited.rs"]
+mod unlimited;

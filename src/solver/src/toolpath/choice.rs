@@ -17,10 +17,10 @@ use self::cost::Cost;
 use self::rewind::rewound;
 use self::stages::Stages;
 pub(super) use self::stages::{Choice, Chosen, Rewind};
-use self::state::{Reserve, State, advance, is_wound};
+use self::state::{Reserve, State, advance, has_same_posture, is_wound, keep_best_windings, useful_range};
 use super::meridian::{Meridian, Span};
 use super::motion::{Motion, MotionKind, Motions, ToolPosition};
-use super::node::{Node, Setting};
+use super::node::{Node, Setting, half_turns};
 use super::path::{Path, places};
 use super::start::Start;
 use super::stretches::Place;
@@ -122,7 +122,7 @@ impl<'a> Chooser<'a> {
         let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
         // The nodes of both preimages; whole turns change theta2 alone.
         let mut known: [Option<Solutions>; 2] = [None, None];
-        for h in self.setting.half_turns(phi2, span.is_odd()) {
+        for h in half_turns(phi2, span.is_odd(), useful_range(&before, &self.setting)) {
             let target = self.setting.target(span, 1.0, &motion.end, [h, h]);
             let nodes = known[usize::from(h.rem_euclid(2) == 1)].get_or_insert_with(|| {
                 let nodes = self.setting.nodes(&target, motion.tool_length).unwrap_or_default();
@@ -141,7 +141,14 @@ impl<'a> Chooser<'a> {
                 break;
             }
         }
+        self.keep_useful();
         self.stage(None);
+    }
+
+    fn keep_useful(&mut self) {
+        if self.setting.machine.limits().rotary.is_none() {
+            keep_best_windings(&mut self.states);
+        }
     }
 
     fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, reserve: Reserve) -> State {
@@ -217,7 +224,7 @@ impl<'a> Chooser<'a> {
     /// Gives every state at the beginning of a stretch all its ends.
     fn spread(&mut self, phi2: f64) {
         self.examine_skipped();
-        let ends: Vec<i32> = self.setting.half_turns(phi2, None).collect();
+        let ends: Vec<i32> = half_turns(phi2, None, useful_range(&self.states, &self.setting)).collect();
         let before = std::mem::take(&mut self.states);
         for (parent, state) in before.iter().enumerate() {
             for h in ends.iter().copied().chain([state.h[1]]) {
@@ -236,20 +243,14 @@ impl<'a> Chooser<'a> {
         let before = std::mem::take(&mut self.states);
         for (parent, state) in before.iter().enumerate() {
             let state = State { h: [state.h[1]; 2], parent, ..*state };
-            let same = |other: &State| {
-                let near = match (other.node, state.node) {
-                    (Some(a), Some(b)) => (a.pose.alpha - b.pose.alpha).abs() < 1e-6,
-                    (None, None) => true,
-                    _ => false,
-                };
-                other.h == state.h && near
-            };
+            let same = |other: &State| other.h == state.h && has_same_posture(other, &state);
             match self.states.iter_mut().find(|other| same(other)) {
                 Some(other) if state.cost.compare(&other.cost) == Ordering::Less => *other = state,
                 Some(_) => {}
                 None => self.states.push(state),
             }
         }
+        self.keep_useful();
         self.stage(None);
     }
 

@@ -83,10 +83,12 @@ fn check_start(start: &Start, machine: &Machine, faults: &mut FieldErrors) {
             is_inside = false;
         }
     }
-    let ranges = [("theta1", start.theta1, limits.tilt), ("theta2", start.theta2, limits.rotary)];
+    let ranges = [("theta1", start.theta1, Some(limits.tilt)), ("theta2", start.theta2, limits.rotary)];
     for (name, theta, range) in ranges {
-        if !(range[0]..=range[1]).contains(&from_degrees(theta)) {
-            let [low, high] = range.map(to_degrees);
+        if let Some([low, high]) = range
+            && !(low..=high).contains(&from_degrees(theta))
+        {
+            let [low, high] = [low, high].map(to_degrees);
             faults.add(format!("/start/{name}"), format!("is outside its range: {low} to {high} degrees"));
         }
     }

@@ -10,7 +10,7 @@ use super::{FORM, JSON, LINE, plan, post, rows_of, service};
 async fn a_start_is_the_first_row_and_its_sliders_count() {
     let service = service().await;
     let of_machine = super::get(&service, "/machines/verne").await.1;
-    let mut machine = of_machine["machine"].clone();
+    let mut machine = of_machine["definition"].clone();
     let axis = json!({"velocity": 20});
     machine["drives"] = json!({"slider": {"velocity": 100}, "tilt": axis, "rotary": axis});
     let from = |rho: [f64; 3]| {
@@ -129,4 +129,23 @@ async fn a_feed_move_after_a_change_of_length_has_rows() {
     assert!(rows.iter().filter(|row| row.line == 4).count() > 5, "{} rows", rows.len());
     let level = rows.iter().skip(1).all(|row| (row.position.tip[2] - 300.0).abs() < 1e-9);
     assert!(level && rows[1..].iter().all(|row| row.duration.is_some()));
+}
+
+#[tokio::test]
+async fn a_table_without_a_limit_turns_through_all_turns_of_a_program() {
+    let service = service().await;
+    let mut machine = super::get(&service, "/machines/verne").await.1["definition"].clone();
+    machine["limits"]["rotary"] = Value::Null;
+    let points = json!([[60, 0, 300, 20, 0], [60, 0, 300, 20, 3600]]);
+    let mut request = json!({"program": {"points": points}, "tool_length": 100, "machine": machine,
+        "start": {"rho": [500, 500, 500], "theta1": 0, "theta2": 5000}});
+    let report = plan(&service, &request).await;
+    assert_eq!(report["verdict"], "ok", "{}", report["failures"]);
+    let turned = report["turning"]["theta2"].as_f64().unwrap();
+    assert!((3600.0..3600.0 + 90.0 + 1e-6).contains(&turned), "{turned}");
+    let constraints = report["margins"].as_array().unwrap().iter().map(|margin| &margin["constraint"]);
+    assert!(constraints.into_iter().all(|constraint| constraint != "rotary"), "{report}");
+    request["machine"]["limits"].as_object_mut().unwrap().remove("rotary");
+    let (status, problem) = post(&service, "/toolpath", JSON, request.to_string()).await;
+    assert_eq!(status, StatusCode::UNPROCESSABLE_ENTITY, "missing is not null: {problem}");
 }
