@@ -84,6 +84,13 @@ async fn a_solution_states_its_windings() {
     let pose = json!({"x": 60, "y": 20, "z": 300, "phi1": 20, "phi2": 30});
     let reply = post("/ik", json!({"machine": machine, "pose": pose, "tool_length": 100})).await;
     assert_eq!(reply.solutions()[0]["windings"], 0);
+    machine["limits"]["rotary"] = json!(null);
+    let pose = json!({"x": 60, "y": 20, "z": 300, "phi1": 20, "phi2": -4000});
+    let reply = post("/ik", json!({"machine": machine, "pose": pose, "tool_length": 100})).await;
+    let solution = &reply.solutions()[0];
+    assert_eq!(solution.get("windings"), Some(&json!(null)), "there is no limit");
+    assert_eq!(solution["joints"]["theta2"], 4000.0);
+    assert!(solution["margins"].get("rotary").is_none());
     let base = get("/ik?frame=platform&x=0&y=0&z=1200").await;
     assert!(base.solutions()[0].get("windings").is_none());
     let forward = get("/fk?rho=674,685,250&theta1=0&theta2=0").await;

@@ -97,12 +97,9 @@ fn check_continuous<R>(request: &IkBatchRequest<R>) -> Result<(), OperationError
 
 /// Where the machine stands at `start`.
 fn standing_at(setting: &Setting<'_>, start: Start) -> Result<Standing, OperationError> {
-    let fault = |error| OperationError::Fields(vec![error]);
-    let pointer = || "/start/rho".to_owned();
-    let rho = start.rho.ok_or_else(|| fault(FieldError::missing(pointer(), "rho")))?;
-    let posture = forward_working(setting.machine, rho.0).map_err(|_| {
+    let posture = forward_working(setting.machine, start.rho.0).map_err(|_| {
         let detail = "must be sliders of the working mode: no platform pose in this mode has them";
-        fault(FieldError::new(pointer(), detail))
+        OperationError::Fields(vec![FieldError::new("/start/rho", detail)])
     })?;
     let table = TablePosition::of_degrees([start.theta1, start.theta2]).angles;
     Ok(Standing::at(setting.machine, &posture, table, setting.tool_length))

@@ -56,6 +56,11 @@ pub(crate) struct ToolpathRequest {
     /// and `rotary` for phi1, phi2.
     #[serde(default)]
     pub orientation: Option<OrientationName>,
+    /// Whether the table keeps the program's phi2 also where phi1 is 0, so that phi2 does not turn the tool's axis. It
+    /// then turns through the stated angles everywhere; otherwise theta2 is free there. Only moves between points with
+    /// rotary words keep it, and only frames with a = b = 0 allow it.
+    #[serde(default)]
+    pub hold_rotary: bool,
     /// Greatest deviations.
     #[serde(default, deserialize_with = "strict_object")]
     pub tolerance: Tolerance,
@@ -66,7 +71,8 @@ pub(crate) struct ToolpathRequest {
     /// The motion in rapids.
     #[serde(default)]
     pub rapids: RapidsName,
-    /// Where the machine stands before the program. Without it, the machine stands at the first point.
+    /// Where the machine stands before the program: it moves from there to the first point as in a rapid. Without it, the
+    /// machine stands at the first point.
     #[serde(default, deserialize_with = "optional_strict_object")]
     pub start: Option<Start>,
     /// Least height of the tool's end and of the platform's six joints over the table (the plane Z = 0 of the part
