@@ -118,6 +118,12 @@ fn errors_of_a_tool_path_name_the_flag_or_the_line() {
         (LINE, "--tool-length 1 -o DIR/x.ngc --axes X,Y,Z,A,A", "\n  --axes: "),
         ("UNITS/MM\nGOTO/1\n", "--tool-length 1", "line 2, column 1, \"GOTO\""),
         (LINE, "--tool-length 1 --format heidenhain", "Heidenhain"),
+        (LINE, "--tool-length 1 --tcp --rotary-sense table", "\n  --tcp: is for the format gcode"),
+        (
+            LINE,
+            "--tool-length 1 -o DIR/x.ngc --rapid-word g1",
+            "\n  --rapid-word: g1 needs the duration of rapids",
+        ),
     ] {
         let (status, out, _) = toolpath(text, options);
         assert!(status.contains(expected) && out.is_empty(), "{options}: {status}");

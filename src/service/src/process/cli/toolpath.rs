@@ -189,7 +189,7 @@ fn receive(
     } else {
         Box::new(File::open(path).map_err(unreadable)?)
     };
-    let mut receiver = ProgramReceiver::new(format, &reading.options());
+    let mut receiver = ProgramReceiver::new(format, &reading.options(format).map_err(&faults)?);
     let mut piece = vec![0; PIECE_BYTES];
     loop {
         let count = source.read(&mut piece).map_err(unreadable)?;
