@@ -46,8 +46,8 @@ pub(crate) struct IkRowsQuery {
     #[serde(default)]
     #[param(default = false)]
     pub continuous: bool,
-    /// Joints as JSON, such as `{"rho":[600,500,500],"theta1":0,"theta2":180}`, from which the first row continues. Only
-    /// with `continuous`.
+    /// Joints as JSON, such as `{"rho":[600,500,500],"theta1":0,"theta2":180}`, from which the first row continues.
+    /// Only with `continuous`.
     #[param(value_type = Option<String>, nullable = false)]
     pub start: Option<JsonText<StrictObject<Start>>>,
 }
