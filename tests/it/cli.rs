@@ -135,13 +135,19 @@ fn errors_of_a_tool_path_name_the_flag_or_the_line() {
     for (text, options, expected) in [
         (LINE, "--tool-length -1", "--tool-length: "),
         (LINE, "--tool-length 1 --tip-tolerance 0", "--tip-tolerance: "),
-        (LINE, "--tool-length 1 -o DIR/rows.txt", "must end in .csv"),
+        (LINE, "--tool-length 1 -o DIR/rows.txt", "must end in .arrow, .csv"),
         (LINE, "--tool-length 1 -o - --report -", "cannot both"),
         (LINE, "--tool-length 1 --report DIR/./part.cls", "would overwrite the program"),
         (LINE, "--tool-length 1 -o DIR/x.csv --report DIR/x.csv", "would overwrite --output"),
         (LINE, "--tool-length 1 -o DIR/x.ngc --axes X,Y,Z,A,A", "\n  --axes: "),
         ("UNITS/MM\nGOTO/1\n", "--tool-length 1", "line 2, column 1, \"GOTO\""),
         (LINE, "--tool-length 1 --format heidenhain", "Heidenhain"),
+        (LINE, "--tool-length 1 --tcp --rotary-sense table", "\n  --tcp: is for the format gcode"),
+        (
+            LINE,
+            "--tool-length 1 -o DIR/x.ngc --rapid-word g1",
+            "\n  --rapid-word: g1 needs the duration of rapids",
+        ),
     ] {
         let (status, out, _) = toolpath(text, options);
         assert!(status.contains(expected) && out.is_empty(), "{options}: {status}");

@@ -10,7 +10,7 @@ pub enum Format {
     Apt,
     /// G-code: RS-274/NGC and Fanuc.
     Gcode,
-    /// Rows with comma-separated columns and a first row of names.
+    /// Rows below a row of names; commas, semicolons or tabs separate the columns.
     Csv,
     /// Rows as one JSON object or array per line.
     Ndjson,
@@ -46,7 +46,7 @@ impl fmt::Display for FormatError {
 
 impl std::error::Error for FormatError {}
 
-/// What a name stands for.
+/// The format of a name, or why it cannot be read.
 type Known = Result<Format, FormatError>;
 
 impl Format {

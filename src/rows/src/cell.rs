@@ -9,7 +9,7 @@ use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, PrimitiveArray};
 use arrow_schema::DataType;
 use serde::Serialize;
 
-use crate::column::Column;
+use crate::column::{Column, json_text};
 use crate::error::WriteError;
 
 /// How values are written.
@@ -31,7 +31,7 @@ type Cell<'a> = Box<dyn Fn(usize, &mut Vec<u8>) + 'a>;
 /// [`WriteError::NoText`]: there is no text for the type.
 pub(crate) fn cells(column: &Column, style: Style) -> Result<Cell<'_>, WriteError> {
     let values = &column.values;
-    let write = if column.is_json() { Some(json_texts(values, style)) } else { typed(values, style) };
+    let write = if column.is_json { Some(json_texts(values, style)) } else { typed(values, style) };
     let no_text =
         || WriteError::NoText { name: column.name().to_owned(), kind: values.data_type().to_string() };
     let write = write.ok_or_else(no_text)?;
@@ -115,10 +115,8 @@ fn json_texts(values: &ArrayRef, style: Style) -> Cell<'_> {
         let json = texts.value(row);
         if style == Style::Json {
             out.extend_from_slice(json.as_bytes());
-        } else if let Ok(text) = serde_json::from_str::<String>(json) {
-            write_text(&text, style, out);
         } else {
-            write_text(json, style, out);
+            write_text(&json_text(json), style, out);
         }
     })
 }

@@ -1,6 +1,6 @@
 //! A column: its name and its values.
 
-use std::collections::HashMap;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
@@ -8,13 +8,10 @@ use arrow_array::types::{Float64Type, Int8Type};
 use arrow_array::{
     Array, ArrayRef, BooleanArray, DictionaryArray, Float64Array, Int8Array, StringArray, UInt32Array,
 };
-use arrow_schema::{DataType, Field, FieldRef};
+use arrow_schema::{Field, FieldRef};
 
 use crate::error::WriteError;
 use crate::numbers::Numbers;
-
-/// Marks texts that are JSON values: the canonical extension type of Arrow.
-const EXTENSION: (&str, &str) = ("ARROW:extension:name", "arrow.json");
 
 /// A column.
 ///
@@ -30,6 +27,8 @@ const EXTENSION: (&str, &str) = ("ARROW:extension:name", "arrow.json");
 pub struct Column {
     pub(crate) field: FieldRef,
     pub(crate) values: ArrayRef,
+    /// Whether the values are texts of JSON.
+    pub(crate) is_json: bool,
 }
 
 /// The words of which a column has one in each row.
@@ -52,7 +51,8 @@ impl Names {
 
 impl Column {
     pub(crate) fn new(name: &str, values: ArrayRef) -> Self {
-        Self { field: Arc::new(Field::new(name, values.data_type().clone(), true)), values }
+        let field = Field::new(name, values.data_type().clone(), true);
+        Self { field: Arc::new(field), values, is_json: false }
     }
 
     /// Numbers in double precision.
@@ -92,14 +92,15 @@ impl Column {
 
     /// Values of JSON, each as its text.
     pub(crate) fn json(name: &str, values: StringArray) -> Self {
-        let mark = HashMap::from([(EXTENSION.0.to_owned(), EXTENSION.1.to_owned())]);
-        let field = Field::new(name, DataType::Utf8, true).with_metadata(mark);
-        Self { field: Arc::new(field), values: Arc::new(values) }
+        Self { is_json: true, ..Self::new(name, Arc::new(values)) }
     }
 
-    /// Whether the values are those of [`json`](Self::json).
-    pub(crate) fn is_json(&self) -> bool {
-        self.field.metadata().get(EXTENSION.0).is_some_and(|kind| kind == EXTENSION.1)
+    /// The values for a format that has no values of JSON: each as its text, a text without its quotes.
+    pub(crate) fn plain_values(&self) -> ArrayRef {
+        let Some(texts) = self.values.as_string_opt::<i32>().filter(|_| self.is_json) else {
+            return Arc::clone(&self.values);
+        };
+        Arc::new(texts.iter().map(|json| json.map(json_text)).collect::<StringArray>())
     }
 
     /// The name.
@@ -147,6 +148,15 @@ impl Column {
 
     /// The rows from `start` on.
     pub(crate) fn slice(&self, start: usize, length: usize) -> Self {
-        Self { field: Arc::clone(&self.field), values: self.values.slice(start, length) }
+        Self {
+            field: Arc::clone(&self.field),
+            values: self.values.slice(start, length),
+            is_json: self.is_json,
+        }
     }
+}
+
+/// The text of a value of JSON.
+pub(crate) fn json_text(json: &str) -> Cow<'_, str> {
+    serde_json::from_str::<String>(json).map_or(Cow::Borrowed(json), Cow::Owned)
 }

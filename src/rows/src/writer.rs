@@ -84,7 +84,7 @@ impl Writer {
     pub fn write(&mut self, columns: &[Column]) -> Result<Vec<u8>, WriteError> {
         match &mut self.0 {
             Form::Arrow(writer, schema) => {
-                let values = columns.iter().map(|column| Arc::clone(&column.values)).collect();
+                let values = columns.iter().map(Column::plain_values).collect();
                 writer.write(&RecordBatch::try_new(Arc::clone(schema), values)?)?;
                 Ok(std::mem::take(writer.get_mut()))
             }

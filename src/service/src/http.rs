@@ -38,6 +38,7 @@ pub(crate) mod row_stream;
 pub(crate) mod security_headers;
 pub(crate) mod state;
 pub(crate) mod static_content;
+pub(crate) mod time_limit;
 pub(crate) mod toolpath_body;
 pub(crate) mod toolpath_rows;
 pub(crate) mod unknown_parameters;

@@ -28,6 +28,7 @@ pub(crate) mod dexterity_question;
 pub(crate) mod dexterity_subtasks;
 pub(crate) mod dexterity_table;
 pub(crate) mod drawing;
+pub(crate) mod dwell_marks;
 pub(crate) mod family_question;
 pub(crate) mod family_table;
 pub(crate) mod forward;

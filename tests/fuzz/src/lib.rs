@@ -9,8 +9,8 @@
 //! VERNE_FUZZ=1000000 cargo test --release -p verne-fuzz solver -- --nocapture
 //! ```
 //!
-//! `corpus/` contains few inputs: each reaches code that the others do not, or once made a target panic. They were chosen
-//! greedily by the source coverage (`-C instrument-coverage`) of the product.
+//! `corpus/` contains few inputs: each reaches code that the others do not, or once made a target panic. They were
+//! chosen greedily by the source coverage (`-C instrument-coverage`) of the product.
 
 #![allow(
     clippy::unwrap_used,

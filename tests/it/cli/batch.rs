@@ -25,7 +25,7 @@ fn text(directory: &Path, name: &str) -> String {
 
 #[tokio::test]
 async fn rows_are_answered_as_http_does() {
-    let joints = "rho1,rho2,rho3,theta1,theta2\n674,685,250,0,0\n600,500,500,10,20\n";
+    let joints = "rho1,rho2,rho3,theta1,theta2\n674,685,250,0,0\n674,-5,250,0,0\n";
     let points = "z,name,x,y\n1200,inside,0,0\n0,outside,0,0\n?,invalid,0,0\n";
     for (line, uri, rows, status) in [
         ("ik --tool-length 50", "/ik/batch?tool_length=50", POSES, 3),
@@ -102,14 +102,15 @@ fn faulty_commands_are_refused_and_leave_no_file() {
         (rows, "ik --batch DIR/rows.csv -o DIR/out.csv --format csv", "--format"),
         (rows, "ik --batch DIR/rows.csv --format json", "--format"),
         (rows, "ik --batch DIR/rows.csv -o DIR/out.csv --tool-length -1", "--tool-length: "),
-        (rows, "ik --batch DIR/rows.csv --start 1,2,3", "--start: "),
+        (rows, "ik --batch DIR/rows.csv --start {\"rho\":[400,450,450]}", "--start: "),
         (rows, "ik --batch DIR/rows.csv --machine none", "--machine: "),
         (rows, "ik --batch DIR/rows.csv -o DIR/out.csv --frame tool", "column phi1: "),
         (rows, "fk --batch DIR/rows.csv -o DIR/out.csv", "rows.csv cannot be used\n  column rho1: "),
         (rows, "ik --batch DIR/rows.csv --x 1", "--x"),
         (rows, "ik --batch DIR/rows.csv --solutions all", "--solutions"),
-        (rows, "ik --x 1 --y 2 --z 3 --continuous", "--batch"),
-        (rows, "ik --x 1 --y 2 --z 3 -o DIR/out.csv", "--batch"),
+        (rows, "ik --x 1 --y 2 --z 3 --continuous", "--continuous"),
+        (rows, "ik --x 1 --y 2 --z 3 -o DIR/out.csv", "--output"),
+        (rows, "ik --continuous", "--batch"),
         (rows, "contains", "--batch"),
         ("1,2,3\n", "contains --batch DIR/rows.csv", "must name the columns"),
         (&unreadable, "ik --batch DIR/rows.csv -o DIR/out.csv", "row 3 of the CSV text is longer"),

@@ -21,10 +21,10 @@ use crate::operations::table_angles::{TablePosition, ToolOrientation};
 use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, Row, RowReport};
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::field_errors::FieldErrors;
-use crate::wire::fixed_array::FixedArray;
 use crate::wire::json::write_json;
 use crate::wire::parse::{parse_body, parse_expected};
 use crate::wire::request::Frame;
+use crate::wire::start::Start;
 
 /// A row in frame `part`.
 const PART_POSE: RowFormat =
@@ -96,7 +96,7 @@ impl PoseBatch {
         let clearance = tool.clearance(&machine).filter(|_| frame == Frame::Part);
         let (tool_length, continuous) = (tool.length, request.continuous);
         let mut batch = Self { machine, frame, tool_length, clearance, continuous, standing: None };
-        batch.standing = request.start.map(|start| standing_at(&batch.setting(), &start.0)).transpose()?;
+        batch.standing = request.start.map(|start| standing_at(&batch.setting(), start)).transpose()?;
         Ok(batch)
     }
 
@@ -127,27 +127,22 @@ fn check_continuous<R>(request: &IkBatchRequest<R>) -> Result<(), OperationError
     if request.continuous && request.frame != Frame::Part {
         faults.add("/continuous", "is allowed only in frame part: the table has the windings and preimages");
     }
-    if let Some(FixedArray([rho1, rho2, rho3, theta1, theta2])) = request.start {
+    if let Some(start) = &request.start {
         if !request.continuous {
             faults.add("/start", "is allowed only with `continuous: true`");
         }
-        faults.lengths("/start", &[rho1, rho2, rho3]);
-        faults.angle("/start/3", Some(theta1));
-        faults.angle("/start/4", Some(theta2));
+        start.check(&mut faults);
     }
     faults.into_result()
 }
 
 /// Where the machine stands at `start`.
-fn standing_at(
-    setting: &Setting<'_>,
-    &[rho1, rho2, rho3, theta1, theta2]: &[f64; 5],
-) -> Result<Standing, OperationError> {
-    let posture = forward_working(setting.machine, [rho1, rho2, rho3]).map_err(|_| {
-        let detail = "must be joints of the working mode: no platform pose in this mode has these sliders";
-        OperationError::Fields(vec![FieldError::new("/start", detail)])
+fn standing_at(setting: &Setting<'_>, start: Start) -> Result<Standing, OperationError> {
+    let posture = forward_working(setting.machine, start.rho.0).map_err(|_| {
+        let detail = "must be sliders of the working mode: no platform pose in this mode has them";
+        OperationError::Fields(vec![FieldError::new("/start/rho", detail)])
     })?;
-    let table = TablePosition::of_degrees([theta1, theta2]).angles;
+    let table = TablePosition::of_degrees([start.theta1, start.theta2]).angles;
     Ok(Standing::at(setting.machine, &posture, table, setting.tool_length))
 }
 

@@ -8,10 +8,11 @@ use utoipa::ToSchema;
 use crate::wire::answer::MachineId;
 use crate::wire::bounded_list::BoundedList;
 use crate::wire::constraint::{ConstraintName, ElementName};
-use crate::wire::fixed_array::FiveJoints;
 use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::request::Frame;
+use crate::wire::start::Start;
+use crate::wire::strict_object::optional_strict_object;
 use crate::wire::tool::has_tool;
 
 /// The working solution for many poses.
@@ -56,11 +57,10 @@ pub(crate) struct IkBatchRequest<R> {
     #[serde(default)]
     #[schema(default = false)]
     pub continuous: bool,
-    /// `[rho1, rho2, rho3, theta1, theta2]` from which the first row continues. Only with `continuous`. Without it the
-    /// first row has the least |theta2|, or phi1 >= 0 if two are equal.
-    #[serde(default)]
-    #[schema(inline, nullable = false)]
-    pub start: Option<FiveJoints>,
+    /// Joints, with the sliders, from which the first row continues. Only with `continuous`. Without it the first row
+    /// has the least |theta2|, or phi1 >= 0 if two are equal.
+    #[serde(default, deserialize_with = "optional_strict_object")]
+    pub start: Option<Start>,
 }
 
 /// The working solution for many joint positions.

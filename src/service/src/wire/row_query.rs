@@ -1,4 +1,5 @@
-//! Parameters of batches whose rows come in columns, in query strings and on the command line: what is not a row.
+//! Parameters of batches whose rows come in columns, in query strings and on the command line: everything that is not a
+//! row.
 
 use clap::Args;
 use serde::Deserialize;
@@ -7,11 +8,12 @@ use utoipa::IntoParams;
 use crate::wire::batch::{FkBatchNumbers, IkBatchNumbers, Orientation};
 use crate::wire::bounded_list::BoundedList;
 use crate::wire::contains::ANY_TOLERANCE;
-use crate::wire::error::{FieldError, OperationError};
-use crate::wire::fixed_array::{FiveJoints, FixedArray, JointList};
+use crate::wire::json_text::JsonText;
 use crate::wire::machine_ref::{MachineRef, REFERENCE, reference_name};
 use crate::wire::request::Frame;
 use crate::wire::row_format::RowFormat;
+use crate::wire::start::Start;
+use crate::wire::strict_object::StrictObject;
 use crate::wire::sweep::Sweep;
 use crate::wire::workspace::{KindName, WorkspaceRequest};
 
@@ -56,35 +58,27 @@ pub(crate) struct IkRowsQuery {
     #[arg(long)]
     #[param(default = false)]
     pub continuous: bool,
-    /// rho1,rho2,rho3,theta1,theta2 from which the first row continues. Only with `continuous`.
-    #[arg(long, allow_hyphen_values = true)]
-    #[param(inline, style = Form, explode = false, nullable = false)]
-    pub start: Option<JointList>,
+    /// Joints as JSON, such as `{"rho":[600,500,500],"theta1":0,"theta2":180}`, from which the first row continues.
+    /// Only with `continuous`.
+    #[arg(long, value_name = "JSON")]
+    #[param(value_type = Option<String>, nullable = false)]
+    pub start: Option<JsonText<StrictObject<Start>>>,
 }
 
-impl IkRowsQuery {
+impl From<IkRowsQuery> for IkBatchNumbers {
     /// The request without rows.
-    pub(crate) fn into_request(self) -> Result<IkBatchNumbers, OperationError> {
-        Ok(IkBatchNumbers {
-            machine: MachineRef::Name(self.machine),
-            frame: self.frame,
-            tool_length: self.tool_length,
-            table_clearance: self.table_clearance,
-            tool_radius: self.tool_radius,
+    fn from(query: IkRowsQuery) -> Self {
+        Self {
+            machine: MachineRef::Name(query.machine),
+            frame: query.frame,
+            tool_length: query.tool_length,
+            table_clearance: query.table_clearance,
+            tool_radius: query.tool_radius,
             poses: BoundedList::default(),
-            continuous: self.continuous,
-            start: self.start.map(|start| five_joints(&start)).transpose()?,
-        })
+            continuous: query.continuous,
+            start: query.start.map(|start| start.0.0),
+        }
     }
-}
-
-fn five_joints(joints: &JointList) -> Result<FiveJoints, OperationError> {
-    let FixedArray([rho1, rho2, rho3]) = joints.first;
-    let [Some(theta1), Some(theta2)] = [0, 1].map(|i| joints.optional(i)) else {
-        let detail = "expected rho1,rho2,rho3,theta1,theta2";
-        return Err(OperationError::Fields(vec![FieldError::new("/start", detail)]));
-    };
-    Ok(FixedArray([rho1, rho2, rho3, theta1, theta2]))
 }
 
 /// Parameters of POST /fk/batch with rows in columns.

@@ -105,8 +105,7 @@ pub(crate) async fn ik_batch(
     request: Request,
 ) -> Result<Response, HttpError> {
     if let Some(formats) = formats(request.headers(), query.format, &accept)? {
-        let answer = query.into_request().and_then(|request| InverseColumns::new(&request, &state.machines));
-        let answer = answer.map_err(in_query)?;
+        let answer = InverseColumns::new(&query.into(), &state.machines).map_err(in_query)?;
         return answer_rows(&state, client, request, formats, Box::new(answer)).await;
     }
     let batch = document(request, &state).await?;

@@ -50,7 +50,8 @@ pub(crate) async fn post_program(
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
     let format = query.format(body.media_type())?;
-    let received = body.receive(format, query.options()).await?;
+    let options = query.options(format)?;
+    let received = body.receive(format, options).await?;
     let StoredProgram { id, summary, is_new } = store_program(&state.results, &received.program).await?;
     drop(received);
     let mut response = summary_of(&state, id, summary).respond(&Conditions::default())?;

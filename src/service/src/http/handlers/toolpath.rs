@@ -71,9 +71,10 @@ pub(crate) async fn post_toolpath(
         ToolpathBody::File(file) => {
             let FileRequest { reading, query, body } = *file;
             let format = reading.format(body.media_type()).map_err(with_json)?;
+            let options = reading.options(format)?;
             let checked = CheckedToolpath::new(&query.into_request(), &state.machines);
             let checked = checked.map_err(point_into_toolpath_query)?;
-            let ProgramInMemory { program, memory } = body.receive(format, reading.options()).await?;
+            let ProgramInMemory { program, memory } = body.receive(format, options).await?;
             let question = question(&state, checked, ProgramSource::Received(Box::new(program))).await?;
             drop(memory);
             question

@@ -19,8 +19,7 @@ const MESSAGE_BYTES: usize = 1;
 /// Writes the examples into the document.
 pub(crate) fn write_table_examples(document: &mut Value) {
     let machines = MachineRegistry::default();
-    let ik = parse_query::<IkRowsQuery>("").and_then(IkRowsQuery::into_request);
-    let ik = ik.and_then(|request| InverseColumns::new(&request, &machines));
+    let ik = parse_query::<IkRowsQuery>("").and_then(|query| InverseColumns::new(&query.into(), &machines));
     let fk = parse_query::<FkRowsQuery>("").and_then(|query| ForwardColumns::new(&query.into(), &machines));
     let contains = parse_query::<ContainsRowsQuery>("");
     let contains = contains.and_then(|query| ContainsColumns::new(&query.into(), &machines));

@@ -151,8 +151,9 @@ problems! {
         Operation(OperationError::StoreUnavailable) => OperationError::StoreUnavailable;
     JobTooLong, "job_too_long", SERVICE_UNAVAILABLE, "The job exceeded its time limit.";
         Job(JobError::DeadlinePassed) => JobError::DeadlinePassed;
-    TimedOut, "timed_out", SERVICE_UNAVAILABLE, "The request exceeded its time limit.";
-        HttpError::TimedOut => HttpError::TimedOut;
+    TimedOut, "timed_out", SERVICE_UNAVAILABLE,
+        "The request exceeded its time limit, or its body arrived too slowly.";
+        HttpError::TimedOut | Request(RequestError::SlowBody(_)) => HttpError::TimedOut;
     NoRoom, "no_room", INSUFFICIENT_STORAGE, "The result is larger than the whole storage for results.";
         Job(JobError::ResultTooLarge) => JobError::ResultTooLarge;
     ProgramTooLarge, "program_too_large", INSUFFICIENT_STORAGE,

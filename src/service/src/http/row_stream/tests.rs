@@ -190,7 +190,7 @@ async fn an_error_before_the_first_row_is_a_problem() {
         ("/ik/batch", csv, "x,y,z,phi1,phi2,x\n", 422, "invalid_request", Some("/columns/x")),
         ("/ik/batch?tool_length=-1", csv, "", 422, "invalid_request", Some("/query/tool_length")),
         ("/ik/batch?machine=nautilus", csv, "", 422, "invalid_request", Some("/query/machine")),
-        ("/ik/batch?start=1,2,3", csv, "", 422, "invalid_request", Some("/query/start")),
+        ("/ik/batch?start={}", csv, "", 422, "invalid_request", Some("/query/start")),
         ("/ik/batch?solutions=all", csv, "", 422, "invalid_request", Some("/query/solutions")),
         ("/ik/batch?format=json", csv, "", 422, "invalid_request", Some("/query/format")),
         ("/ik/batch?format=csv", "application/json", "{}", 422, "invalid_request", Some("/query/format")),

@@ -64,7 +64,7 @@ impl BatchQuery for IkRowsQuery {
     }
 
     fn into_answer(self, machine: MachineRef) -> Result<Box<dyn RowAnswer>, OperationError> {
-        let request = IkBatchNumbers { machine, ..self.into_request()? };
+        let request = IkBatchNumbers { machine, ..self.into() };
         Ok(Box::new(InverseColumns::new(&request, &MachineRegistry::default())?))
     }
 }

@@ -32,12 +32,17 @@ impl<One: Args, Rows: BatchQuery> Args for OneOrBatch<One, Rows> {
         let mut command = OneCommand::<One>::augment_args(command);
         let of_one: Vec<_> = command.get_arguments().map(|arg| arg.get_id().clone()).collect();
         let of_batch: Vec<_> = batch.get_arguments().map(|arg| arg.get_id().clone()).collect();
-        for id in of_one.iter().filter(|id| !of_batch.contains(id)) {
+        let only_one: Vec<_> = of_one.iter().filter(|id| !of_batch.contains(id)).collect();
+        for id in &only_one {
             command = command.mut_arg(id, |arg| arg.conflicts_with(BATCH));
         }
         for arg in batch.get_arguments().filter(|arg| !of_one.contains(arg.get_id())).cloned() {
-            let decides = *arg.get_id() == BATCH;
-            let arg = if decides { arg.required(false) } else { arg.requires(BATCH) };
+            // A required argument of the question excuses a missing --batch, so `requires` is not enough.
+            let arg = if *arg.get_id() == BATCH {
+                arg.required(false)
+            } else {
+                arg.requires(BATCH).conflicts_with_all(only_one.iter().copied())
+            };
             command = command.arg(arg.help_heading("Batches"));
         }
         command

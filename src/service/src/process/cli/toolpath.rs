@@ -170,7 +170,7 @@ fn receive(
     })?;
     let unreadable = |error: io::Error| format!("{}: {error}", name_of(path));
     let mut source = source(path)?;
-    let mut receiver = ProgramReceiver::new(format, &reading.options());
+    let mut receiver = ProgramReceiver::new(format, &reading.options(format).map_err(&faults)?);
     let mut piece = vec![0; PIECE_BYTES];
     loop {
         let count = source.read(&mut piece).map_err(unreadable)?;
