@@ -70,8 +70,9 @@ enum Command {
     Workspace(WorkspaceCommand),
     /// Compute a dexterity map: the inclinations that reach each point of the part.
     Dexterity(Box<DexterityCommand>),
-    /// Plan the joint motion of a program: its rows (-o FILE), and a report on the limits that it breaks. The exit
-    /// status is 3 if the machine cannot run the program.
+    /// Plan the joint motion of a program: its rows (-o FILE), and a report on the limits that it breaks.
+    ///
+    /// The exit status is 3 if the machine cannot run the program.
     Toolpath(Box<ToolpathCommand>),
     /// Print a machine as a JSON file, which every --machine accepts.
     Machine(MachineCommand),

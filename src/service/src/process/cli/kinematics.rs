@@ -19,16 +19,21 @@ use crate::wire::row_query::{ContainsRowsQuery, FkRowsQuery, IkRowsQuery};
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum KinematicsCommand {
-    /// Solve the forward kinematics, like GET /fk; with --batch for each row of a file, with the columns rho1, rho2,
-    /// rho3 and perhaps theta1 and theta2. The exit status is 3 if there is no solution, or if a row is not `ok`.
+    /// Solve the forward kinematics, like GET /fk; with --batch for each row of a file.
+    ///
+    /// The columns of a file are rho1, rho2, rho3 and perhaps theta1 and theta2. The exit status is 3 if there is no
+    /// solution, or if a row is not `ok`.
     #[command(name = "fk")]
     Forward(Box<OneOrBatch<FkQuery, FkRowsQuery>>),
-    /// Solve the inverse kinematics, like GET /ik; with --batch for each row of a file, with the columns x, y, z and
-    /// phi1, phi2 or i, j, k. The exit status is 3 if there is no solution, or if a row is not `ok`.
+    /// Solve the inverse kinematics, like GET /ik; with --batch for each row of a file.
+    ///
+    /// The columns of a file are x, y, z and phi1, phi2 or i, j, k. The exit status is 3 if there is no solution, or if
+    /// a row is not `ok`.
     #[command(name = "ik")]
     Inverse(Box<OneOrBatch<IkQuery, IkRowsQuery>>),
-    /// Test whether the points of a file, with the columns x, y and z, belong to a workspace. The exit status is 3 if a
-    /// row is not a point.
+    /// Test whether the points of a file belong to a workspace.
+    ///
+    /// The columns of the file are x, y and z. The exit status is 3 if a row is not a point.
     Contains(BatchCommand<ContainsRowsQuery>),
 }
 
