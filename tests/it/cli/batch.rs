@@ -102,7 +102,11 @@ fn faulty_commands_are_refused_and_leave_no_file() {
         (rows, "ik --batch DIR/rows.csv -o DIR/out.csv --format csv", "--format"),
         (rows, "ik --batch DIR/rows.csv --format json", "--format"),
         (rows, "ik --batch DIR/rows.csv -o DIR/out.csv --tool-length -1", "--tool-length: "),
-        (rows, "ik --batch DIR/rows.csv --start {\"rho\":[400,450,450]}", "--start: "),
+        (
+            rows,
+            "ik --batch DIR/rows.csv --start {\"rho\":[400,450,450],\"theta1\":0,\"theta2\":0}",
+            "--start: is allowed only",
+        ),
         (rows, "ik --batch DIR/rows.csv --machine none", "--machine: "),
         (rows, "ik --batch DIR/rows.csv -o DIR/out.csv --frame tool", "column phi1: "),
         (rows, "fk --batch DIR/rows.csv -o DIR/out.csv", "rows.csv cannot be used\n  column rho1: "),
