@@ -5,8 +5,8 @@
 //!   waits for a job.
 //! - A batch has a permit of its own from the end of its body until its response is sent. The worker threads compute
 //!   batches in order.
-//! - A batch that is answered while its rows arrive has a permit of another kind: it may last for any time. Each holds
-//!   the memory of one body at most. The worker threads compute its chunks in turn with all other work.
+//! - A batch that is answered while its rows arrive has a permit of another kind: it may last for any time. There
+//!   are fewer of these, so that some memory of bodies is left for other batches. The worker threads compute its chunks in turn with all other work.
 //! - The encoding of a mesh as a file has a permit. Few encodings run at once; the others wait in order.
 //! - Bodies that are read and responses that are sent are counted by their memory.
 //!
@@ -24,6 +24,10 @@ use crate::limits::response_memory::{CountedBody, memory_of};
 /// Most batches that wait, are computed or are sent. All bodies together may use the memory of this many of the largest
 /// bodies: half a gibibyte with the default limit.
 const BATCHES: usize = 32;
+
+/// A table takes the memory of this many of the largest bodies: the bytes that are read ahead, a message of Arrow that is
+/// incomplete, and one that is answered.
+const TABLE_BODIES: usize = 3;
 
 /// Most meshes that are encoded at once. Each is in memory three times: packed, as a mesh and as a file. This is some
 /// hundred megabytes for the largest.
@@ -66,7 +70,7 @@ pub(crate) struct Admission {
     /// Batches whose bodies are complete, until their responses are sent.
     pub batches: Arc<Quota>,
     /// Batches that are answered while their rows arrive, until their answers are sent.
-    pub row_streams: Arc<Quota>,
+    pub(super) row_streams: Arc<Quota>,
     /// Encodings of meshes that wait or run.
     pub(super) meshes: Arc<Quota>,
     /// Encodings of meshes that run.
@@ -90,7 +94,7 @@ impl Admission {
             slow_requests: Quota::new(requests - requests / 4),
             bodies: Quota::new(bodies),
             batches: Quota::new(batches),
-            row_streams: Quota::new(batches / 2),
+            row_streams: Quota::new(batches / 4),
             meshes: Quota::new(batches),
             running_meshes: Quota::new(MESHES),
             programs: Quota::new(2 * pages(PROGRAM_BYTES as u64)),
@@ -120,6 +124,17 @@ impl Admission {
     /// The memory of a body, before any of it is read.
     pub(crate) fn body(&self, client: Option<&str>) -> Result<BodyMemory, LimitError> {
         self.bodies.take(client).map(BodyMemory)
+    }
+
+    /// A permit for a table with its memory, before any of it is read. A body has at most this many bytes.
+    pub(crate) fn table(
+        &self,
+        client: Option<&str>,
+        body_bytes: usize,
+    ) -> Result<[QuotaPermit; 2], LimitError> {
+        let stream = self.row_streams.take(client)?;
+        let memory = TABLE_BODIES.saturating_mul(pages(body_bytes as u64));
+        Ok([self.bodies.take_many(client, memory)?, stream])
     }
 
     /// The memory of a program that is received, before any of it is read.
