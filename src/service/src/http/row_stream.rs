@@ -94,9 +94,9 @@ pub(crate) async fn answer_rows(
     (from, to): (Format, Format),
     answer: Box<dyn RowAnswer>,
 ) -> Result<Response, HttpError> {
-    let permit = state.admission.row_streams.take(client.quota())?;
     let coding = Coding::of(request.headers())?;
     let memory = state.limits.body_bytes;
+    let permits = state.admission.table(client.quota(), memory)?;
     let hash = HeaderValue::from_str(&answer.machine().id.hash).map_err(|_| OperationError::Internal)?;
     let worker = Worker {
         stream: RowStream::new(answer, from, to, memory),
@@ -108,7 +108,7 @@ pub(crate) async fn answer_rows(
     };
     let charge = RowCharge::new(client.bucket.clone(), state.limits.rows);
     let body = ReadAhead::new(request.into_body(), client, memory);
-    let mut answering = Answering { body, worker: Some(worker), format: to, charge, _permit: permit };
+    let mut answering = Answering { body, worker: Some(worker), format: to, charge, _permits: permits };
     let first = answering.next_piece().await?;
     let rest = stream::unfold(Some(answering), |answering| async move {
         let mut answering = answering?;
@@ -131,7 +131,7 @@ struct Answering {
     worker: Option<Worker>,
     format: Format,
     charge: RowCharge,
-    _permit: QuotaPermit,
+    _permits: [QuotaPermit; 2],
 }
 
 impl Answering {
