@@ -155,10 +155,11 @@ impl AnsweredRows {
     fn write(&mut self, path: &Path, out: &mut dyn Write) -> Result<(), String> {
         let mut next = self.next()?;
         let mut destination = destination(path, out)?;
+        let name = if is_standard(path) { "the answers".to_owned() } else { path.display().to_string() };
         let mut write_all = || {
             while let Some(bytes) = next.take() {
                 let written = destination.write_all(&bytes).and_then(|()| destination.flush());
-                written.map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+                written.map_err(|error| format!("cannot write {name}: {error}"))?;
                 next = self.next()?;
             }
             Ok(())
