@@ -58,13 +58,16 @@ impl RowAnswer for InverseColumns {
         let rows = RowColumns::of(chunk, &self.names)?;
         let answered = self.batch.answer(&rows.rows());
         let joints: Vec<_> = answered.iter().map(|row| row.joints.as_ref()).collect();
+        let outcomes: Vec<_> = answered.iter().map(|row| &row.outcome).collect();
         let names = if self.batch.frame == Frame::Part { JOINTS } else { &JOINTS[..3] };
-        let mut columns: Vec<_> = number_columns(names, &joints).collect();
+        let (mut columns, outcomes) = rayon::join(
+            || number_columns(names, &joints).collect::<Vec<_>>(),
+            || self.outcomes.of(chunk, &outcomes),
+        );
         if self.batch.continuous {
             columns.push(Column::flags("jump", answered.iter().map(|row| row.jump)));
         }
-        let outcomes: Vec<_> = answered.iter().map(|row| &row.outcome).collect();
-        columns.extend(self.outcomes.of(chunk, &outcomes)?);
+        columns.extend(outcomes?);
         Ok(columns)
     }
 
