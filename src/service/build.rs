@@ -1,7 +1,7 @@
 //! Builds the viewer with npm into `OUT_DIR`. The crate embeds it from there.
 //!
-//! Without Node the build succeeds, and the service explains at `/` how to get the viewer. Cargo does not run this script
-//! again when Node is installed later: a script that runs at every build would link the binary at every build.
+//! Without Node the build succeeds, and the service explains at `/` how to get the viewer. Cargo does not run this
+//! script again when Node is installed later: a script that runs at every build would link the binary at every build.
 //! With `VERNE_VIEWER=require` a viewer that cannot be built is an error; with `VERNE_VIEWER=skip` the script does not
 //! build it.
 

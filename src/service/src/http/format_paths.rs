@@ -1,7 +1,8 @@
-//! A path of its own for each format of a file: `/workspace/{id}/mesh.glb`.
+//! A path of its own for each format of a file or table: `/workspace/{id}/mesh.glb`, `/ik/batch.csv`.
 //!
-//! Clients that are generated from the OpenAPI document know one media type of each answer. The document therefore
-//! lists these paths. The path without a format selects it by `format` or Accept; the document does not list it.
+//! Clients that are generated from the OpenAPI document know one media type of each body. The document therefore
+//! lists these paths. The path without a format selects it by `format`, Accept or Content-Type. The document lists it
+//! only for requests with a body, where it is that of JSON.
 
 use axum::extract::Request;
 use axum::http::Uri;
@@ -10,20 +11,26 @@ use axum::routing::MethodRouter;
 use tower::util::MapRequestLayer;
 use utoipa::openapi::path::{Operation, PathItem, Paths};
 use utoipa::openapi::{RefOr, Response};
+use verne_rows::Format;
 
 use crate::http::state::SharedState;
 use crate::wire::format::{MeshFormat, SliceFormat};
-use crate::wire::toolpath_row::RowFormat;
+use crate::wire::row_format::RowFormat;
 
-/// A format: its name and its media type.
-type Format = (&'static str, &'static str);
+/// The name and the media type of a format.
+type NameAndMedia = (&'static str, &'static str);
 
-/// The formats of the file at a path.
-fn formats(path: &str) -> Vec<Format> {
+/// The formats that have paths of their own: of the file at a path, or of the tables that it accepts besides JSON.
+fn formats(path: &str) -> Vec<NameAndMedia> {
     match path {
         "/workspace/{id}/mesh" => MeshFormat::ALL.map(|format| (format.name(), format.media())).into(),
         "/workspace/{id}/slice" => SliceFormat::ALL.map(|format| (format.name(), format.media()[0])).into(),
-        "/toolpath/{id}/rows" => RowFormat::ALL.map(|format| (format.name(), format.media())).into(),
+        "/toolpath/{id}/rows" | "/workspace/{id}/cells" => {
+            RowFormat::ALL.map(|format| (format.name(), format.media())).into()
+        }
+        "/fk/batch" | "/ik/batch" | "/workspace/contains" => {
+            Format::ALL.map(|format| (format.name(), format.media())).into()
+        }
         _ => Vec::new(),
     }
 }
@@ -34,7 +41,7 @@ pub(crate) fn of(
     route: &MethodRouter<SharedState>,
 ) -> Vec<(Paths, MethodRouter<SharedState>)> {
     let of_path = |(path, item): (&String, &PathItem)| {
-        let of_format = |format: Format| {
+        let of_format = |format: NameAndMedia| {
             let (name, _) = format;
             let mut paths = Paths::new();
             paths.paths.insert(format!("{path}.{name}"), in_format(item.clone(), format));
@@ -47,14 +54,19 @@ pub(crate) fn of(
 }
 
 /// The documentation of a path for one of its formats.
-fn in_format(mut item: PathItem, format: Format) -> PathItem {
-    if let Some(operation) = &mut item.get {
+fn in_format(mut item: PathItem, format: NameAndMedia) -> PathItem {
+    for operation in [&mut item.get, &mut item.post].into_iter().flatten() {
         narrow(operation, format);
     }
     item
 }
 
-fn narrow(operation: &mut Operation, (name, media): Format) {
+/// Whether the document lists the path without a format, too.
+pub(crate) fn is_listed(paths: &Paths) -> bool {
+    paths.paths.iter().all(|(path, item)| formats(path).is_empty() || item.post.is_some())
+}
+
+fn narrow(operation: &mut Operation, (name, media): NameAndMedia) {
     if let Some(id) = &mut operation.operation_id {
         *id = format!("{id}_{name}");
     }
@@ -63,6 +75,9 @@ fn narrow(operation: &mut Operation, (name, media): Format) {
     }
     if let Some(parameters) = &mut operation.parameters {
         parameters.retain(|parameter| !matches!(parameter, RefOr::T(known) if known.name == "format"));
+    }
+    if let Some(RefOr::T(body)) = &mut operation.request_body {
+        body.content.retain(|known, _| known == media);
     }
     if let Some(RefOr::T(Response { content, .. })) = operation.responses.responses.get_mut("200") {
         content.retain(|known, _| known == media);
@@ -126,5 +141,22 @@ mod tests {
         let (status, _, _) = get(&service, &format!("{path}/mesh.glb?format=stl"), "*/*").await;
         assert_eq!(status, StatusCode::UNPROCESSABLE_ENTITY);
         assert_eq!(get(&service, &format!("{path}/mesh.obj"), "*/*").await.0, StatusCode::NOT_FOUND);
+    }
+
+    #[tokio::test]
+    async fn tables_have_paths_besides_that_of_json() {
+        let service = service("").await;
+        let rows = "x,y,z\n100,50,300\n";
+        let post = |path: &str, media: &str, body: String| {
+            Request::post(path).header(CONTENT_TYPE, media).body(Body::from(body)).unwrap()
+        };
+        let path = "/ik/batch.csv?tool_length=50";
+        let (status, _, of_path) = send(&service, post(path, "text/csv", rows.to_owned())).await;
+        assert_eq!(status, StatusCode::OK, "{of_path:?}");
+        let path = "/ik/batch?tool_length=50&format=csv";
+        assert_eq!(send(&service, post(path, "text/csv", rows.to_owned())).await.2, of_path);
+        let body = json!({"poses": [[100, 50, 300, 0, 0]]}).to_string();
+        let (status, _, answer) = send(&service, post("/ik/batch", "application/json", body)).await;
+        assert_eq!(status, StatusCode::OK, "{answer:?}");
     }
 }

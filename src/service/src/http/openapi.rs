@@ -9,6 +9,7 @@ mod operations;
 mod optional_fields;
 pub(crate) mod problem_responses;
 pub(crate) mod security;
+pub(crate) mod table_examples;
 mod version_3_0;
 pub(crate) mod versions;
 
@@ -21,6 +22,7 @@ use crate::http::openapi::machine_schema::join_descriptions;
 use crate::http::openapi::one_media_type::keep_one_media_type;
 use crate::http::openapi::operations::drop_unused;
 use crate::http::openapi::optional_fields::describe_defaults;
+use crate::http::openapi::table_examples::write_table_examples;
 use crate::http::problem::Problem;
 use crate::wire::dexterity::DexteritySummary;
 use crate::wire::family::FamilySummary;
@@ -80,6 +82,7 @@ pub(crate) fn complete(api: &utoipa::openapi::OpenApi) -> Value {
     for example in examples() {
         example.write_into(&mut document);
     }
+    write_table_examples(&mut document);
     join_descriptions(&mut document);
     bare_references(&mut document);
     describe_defaults(&mut document);

@@ -89,14 +89,14 @@ pub(crate) fn routes(control: &AccessControl) -> OpenApiRouter<SharedState> {
     list().into_iter().fold(router, |router, (access, (schemas, paths, route))| {
         let guarded = |paths: &Paths, route| control.guard(reject_unknown(route, paths), access);
         let formats = format_paths::of(&paths, &route);
-        let (router, documented) = if formats.is_empty() {
-            (router, vec![(paths, route)])
+        let (router, listed) = if format_paths::is_listed(&paths) {
+            (router, Some((paths, route)))
         } else {
             let of_path =
                 |router: OpenApiRouter<_>, path: &String| router.route(path, guarded(&paths, route.clone()));
-            (paths.paths.keys().fold(router, of_path), formats)
+            (paths.paths.keys().fold(router, of_path), None)
         };
-        documented.into_iter().fold(router, |router, (paths, route)| {
+        listed.into_iter().chain(formats).fold(router, |router, (paths, route)| {
             let route = guarded(&paths, route);
             router.routes((schemas.clone(), security::with_access_problems(paths, access), route))
         })

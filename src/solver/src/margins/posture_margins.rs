@@ -106,7 +106,7 @@ impl Margins {
             rod_interference: distance - 2.0 * g.rod_radius,
             nearest_rods,
             tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
-            rotary: table.map(|table| range_margins(limits.rotary, table.theta2)),
+            rotary: table.zip(limits.rotary).map(|(table, range)| range_margins(range, table.theta2)),
             table_clearance: None,
         }
     }

@@ -40,8 +40,9 @@ impl WorstMargin {
         let mut worst = Self::new(rod_crossing, machine.normalization.rod_crossing);
         worst.compare_strokes(machine, &[0, 1, 2].map(|i| range_margins(limits.stroke[i], rho[i])));
         if let Some(TableAngles { theta1, theta2 }) = table {
-            let (tilt, rotary) = (range_margins(limits.tilt, theta1), range_margins(limits.rotary, theta2));
-            each_range(machine, Some(tilt), Some(rotary), &mut |constraint, element, value, factor| {
+            let tilt = range_margins(limits.tilt, theta1);
+            let rotary = limits.rotary.map(|range| range_margins(range, theta2));
+            each_range(machine, Some(tilt), rotary, &mut |constraint, element, value, factor| {
                 worst.compare(constraint, element, value, factor);
             });
         }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::motion::Motion;
+use super::motion::{Motion, Turning};
 use super::path::Path;
 use crate::fast_math::{angle_of, angle_of_vector};
 
@@ -68,8 +68,12 @@ pub(super) fn to_nearest(difference: f64, period: f64) -> f64 {
     difference - period * (difference / period - 0.5 - SEAM).ceil()
 }
 
+/// phi2 where a motion of kind [`Arrive`](super::MotionKind::Arrive) ends.
 pub(super) fn of_arrival(motion: &Motion) -> f64 {
-    azimuth(motion.end.axis).unwrap_or(0.0)
+    match motion.turning {
+        Turning::Held { end, .. } => end[1],
+        Turning::GreatCircle | Turning::Angles { .. } => azimuth(motion.end.axis).unwrap_or(0.0),
+    }
 }
 
 /// The value nearest to `before` with this azimuth, modulo half turns.

@@ -6,13 +6,13 @@
 //!
 //! Inside the cap phi2 is free, and phi1 is the axis' component on the meridian. Between the meridians where a path
 //! enters and leaves the cap, phi2 changes linearly with the path: over the rapids of the stretch if it has any, else
-//! over all of it.
+//! over all of it. A program may also state phi2 there; it then is the program's everywhere.
 
 use std::f64::consts::{PI, TAU};
 
 use super::azimuth::{Azimuths, azimuth, continued, of_arrival, to_nearest};
 use super::cap::Cap;
-use super::motion::{Motion, MotionKind, ToolPosition};
+use super::motion::{Motion, MotionKind, Standstill, Turning};
 use super::path::Path;
 use super::stretches::Stretch;
 
@@ -30,6 +30,8 @@ enum Rule {
     Follow { azimuth: [f64; 2], phi2: f64 },
     /// phi2 is linear in the path; `share` is the fraction of the stretch's measure at both ends.
     Linear { stretch: usize, share: [f64; 2] },
+    /// phi2 is linear between these values. `is_odd`: they are the program's phi2 and an odd number of half turns.
+    Words { phi2: [f64; 2], is_odd: bool },
     /// phi2 stays, whatever the axis.
     Held { phi2: f64 },
 }
@@ -39,7 +41,7 @@ impl Span {
     pub(super) fn stretch(&self) -> Option<usize> {
         match self.rule {
             Rule::Linear { stretch, .. } => Some(stretch),
-            Rule::Follow { .. } | Rule::Held { .. } => None,
+            Rule::Follow { .. } | Rule::Words { .. } | Rule::Held { .. } => None,
         }
     }
 
@@ -52,9 +54,17 @@ impl Span {
     pub(super) fn turning(&self) -> Self {
         let rule = match self.rule {
             Rule::Linear { stretch, .. } => Rule::Linear { stretch, share: [0.0, 1.0] },
-            Rule::Follow { .. } | Rule::Held { .. } => self.rule,
+            Rule::Follow { .. } | Rule::Words { .. } | Rule::Held { .. } => self.rule,
         };
         Self { from: 0.0, to: 1.0, rule }
+    }
+
+    /// Whether h must be odd or even for phi2 to be the program's; `None` if it may be either.
+    pub(super) fn is_odd(&self) -> Option<bool> {
+        match self.rule {
+            Rule::Words { is_odd, .. } => Some(is_odd),
+            Rule::Follow { .. } | Rule::Linear { .. } | Rule::Held { .. } => None,
+        }
     }
 
     /// phi2 at a parameter, for h half turns at the beginning and at the end of a stretch.
@@ -65,6 +75,7 @@ impl Span {
                 let now = if s == self.to { end } else { azimuth(axis).unwrap_or(nearer) };
                 phi2 + to_nearest(now - start, TAU) + PI * f64::from(h[1])
             }
+            Rule::Words { phi2: [from, to], .. } => from + (to - from) * s + PI * f64::from(h[1]),
             Rule::Held { phi2 } => phi2,
             Rule::Linear { stretch, share } => {
                 let [from, to] = stretches[stretch].phi2;
@@ -88,7 +99,7 @@ pub(super) struct Meridian<'a> {
     is_inside: bool,
     phi2: Option<f64>,
     /// The end of the last motion.
-    position: Option<ToolPosition>,
+    standstill: Standstill,
     azimuths: Azimuths,
     /// The path of the last motion; `None`: the program has no path to its end.
     pub(super) path: Option<Path>,
@@ -97,15 +108,20 @@ pub(super) struct Meridian<'a> {
 }
 
 impl<'a> Meridian<'a> {
-    pub(super) fn new(cap: Cap, stretches: &'a [Stretch]) -> Self {
+    /// Begins at a standstill, with phi2 there if it is known.
+    pub(super) fn new(
+        cap: Cap,
+        stretches: &'a [Stretch],
+        (standstill, phi2): (Standstill, Option<f64>),
+    ) -> Self {
         Self {
             cap,
             stretches,
             next: 0,
             done: 0.0,
             is_inside: false,
-            phi2: None,
-            position: None,
+            phi2,
+            standstill,
             azimuths: Azimuths::default(),
             path: None,
             spans: Vec::new(),
@@ -114,8 +130,7 @@ impl<'a> Meridian<'a> {
 
     /// Moves to the end of a motion.
     pub(super) fn advance(&mut self, motion: &Motion) {
-        let start = self.position.replace(motion.end).filter(|_| motion.kind != MotionKind::Arrive);
-        self.path = start.map(|start| {
+        self.path = self.standstill.advance(motion).map(|start| {
             let path = Path::new(start, motion);
             self.pass(motion.kind, &path);
             path
@@ -129,7 +144,10 @@ impl<'a> Meridian<'a> {
     fn arrive(&mut self, motion: &Motion) {
         self.leave();
         self.spans.clear();
-        let rule = if self.cap.has(motion.end.axis) {
+        let rule = if matches!(motion.turning, Turning::Held { .. }) {
+            let phi2 = of_arrival(motion);
+            self.words([phi2; 2])
+        } else if self.cap.has(motion.end.axis) {
             self.is_inside = true;
             Rule::Linear { stretch: self.next, share: [0.0, 0.0] }
         } else {
@@ -141,8 +159,24 @@ impl<'a> Meridian<'a> {
         self.spans.push(Span { from: 1.0, to: 1.0, rule });
     }
 
+    /// Follows phi2 of the program, between two values.
+    fn words(&mut self, [start, end]: [f64; 2]) -> Rule {
+        let begun = continued(self.phi2, start);
+        let phi2 = [begun, begun + (end - start)];
+        self.phi2 = Some(phi2[1]);
+        let half_turns = ((begun - start) / PI).round();
+        Rule::Words { phi2, is_odd: half_turns.rem_euclid(2.0) == 1.0 }
+    }
+
     /// Finds the parts of a path.
     fn pass(&mut self, kind: MotionKind, path: &Path) {
+        if let Some(phi2) = path.held() {
+            self.leave();
+            self.spans.clear();
+            let rule = self.words(phi2);
+            self.spans.push(Span { from: 0.0, to: 1.0, rule });
+            return;
+        }
         let (cap, mut spans, mut azimuths) = (self.cap, std::mem::take(&mut self.spans), self.azimuths);
         spans.clear();
         cap.split(path, |[from, to], inside| {

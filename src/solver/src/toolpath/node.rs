@@ -1,7 +1,6 @@
 //! The joints at one place of the path.
 
 use std::f64::consts::PI;
-use std::ops::RangeInclusive;
 
 use super::azimuth::inclination;
 use super::meridian::Span;
@@ -20,7 +19,7 @@ use crate::rods::Rods;
 /// The difference of alpha to the place before above which other working solutions are looked for, rad.
 const NEAR: f64 = 0.05;
 
-/// Greatest number of half turns to each side of the middle of the rotary range.
+/// Greatest number of half turns to each side of the middle of a range of theta2.
 const MOST_HALF_TURNS: i32 = 16;
 
 /// What does not change along a program.
@@ -136,21 +135,6 @@ impl Setting<'_> {
         let rods = node.rods(self.machine);
         Margins::of_rods(self.machine, &node.pose, node.rho, &rods, node.table, clearance.as_ref())
     }
-
-    /// h for which theta2 is within its range, or nearest to it.
-    pub(super) fn half_turns(&self, phi2: f64) -> RangeInclusive<i32> {
-        let [low, high] = self.machine.limits().rotary;
-        let turns = |theta2: f64| (-theta2 - phi2) / PI;
-        let (first, last) = ((turns(high) - 1e-12).ceil(), (turns(low) + 1e-12).floor());
-        let middle = turns(0.5 * (low + high)).round();
-        let most = f64::from(MOST_HALF_TURNS);
-        let [first, last] = if first <= last {
-            [first.max(middle - most), last.min(middle + most)]
-        } else {
-            [middle, middle]
-        };
-        whole(first)..=whole(last)
-    }
 }
 
 impl Node {
@@ -203,6 +187,23 @@ impl Node {
         weights[0] * (self.table.theta1 - other.table.theta1).abs()
             + weights[1] * (self.table.theta2 - other.table.theta2).abs()
     }
+}
+
+/// h for which theta2 is within a range, or nearest to it: any, or odd or even ones only.
+pub(super) fn half_turns(
+    phi2: f64,
+    is_odd: Option<bool>,
+    [low, high]: [f64; 2],
+) -> impl Iterator<Item = i32> {
+    let (step, offset) = is_odd.map_or((1, 0), |is_odd| (2, i32::from(is_odd)));
+    let [width, first_phi2] = [PI * f64::from(step), phi2 + PI * f64::from(offset)];
+    let turns = |theta2: f64| (-theta2 - first_phi2) / width;
+    let (first, last) = ((turns(high) - 1e-12).ceil(), (turns(low) + 1e-12).floor());
+    let middle = turns(0.5 * (low + high)).round();
+    let most = f64::from(MOST_HALF_TURNS);
+    let [first, last] =
+        if first <= last { [first.max(middle - most), last.min(middle + most)] } else { [middle, middle] };
+    (whole(first)..=whole(last)).map(move |number| offset + step * number)
 }
 
 #[allow(clippy::cast_possible_truncation, reason = "clamped to the range of the type")]

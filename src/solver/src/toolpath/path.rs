@@ -14,6 +14,9 @@ const ANGLE: f64 = 0.1;
 /// Fraction of the machine's longest dimension between two places that are examined.
 const LENGTH: f64 = 1.0 / 16.0;
 
+/// The rotation of a frame that is not turned.
+const PART_FRAME: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 /// The path of a motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path {
@@ -21,6 +24,8 @@ pub(super) struct Path {
     end: ToolPosition,
     tip: TipPath,
     axis: AxisPath,
+    /// phi2 at both ends, if theta2 follows it also at the pole.
+    held: Option<[f64; 2]>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -62,10 +67,27 @@ impl Path {
         };
         let axis = match motion.turning {
             Turning::GreatCircle => great_circle(start.axis, end.axis),
-            Turning::Angles { start, end, .. } if start == end => AxisPath::Fixed,
+            Turning::Angles { start, end, .. } | Turning::Held { start, end } if start == end => {
+                AxisPath::Fixed
+            }
             Turning::Angles { start, end, frame } => AxisPath::Angles { start, end, frame },
+            Turning::Held { start, end } => AxisPath::Angles { start, end, frame: PART_FRAME },
         };
-        Self { start, end, tip, axis }
+        let held = match motion.turning {
+            Turning::Held { start, end } => Some([start[1], end[1]]),
+            Turning::GreatCircle | Turning::Angles { .. } => None,
+        };
+        Self { start, end, tip, axis, held }
+    }
+
+    /// The path of the same motion from another place of the tool's end.
+    pub(super) fn from_tip(&self, tip: Point, motion: &Motion) -> Self {
+        Self::new(ToolPosition { tip, ..self.start }, motion)
+    }
+
+    /// phi2 at both ends, if theta2 follows it also at the pole.
+    pub(super) fn held(&self) -> Option<[f64; 2]> {
+        self.held
     }
 
     /// The tool's position at a parameter. At 0 and 1 it is that of the motion's ends, to the last bit.

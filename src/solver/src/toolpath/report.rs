@@ -5,7 +5,7 @@ use super::node::Node;
 use crate::limit::{Constraint, Margin};
 use crate::machine::Machine;
 use crate::margins::Margins;
-use crate::pose::PartPose;
+use crate::pose::{PartPose, TableAngles};
 
 /// Greatest number of failures that a report lists.
 pub const MOST_FAILURES: usize = 1_000;
@@ -23,8 +23,11 @@ pub struct Failure {
     pub fraction: f64,
     /// Index of the motion with this margin.
     pub motion: usize,
-    /// The pose with this margin: the inverse problem for it, with the motion's tool, reproduces the failure.
+    /// The pose with this margin. The inverse problem for it, with the motion's tool, reproduces the failure but for
+    /// the winding of theta2.
     pub pose: PartPose,
+    /// The joints there: sliders, mm, and table. `None`: the pose has none in the working mode.
+    pub joints: Option<([f64; 3], TableAngles)>,
 }
 
 /// The least margin of a constraint.
@@ -123,8 +126,14 @@ impl Report {
         self.failure_count == 0
     }
 
-    /// Notes a place outside a limit.
-    pub(super) fn fail(&mut self, motion: usize, pose: PartPose, margin: Margin, fraction: f64) {
+    /// Notes a place outside a limit, with its margin as a fraction of the constraint's range.
+    pub(super) fn fail(
+        &mut self,
+        motion: usize,
+        (pose, node): (PartPose, Option<&Node>),
+        (margin, fraction): (Margin, f64),
+    ) {
+        let joints = node.map(|node| (node.rho, node.table));
         if let Some(last) = self.failures.last_mut()
             && last.margin.constraint == margin.constraint
             && motion <= last.motions[1] + 1
@@ -132,13 +141,13 @@ impl Report {
             last.motions[1] = motion;
             if fraction < last.fraction {
                 (last.margin, last.fraction) = (margin, fraction);
-                (last.motion, last.pose) = (motion, pose);
+                (last.motion, last.pose, last.joints) = (motion, pose, joints);
             }
             return;
         }
         self.failure_count += 1;
         if self.failures.len() < MOST_FAILURES {
-            self.failures.push(Failure { motions: [motion; 2], margin, fraction, motion, pose });
+            self.failures.push(Failure { motions: [motion; 2], margin, fraction, motion, pose, joints });
         }
     }
 

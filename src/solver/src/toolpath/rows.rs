@@ -4,6 +4,7 @@ mod examination;
 mod feed;
 mod rapid;
 mod retract;
+mod standstill;
 
 use super::choice::{Choice, Chosen, Rewind};
 use super::joint_segment::{Deviation, Track};
@@ -13,6 +14,7 @@ use super::motion::{MotionKind, Motions, ToolPosition};
 use super::node::{Node, Setting};
 use super::path::Path;
 use super::report::{LeastMargins, Report};
+use super::start::Start;
 use crate::error::KinematicsError;
 use crate::fast_math::angle_of;
 use crate::limit::{Constraint, Element, Margin};
@@ -126,6 +128,8 @@ pub(super) struct RowSettings {
     pub(super) feed: Deviation,
     pub(super) rapid: Deviation,
     pub(super) joint_rapids: bool,
+    /// Where the machine stands before the program, if that is known.
+    pub(super) start: Option<Start>,
     /// How the tool leaves the part within a cut, if it may.
     pub(super) retraction: Option<Retraction>,
 }
@@ -141,6 +145,8 @@ pub(super) struct Rower<'a, F> {
     least: LeastMargins,
     /// Where the machine stands.
     now: Option<Node>,
+    /// Length of the tool in the last motion.
+    tool_length: Option<f64>,
     h: [i32; 2],
     /// The worst margin of the last row, as a fraction of its range.
     margin: Option<f64>,
@@ -159,6 +165,7 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
             report: Report::new(),
             least: LeastMargins::default(),
             now: None,
+            tool_length: None,
             h: [0; 2],
             margin: None,
             bends: Default::default(),
@@ -177,14 +184,22 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
                 return None;
             }
             let motion = motions.motion(index);
+            if index == 0 {
+                self.begin(&motion);
+            }
             meridian.advance(&motion);
-            match &meridian.path {
-                Some(path) if motion.kind == MotionKind::Rapid => {
-                    self.rapid(index, &motion, path, &meridian.spans);
+            match meridian.path {
+                Some(path) => {
+                    let path = self.take_tool(index, &motion, path);
+                    if motion.kind == MotionKind::Rapid {
+                        self.rapid(index, &motion, &path, &meridian.spans);
+                    } else {
+                        self.feed(index, &motion, &path, &meridian.spans);
+                    }
                 }
-                Some(path) => self.feed(index, &motion, path, &meridian.spans),
                 None => self.arrive(index, &motion, &meridian.spans),
             }
+            self.tool_length = Some(motion.tool_length);
         }
         self.report.least = self.least.found();
         Some(self.report)
@@ -223,7 +238,7 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
                 Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value: f64::MIN }
             }
         };
-        self.report.fail(index, pose, margin, margin.value);
+        self.report.fail(index, (pose, None), (margin, margin.value));
     }
 
     pub(super) fn track<'p>(&self, path: &'p Path, span: Span, tool_length: f64) -> Track<'p>

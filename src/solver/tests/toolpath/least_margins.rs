@@ -24,7 +24,7 @@ fn sliders(tips: [[f64; 3]; 2], [phi1, phi2]: [f64; 2]) -> Vec<[f64; 3]> {
 /// A machine whose table can only turn to phi2, so that there is one preimage, and with this end of one stroke.
 fn machine(phi2: f64, slider: usize, highest: f64) -> Machine {
     let mut data = Machine::verne().data().clone();
-    data.limits.rotary = [-phi2 - 0.1, -phi2 + 0.1];
+    data.limits.rotary = Some([-phi2 - 0.1, -phi2 + 0.1]);
     data.limits.stroke = [[-1000.0, 2000.0]; 3];
     data.limits.stroke[slider] = [highest - 750.0, highest];
     Machine::new(data).unwrap()

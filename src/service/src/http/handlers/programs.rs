@@ -32,6 +32,7 @@ use crate::wire::result_id::ResultId;
     post, path = "/programs", operation_id = "post_program", tag = "programs", params(ProgramQuery),
     request_body(content(
         (Text = "text/plain"), (Text = "text/csv"), (Text = "application/x-ndjson"),
+        (Binary = "application/vnd.apache.arrow.stream"),
         (Binary = "application/octet-stream"),
     ), description = "The file."),
     responses(
@@ -49,7 +50,8 @@ pub(crate) async fn post_program(
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
     let format = query.format(body.media_type())?;
-    let received = body.receive(format, query.options()).await?;
+    let options = query.options(format)?;
+    let received = body.receive(format, options).await?;
     let StoredProgram { id, summary, is_new } = store_program(&state.results, &received.program).await?;
     drop(received);
     let mut response = summary_of(&state, id, summary).respond(&Conditions::default())?;
@@ -92,6 +94,7 @@ pub(crate) async fn get_program(
     responses(
         (status = 200, description = "The file.", content(
             (Text = "text/plain"), (Text = "text/csv"), (Text = "application/x-ndjson"),
+            (Binary = "application/vnd.apache.arrow.stream"),
         )),
         ProgramProblems
     )

@@ -43,7 +43,8 @@ use crate::wire::toolpath_report::ToolpathReport;
     post, path = "/toolpath", operation_id = "post_toolpath", tag = "toolpath", params(ProgramQuery, ToolpathQuery),
     request_body(content(
         (ToolpathRequest = "application/json"), (Text = "text/plain"), (Text = "text/csv"),
-        (Text = "application/x-ndjson"), (Binary = "application/octet-stream"),
+        (Text = "application/x-ndjson"), (Binary = "application/vnd.apache.arrow.stream"),
+        (Binary = "application/octet-stream"),
     ), description = "The program, its set-up and the tolerances as JSON; or the file of a program."),
     responses(
         (status = 200, description = "The report.", body = ToolpathReport),
@@ -134,9 +135,10 @@ pub(crate) async fn get_report(
 async fn question_of_file(state: &AppState, file: FileRequest) -> Result<ToolpathQuestion, HttpError> {
     let FileRequest { reading, query, body } = file;
     let format = reading.format(body.media_type()).map_err(with_json)?;
+    let options = reading.options(format)?;
     let checked = CheckedToolpath::new(&query.into_request(), &state.machines);
     let checked = checked.map_err(point_into_toolpath_query)?;
-    let ProgramInMemory { program, memory } = body.receive(format, reading.options()).await?;
+    let ProgramInMemory { program, memory } = body.receive(format, options).await?;
     let question = question(state, checked, ProgramSource::Received(Box::new(program))).await?;
     drop(memory);
     Ok(question)

@@ -151,7 +151,8 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
         ),
         post(
             "/ik/batch",
-            json!({"frame": "part", "tool_length": 50, "continuous": true, "start": [400, 450, 450, 0, 0],
+            json!({"frame": "part", "tool_length": 50, "continuous": true,
+                   "start": {"rho": [400, 450, 450], "theta1": 0, "theta2": 0},
                    "poses": [[100, 50, 150, 0, 0], [100, 50, 150, 30, 90], [100, 50, 150, 0.3, -0.4, 1.2],
                              [0, 0, 900, 0, 0], [1, 2], [5000, 0, 0, 0, 0]]}),
             |body| value_of(answer_ik_batch(body, machines, ROWS)),
@@ -219,10 +220,13 @@ fn of_programs() -> Vec<Example> {
 
 /// The summary of the program of the examples.
 fn program_summary() -> Value {
-    let mut receiver = ProgramReceiver::new(Format::Apt, &ProgramQuery::default().options());
-    // A refused program has its faults in the result.
-    let _ = receiver.push(PROGRAM.as_bytes());
-    json_of(receiver.finish().and_then(|received| received.summary().ok_or(OperationError::Internal)))
+    let received = ProgramQuery::default().options(Format::Apt).and_then(|options| {
+        let mut receiver = ProgramReceiver::new(Format::Apt, &options);
+        // A refused program has its faults in the result.
+        let _ = receiver.push(PROGRAM.as_bytes());
+        receiver.finish()
+    });
+    json_of(received.and_then(|received| received.summary().ok_or(OperationError::Internal)))
 }
 
 fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {

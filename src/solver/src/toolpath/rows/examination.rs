@@ -117,7 +117,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         if margin.value < 0.0 {
             let (node, tool_length) = place;
             let pose = part_pose(self.setting.machine, &node.pose, node.table, tool_length);
-            self.report.fail(index, pose, margin, fraction);
+            self.report.fail(index, (pose, Some(node)), (margin, fraction));
         }
         (margin, fraction)
     }

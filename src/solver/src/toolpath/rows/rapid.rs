@@ -104,18 +104,20 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
 
     /// Notes how far a rapid with straight joints leaves its line.
     fn depart(&mut self, index: usize, motion: &Motion, path: &Path, before: &Node, after: &Node) {
-        self.report.departure_count += 1;
-        if self.report.departures.len() >= MOST_DEPARTURES {
-            return;
-        }
         let machine = self.setting.machine;
         let differentials = [before, after].map(|node| Differential::of(machine, &node.rods(machine)));
         let segment = match &differentials {
             [Some(first), Some(last)] => JointSegment::new(machine, [before, after], [first, last]),
             _ => None,
         };
+        if let Some(segment) = &segment {
+            self.examine(index, segment, motion.tool_length);
+        }
+        self.report.departure_count += 1;
+        if self.report.departures.len() >= MOST_DEPARTURES {
+            return;
+        }
         let greatest = segment.map(|segment| {
-            self.examine(index, &segment, motion.tool_length);
             let of =
                 |node: &Node| part_pose(self.setting.machine, &node.pose, node.table, motion.tool_length);
             let farthest = segment.farthest(machine, |node| from_line(path, &of(node)).0);

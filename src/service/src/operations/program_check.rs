@@ -1,9 +1,10 @@
 //! Faults of a program that only its motions show. They are found before a job is made.
 
-use verne_program::{Move, MoveKind, Orientation, Program, ProgramError, ProgramErrors};
+use verne_program::{Move, Orientation, ProgramError, ProgramErrors};
 use verne_solver::Machine;
 use verne_solver::toolpath::{Curve, Motion, MotionKind, Motions, Turning};
 
+use crate::operations::program_motions::ProgramMotions;
 use crate::operations::program_motions::sections::MOST_FAULTS;
 use crate::wire::field_errors::out_of_proportion;
 use crate::wire::toolpath::OrientationName;
@@ -12,17 +13,12 @@ use crate::wire::toolpath::OrientationName;
 const OPPOSITE: f64 = 1e-9;
 
 /// Checks every motion of a program.
-pub(crate) fn check_motions(
-    program: &Program,
-    motions: &impl Motions,
-    orientation: Option<OrientationName>,
-    machine: &Machine,
-) -> Result<(), ProgramErrors> {
+pub(crate) fn check_motions(motions: &ProgramMotions, machine: &Machine) -> Result<(), ProgramErrors> {
     let mut faults = Vec::new();
     let mut before: Option<Motion> = None;
-    for (index, step) in program.moves().iter().enumerate() {
+    for (index, step) in motions.program().moves().iter().enumerate() {
         let motion = motions.motion(index);
-        if let Some(detail) = fault(program, orientation, index, step, &motion, before.as_ref(), machine) {
+        if let Some(detail) = fault(motions, index, step, &motion, before.as_ref(), machine) {
             if faults.len() == MOST_FAULTS {
                 return Err(ProgramErrors { errors: faults, complete: false });
             }
@@ -34,8 +30,7 @@ pub(crate) fn check_motions(
 }
 
 fn fault(
-    program: &Program,
-    orientation: Option<OrientationName>,
+    motions: &ProgramMotions,
     index: usize,
     step: &Move,
     motion: &Motion,
@@ -46,20 +41,19 @@ fn fault(
         return Some(detail);
     }
     let is_vector = matches!(step.orientation(), Orientation::Vector(_));
-    if orientation == Some(OrientationName::Rotary) && is_vector {
+    if motions.orientation() == Some(OrientationName::Rotary) && is_vector {
         return Some(
             "orientation=rotary needs rotary words (A and C, B and C, or phi1 and phi2) in every move"
                 .to_owned(),
         );
     }
-    let arrives = motion.kind == MotionKind::Arrive;
-    if arrives && index > 0 && program.arc(step).is_some() {
+    if index > 0 && motions.begins_section(index) && motions.program().arc(step).is_some() {
         return Some(
             "an arc needs a point to begin at, after a change of tool, length or origin; put one before"
                 .to_owned(),
         );
     }
-    let before = before.filter(|_| !arrives && step.kind() == MoveKind::Feed)?;
+    let before = before.filter(|_| motion.kind == MotionKind::Feed)?;
     let could_turn_either_way =
         matches!(motion.turning, Turning::GreatCircle) && are_opposite(before.end.axis, motion.end.axis);
     could_turn_either_way.then(|| {
