@@ -171,7 +171,17 @@ pub fn plan<M: Motions + ?Sized>(
     motions: &M,
     options: &PlanOptions,
     mut progress: impl FnMut(f64) -> bool,
-    emit: impl FnMut(&Row),
+    mut emit: impl FnMut(&Row),
+) -> Result<Report, PlanError> {
+    planned(machine, &motions, options, &mut progress, &mut emit)
+}
+
+fn planned(
+    machine: &Machine,
+    motions: &dyn Motions,
+    options: &PlanOptions,
+    progress: &mut dyn FnMut(f64) -> bool,
+    emit: &mut dyn FnMut(&Row),
 ) -> Result<Report, PlanError> {
     let cap = Cap::new(options.pole, machine.longest());
     let start = options.start.map(|table| [table.theta1, table.theta2]);
@@ -206,7 +216,7 @@ pub fn plan<M: Motions + ?Sized>(
     report.ok_or(if is_full { PlanError::TooManyRows } else { PlanError::Cancelled })
 }
 
-fn retraction<M: Motions + ?Sized>(motions: &M, on_limit: OnLimit) -> Option<Retraction> {
+fn retraction(motions: &dyn Motions, on_limit: OnLimit) -> Option<Retraction> {
     let OnLimit::Retract { clearance, height } = on_limit else { return None };
     let top = highest(motions);
     let height = height.unwrap_or(top + clearance).max(top);
@@ -214,7 +224,7 @@ fn retraction<M: Motions + ?Sized>(motions: &M, on_limit: OnLimit) -> Option<Ret
 }
 
 /// Height of the program's highest point.
-fn highest<M: Motions + ?Sized>(motions: &M) -> f64 {
+fn highest(motions: &dyn Motions) -> f64 {
     let mut before: Option<ToolPosition> = None;
     let mut highest = f64::NEG_INFINITY;
     for index in 0..motions.count() {

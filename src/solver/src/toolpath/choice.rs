@@ -74,9 +74,9 @@ impl<'a> Chooser<'a> {
     }
 
     /// Examines the program; `go_on` is asked from time to time and ends the examination by `false`.
-    pub(super) fn choose<M: Motions + ?Sized>(
+    pub(super) fn choose(
         mut self,
-        motions: &M,
+        motions: &dyn Motions,
         cap: Cap,
         mut go_on: impl FnMut(usize) -> bool,
     ) -> Option<Choice> {

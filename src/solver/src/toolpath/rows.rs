@@ -131,12 +131,12 @@ pub(super) struct RowSettings {
 }
 
 /// Makes the rows.
-pub(super) struct Rower<'a, F> {
+pub(super) struct Rower<'a> {
     setting: Setting<'a>,
     settings: &'a RowSettings,
     choice: std::slice::Iter<'a, Chosen>,
     rewinds: &'a [Rewind],
-    emit: F,
+    emit: &'a mut dyn FnMut(&Row),
     report: Report,
     least: LeastMargins,
     /// Where the machine stands.
@@ -148,8 +148,13 @@ pub(super) struct Rower<'a, F> {
     bends: [Bend; 2],
 }
 
-impl<'a, F: FnMut(&Row)> Rower<'a, F> {
-    pub(super) fn new(setting: Setting<'a>, settings: &'a RowSettings, choice: &'a Choice, emit: F) -> Self {
+impl<'a> Rower<'a> {
+    pub(super) fn new(
+        setting: Setting<'a>,
+        settings: &'a RowSettings,
+        choice: &'a Choice,
+        emit: &'a mut dyn FnMut(&Row),
+    ) -> Self {
         Self {
             setting,
             settings,
@@ -166,9 +171,9 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
     }
 
     /// Makes the rows of all motions; `go_on` is asked before each and ends the work by `false`.
-    pub(super) fn run<M: Motions + ?Sized>(
+    pub(super) fn run(
         mut self,
-        motions: &M,
+        motions: &dyn Motions,
         mut meridian: Meridian<'_>,
         mut go_on: impl FnMut(usize, u64) -> bool,
     ) -> Option<Report> {

@@ -47,7 +47,7 @@ struct Open {
 }
 
 /// Finds the stretches of a program inside the cap. `fallback` is phi2 where nothing determines it.
-pub(super) fn stretches<M: Motions + ?Sized>(motions: &M, cap: &Cap, fallback: f64) -> Vec<Stretch> {
+pub(super) fn stretches(motions: &dyn Motions, cap: &Cap, fallback: f64) -> Vec<Stretch> {
     let mut survey = Survey {
         stretches: Vec::new(),
         phi2: None,

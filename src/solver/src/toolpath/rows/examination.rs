@@ -1,6 +1,6 @@
 //! The margins between rows.
 
-use super::{Row, Rower};
+use super::Rower;
 use crate::limit::{Constraint, Margin};
 use crate::machine::Machine;
 use crate::margins::Margins;
@@ -21,7 +21,7 @@ const NEAR: f64 = 0.002;
 /// Number of intervals between the places from which that search begins.
 const INTERVALS: u32 = 8;
 
-impl<F: FnMut(&Row)> Rower<'_, F> {
+impl Rower<'_> {
     /// Examines the places of a path that has no rows, for the report.
     pub(super) fn survey(&mut self, index: usize, track: &Track<'_>) {
         let Span { from, to, .. } = track.span;

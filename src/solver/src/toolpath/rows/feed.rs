@@ -1,6 +1,6 @@
 //! Feed motions.
 
-use super::{Row, RowKind, RowPlace, Rower};
+use super::{RowKind, RowPlace, Rower};
 use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
 use crate::toolpath::joint_segment::{Stop, Track};
@@ -10,7 +10,7 @@ use crate::toolpath::motion::Motion;
 use crate::toolpath::path::Path;
 use crate::toolpath::stretches::Place;
 
-impl<F: FnMut(&Row)> Rower<'_, F> {
+impl Rower<'_> {
     pub(super) fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
         self.report.length[0] += path.length();
         for span in spans {

@@ -1,6 +1,6 @@
 //! Rapids, and positions that are reached from anywhere.
 
-use super::{Row, RowKind, RowPlace, Rower};
+use super::{RowKind, RowPlace, Rower};
 use crate::pose::PartPose;
 use crate::table::part_pose;
 use crate::toolpath::choice::Chosen;
@@ -13,7 +13,7 @@ use crate::toolpath::node::Node;
 use crate::toolpath::path::Path;
 use crate::toolpath::report::{Departure, MOST_DEPARTURES};
 
-impl<F: FnMut(&Row)> Rower<'_, F> {
+impl Rower<'_> {
     /// A motion whose path is not the program's.
     pub(super) fn arrive(&mut self, index: usize, motion: &Motion, spans: &[Span]) {
         let chosen = self.next_choice();

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Retraction, Row, RowKind, RowPlace, Rower, Way};
+use super::{Retraction, RowKind, RowPlace, Rower, Way};
 use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
 use crate::toolpath::choice::Chosen;
@@ -17,7 +17,7 @@ use crate::toolpath::tool_motion::ToolMotion;
 /// Least cosine of theta1 with which the base's vertical leads away from the table.
 const LEAST_COSINE: f64 = 0.05;
 
-impl<F: FnMut(&Row)> Rower<'_, F> {
+impl Rower<'_> {
     /// Changes to another winding off the part.
     pub(super) fn retract(&mut self, index: usize, motion: &Motion, chosen: Chosen) {
         let half_turns = self.h[1] - chosen.h[1];
@@ -113,7 +113,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
     }
 }
 
-fn position<F>(rower: &Rower<'_, F>, node: &Node, tool_length: f64) -> ToolPosition {
+fn position(rower: &Rower<'_>, node: &Node, tool_length: f64) -> ToolPosition {
     let [tip, axis] = ToolMotion::at(rower.setting.machine, node, tool_length).position();
     ToolPosition { tip: tip.into(), axis: axis.into() }
 }
