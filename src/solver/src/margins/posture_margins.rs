@@ -193,7 +193,7 @@ impl Margins {
 
 /// The height of each leg along z, mm: what its length leaves for it.
 #[inline]
-fn heights(g: &Geometry, pose: &PlatformPose, rho: [f64; 3], rods: &Rods) -> [f64; 3] {
+pub(super) fn heights(g: &Geometry, pose: &PlatformPose, rho: [f64; 3], rods: &Rods) -> [f64; 3] {
     let (z, q) = (pose.z, g.R2 * rods.s);
     let [rho1, rho2, rho3] = rho;
     [z - rho1, z - q - rho2, z + q - rho3].map(f64::abs)

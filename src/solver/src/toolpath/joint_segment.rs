@@ -10,7 +10,6 @@ use super::node::{Node, Setting};
 use super::path::Path;
 use super::tool_motion::ToolMotion;
 use crate::machine::Machine;
-use crate::margins::Margins;
 use crate::pose::{PlatformPose, TableAngles};
 
 /// Number of intervals between the places where the forward problem is solved, if the deviation is not interpolated.
@@ -187,11 +186,11 @@ impl<'a> JointSegment<'a> {
         across_path(off, path, tolerance, [f64::NEG_INFINITY, f64::INFINITY])
     }
 
-    /// The place of the worst margin along the segment, as a fraction of its constraint's range, and the margins there.
-    pub(super) fn worst(&self, setting: &Setting<'_>, tool_length: f64) -> Option<(Node, Margins)> {
+    /// The place of the worst margin along the segment, as a fraction of its constraint's range.
+    pub(super) fn worst(&self, setting: &Setting<'_>, tool_length: f64) -> Option<Node> {
         let margins = self.places(setting.machine).flatten().map(|(_, node)| {
             let margins = setting.margins(&node, tool_length);
-            (margins.worst_with_fraction(setting.machine).1, (node, margins))
+            (margins.worst_with_fraction(setting.machine).1, node)
         });
         margins.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, worst)| worst)
     }

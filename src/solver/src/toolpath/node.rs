@@ -13,6 +13,7 @@ use crate::fast_math::sin_cos;
 use crate::inverse::{part_every_working, part_working, part_working_near};
 use crate::machine::Machine;
 use crate::margins::Margins;
+use crate::margins::lesser_margins::ClosedPosture;
 use crate::pose::{PartPose, PlatformPose, TableAngles};
 use crate::posture::Posture;
 use crate::rods::Rods;
@@ -132,9 +133,19 @@ impl Setting<'_> {
 
     /// All margins of a place.
     pub(super) fn margins(&self, node: &Node, tool_length: f64) -> Margins {
-        let clearance = Clearance::of(self.machine, self.table_clearance, tool_length, self.tool_radius);
+        let clearance = self.clearance(tool_length);
         let rods = node.rods(self.machine);
         Margins::of_rods(self.machine, &node.pose, node.rho, &rods, node.table, clearance.as_ref())
+    }
+
+    /// The joints at a place, with what margins need of them.
+    pub(super) fn closed<'n>(&self, node: &'n Node, rods: &'n Rods, tool_length: f64) -> ClosedPosture<'n> {
+        let Node { pose, rho, table, .. } = node;
+        ClosedPosture { pose, rho: *rho, rods, table: *table, clearance: self.clearance(tool_length) }
+    }
+
+    fn clearance(&self, tool_length: f64) -> Option<Clearance> {
+        Clearance::of(self.machine, self.table_clearance, tool_length, self.tool_radius)
     }
 
     /// h for which theta2 is within its range, or nearest to it.

@@ -1,10 +1,9 @@
 //! What is found out about a program.
 
 use super::joint_segment::Deviation;
-use super::node::Node;
+use super::node::{Node, Setting};
 use crate::limit::{Constraint, Margin};
-use crate::machine::Machine;
-use crate::margins::Margins;
+use crate::margins::lesser_margins::{Known, Reference, worst_and_lesser};
 use crate::pose::PartPose;
 
 /// Greatest number of failures that a report lists.
@@ -37,22 +36,36 @@ pub struct LeastMargin {
 }
 
 /// The least margin of each constraint so far.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct LeastMargins([Option<LeastMargin>; Constraint::COUNT]);
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LeastMargins {
+    known: Known,
+    reference: Option<Reference>,
+    found: [Option<LeastMargin>; Constraint::COUNT],
+}
 
 impl LeastMargins {
-    /// Notes the margins of a place. The answer is the worst of them, and its fraction of its constraint's range.
-    pub(super) fn meet(&mut self, machine: &Machine, motion: usize, margins: &Margins) -> (Margin, f64) {
-        margins.worst_of_each(machine, |margin| {
-            let least = &mut self.0[margin.constraint as usize];
-            if least.is_none_or(|least| margin.value < least.margin.value) {
-                *least = Some(LeastMargin { margin, motion });
-            }
+    pub(super) fn new() -> Self {
+        Self { known: [f64::INFINITY; Constraint::COUNT], reference: None, found: [None; Constraint::COUNT] }
+    }
+
+    /// Notes the margins of a place of a motion. The answer is the worst of them, and its fraction of its constraint's
+    /// range.
+    pub(super) fn meet(
+        &mut self,
+        setting: &Setting<'_>,
+        motion: usize,
+        (node, tool_length): (&Node, f64),
+    ) -> (Margin, f64) {
+        let rods = node.rods(setting.machine);
+        let posture = setting.closed(node, &rods, tool_length);
+        let known = (&mut self.known, &mut self.reference);
+        worst_and_lesser(setting.machine, &posture, known, |margin| {
+            self.found[margin.constraint as usize] = Some(LeastMargin { margin, motion });
         })
     }
 
     pub(super) fn found(&self) -> Vec<LeastMargin> {
-        self.0.iter().copied().flatten().collect()
+        self.found.iter().copied().flatten().collect()
     }
 }
 

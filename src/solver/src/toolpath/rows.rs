@@ -162,7 +162,7 @@ impl<'a> Rower<'a> {
             rewinds: &choice.rewinds,
             emit,
             report: Report::new(),
-            least: LeastMargins::default(),
+            least: LeastMargins::new(),
             now: None,
             h: [0; 2],
             margin: None,
@@ -246,8 +246,7 @@ impl<'a> Rower<'a> {
         node: &Node,
         tool_length: f64,
     ) {
-        let margins = self.setting.margins(node, tool_length);
-        let (margin, fraction) = self.meet(index, (node, tool_length), &margins);
+        let (margin, fraction) = self.meet(index, (node, tool_length));
         let ([s1, c1], [s2, c2]) = (node.turns.inclination(), node.turns.rotary);
         // phi2 = -theta2.
         let position = ToolPosition { tip: place.at.tip, axis: [-s1 * s2, -s1 * c2, c1] };
