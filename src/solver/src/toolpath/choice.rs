@@ -103,7 +103,7 @@ impl<'a> Chooser<'a> {
         let Some(span) = span else { return };
         self.examine_skipped();
         let before = std::mem::take(&mut self.states);
-        let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
+        let (phi2, _) = span.meridian(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
         // The nodes of both preimages; whole turns change theta2 alone.
         let mut known: [Option<Solutions>; 2] = [None, None];
         for h in self.setting.half_turns(phi2) {

@@ -85,8 +85,7 @@ pub(super) struct Target {
 impl Setting<'_> {
     /// The pose of the tool at a place, for h half turns at the beginning and the end of a stretch.
     pub(super) fn target(&self, span: &Span, s: f64, at: &ToolPosition, h: [i32; 2]) -> Target {
-        let phi2 = span.phi2(self.stretches, s, at.axis, h);
-        let meridian = direction(phi2);
+        let (phi2, meridian) = span.meridian(self.stretches, s, at.axis, h);
         let (phi1, inclination) = inclination(at.axis, meridian);
         let [x, y, z] = at.tip;
         Target { pose: PartPose { x, y, z, phi1, phi2 }, turns: [inclination, meridian] }
@@ -105,9 +104,9 @@ impl Setting<'_> {
             Some(alpha) if distance(&posture, alpha) > NEAR => {
                 let all = part_every_working(self.machine, &target.pose, tool_length)?;
                 let nearest = all.iter().min_by(|a, b| distance(a, alpha).total_cmp(&distance(b, alpha)));
-                Ok(Node::of(nearest.unwrap_or(&posture), target))
+                Ok(Node::new_at(nearest.unwrap_or(&posture), target))
             }
-            _ => Ok(Node::of(&posture, target)),
+            _ => Ok(Node::new_at(&posture, target)),
         }
     }
 
@@ -118,9 +117,12 @@ impl Setting<'_> {
         tool_length: f64,
         before: &Node,
     ) -> Result<Node, KinematicsError> {
-        let (start, alpha) = ((before.pose, before.rho[0]), before.pose.alpha);
+        let alpha = before.pose.alpha;
+        let start = (alpha, before.turns.platform, before.pose.z - before.rho[0]);
         match part_working_near(self.machine, &target.pose, target.turns, tool_length, start) {
-            Some(posture) if (posture.pose.alpha - alpha).abs() <= NEAR => Ok(Node::of(&posture, target)),
+            Some((posture, turn)) if (posture.pose.alpha - alpha).abs() <= NEAR => {
+                Ok(Node::of(&posture, turn, target))
+            }
             _ => self.node(target, tool_length, Some(alpha)),
         }
     }
@@ -128,7 +130,7 @@ impl Setting<'_> {
     /// The joints of every working solution at a place.
     pub(super) fn nodes(&self, target: &Target, tool_length: f64) -> Result<Vec<Node>, KinematicsError> {
         let all = part_every_working(self.machine, &target.pose, tool_length)?;
-        Ok(all.iter().map(|posture| Node::of(posture, target)).collect())
+        Ok(all.iter().map(|posture| Node::new_at(posture, target)).collect())
     }
 
     /// All margins of a place.
@@ -169,11 +171,15 @@ impl Node {
         Self { pose, rho, table, turns: Turns::of(pose.alpha, table) }
     }
 
-    fn of(posture: &Posture, target: &Target) -> Self {
+    fn new_at(posture: &Posture, target: &Target) -> Self {
+        Self::of(posture, direction(posture.pose.alpha), target)
+    }
+
+    /// `platform` is sine and cosine of alpha.
+    fn of(posture: &Posture, platform: [f64; 2], target: &Target) -> Self {
         let PartPose { phi1, phi2, .. } = target.pose;
         let [inclination, [sine, cosine]] = target.turns;
         let table = TableAngles { theta1: posture.pose.alpha - phi1, theta2: -phi2 };
-        let platform = direction(posture.pose.alpha);
         let turns = Turns { platform, tilt: difference(platform, inclination), rotary: [-sine, cosine] };
         Self { pose: posture.pose, rho: posture.rho, table, turns }
     }

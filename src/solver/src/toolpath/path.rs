@@ -21,6 +21,7 @@ pub(super) struct Path {
     end: ToolPosition,
     tip: TipPath,
     axis: AxisPath,
+    length: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +53,15 @@ enum AxisPath {
     },
 }
 
+impl TipPath {
+    fn length(&self, start: &ToolPosition, end: &ToolPosition) -> f64 {
+        match self {
+            Self::Line => (Vector3::from(end.tip) - Vector3::from(start.tip)).norm(),
+            Self::Arc { radius, sweep, rest, .. } => (radius[0].norm() * sweep).hypot(rest.norm()),
+        }
+    }
+}
+
 impl Path {
     /// The path of a motion that begins at `start`.
     pub(super) fn new(start: ToolPosition, motion: &Motion) -> Self {
@@ -65,7 +75,7 @@ impl Path {
             Turning::Angles { start, end, .. } if start == end => AxisPath::Fixed,
             Turning::Angles { start, end, frame } => AxisPath::Angles { start, end, frame },
         };
-        Self { start, end, tip, axis }
+        Self { start, end, length: tip.length(&start, &end), tip, axis }
     }
 
     /// The tool's position at a parameter. At 0 and 1 it is that of the motion's ends, to the last bit.
@@ -77,6 +87,17 @@ impl Path {
             return self.end;
         }
         ToolPosition { tip: self.tip(s).into(), axis: self.axis(s).into() }
+    }
+
+    /// The tool's end at a parameter; at 0 and 1 it is that of the motion's ends, to the last bit.
+    pub(super) fn tip_at(&self, s: f64) -> Point {
+        if s <= 0.0 {
+            self.start.tip
+        } else if s >= 1.0 {
+            self.end.tip
+        } else {
+            self.tip(s).into()
+        }
     }
 
     fn tip(&self, s: f64) -> Vector3<f64> {
@@ -145,10 +166,7 @@ impl Path {
     /// Length of the path of the tool's end, mm; of a helix that misses its end the length is that of the arc and the
     /// rest.
     pub(super) fn length(&self) -> f64 {
-        match self.tip {
-            TipPath::Line => (Vector3::from(self.end.tip) - Vector3::from(self.start.tip)).norm(),
-            TipPath::Arc { radius, sweep, rest, .. } => (radius[0].norm() * sweep).hypot(rest.norm()),
-        }
+        self.length
     }
 
     /// Upper bound of the angle that the axis moves through, rad.

@@ -156,7 +156,7 @@ impl Report {
     }
 
     /// Notes a row's joints.
-    pub(super) fn add_row(&mut self, node: &Node, before: Option<&Node>, inclination: f64) {
+    pub(super) fn add_row(&mut self, node: &Node, before: Option<&Node>) {
         self.rows += 1;
         let joints = [node.rho[0], node.rho[1], node.rho[2], node.table.theta1, node.table.theta2];
         let ranges = self.ranges.get_or_insert(joints.map(|joint| [joint; 2]));
@@ -167,7 +167,9 @@ impl Report {
             self.turning[0] += (node.table.theta1 - before.table.theta1).abs();
             self.turning[1] += (node.table.theta2 - before.table.theta2).abs();
         }
-        let least = self.least_inclination.get_or_insert(inclination.abs());
-        *least = least.min(inclination.abs());
+        // phi1 = alpha - theta1.
+        let inclination = (node.pose.alpha - node.table.theta1).abs();
+        let least = self.least_inclination.get_or_insert(inclination);
+        *least = least.min(inclination);
     }
 }

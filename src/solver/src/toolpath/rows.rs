@@ -14,9 +14,8 @@ use super::node::{Node, Setting};
 use super::path::Path;
 use super::report::{LeastMargins, Report};
 use crate::error::KinematicsError;
-use crate::fast_math::angle_of;
 use crate::limit::{Constraint, Element, Margin};
-use crate::pose::{PartPose, TableAngles};
+use crate::pose::{PartPose, Point, TableAngles};
 
 /// The purpose of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,7 +91,7 @@ pub struct Way {
 
 /// Where a row is on the program's path.
 pub(super) struct RowPlace {
-    pub(super) at: ToolPosition,
+    pub(super) tip: Point,
     /// `None`: the machine does not follow the path to this place.
     pub(super) way: Option<Way>,
     pub(super) ends_track: bool,
@@ -100,15 +99,15 @@ pub(super) struct RowPlace {
 
 impl RowPlace {
     /// The end of a motion, which the machine reaches from anywhere.
-    pub(super) fn of_arrival(at: ToolPosition) -> Self {
-        Self { at, way: None, ends_track: true }
+    pub(super) fn of_arrival(tip: Point) -> Self {
+        Self { tip, way: None, ends_track: true }
     }
 
     /// A place that the machine reaches along the path from the parameter `from`; the track ends at `end`.
     pub(super) fn on(path: &Path, from: f64, s: f64, end: f64) -> Self {
         let fraction = s - from;
         let way = Way { fraction, length: path.length() * fraction, angle: path.angle() * fraction };
-        Self { at: path.at(s), way: Some(way), ends_track: s >= end }
+        Self { tip: path.tip_at(s), way: Some(way), ends_track: s >= end }
     }
 }
 
@@ -249,9 +248,8 @@ impl<'a> Rower<'a> {
         let (margin, fraction) = self.meet(index, (node, tool_length));
         let ([s1, c1], [s2, c2]) = (node.turns.inclination(), node.turns.rotary);
         // phi2 = -theta2.
-        let position = ToolPosition { tip: place.at.tip, axis: [-s1 * s2, -s1 * c2, c1] };
-        let inclination = angle_of(c1, s1);
-        self.report.add_row(node, self.now.as_ref(), inclination);
+        let position = ToolPosition { tip: place.tip, axis: [-s1 * s2, -s1 * c2, c1] };
+        self.report.add_row(node, self.now.as_ref());
         (self.emit)(&Row {
             motion: index,
             kind,

@@ -131,7 +131,7 @@ impl Rower<'_> {
     ) {
         self.survey(index, track);
         self.refuse(index, track.target(s).pose, refusal);
-        let place = RowPlace::of_arrival(track.path.at(end.s));
+        let place = RowPlace::of_arrival(track.path.tip_at(end.s));
         self.row(index, kind_at(kind, end.s), &place, &end.node, motion.tool_length);
     }
 }

@@ -19,7 +19,7 @@ impl Rower<'_> {
         let chosen = self.next_choice();
         self.change_to(chosen);
         self.now = None;
-        self.go_straight(index, motion, spans, &RowPlace::of_arrival(motion.end), chosen);
+        self.go_straight(index, motion, spans, &RowPlace::of_arrival(motion.end.tip), chosen);
     }
 
     /// Moves all joints straight to the end of a motion.

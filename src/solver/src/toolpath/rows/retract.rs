@@ -108,7 +108,7 @@ impl Rower<'_> {
         let [before, at] = [from, to].map(|node| position(self, node, tool_length));
         let length = (Vector3::from(at.tip) - Vector3::from(before.tip)).norm();
         let way = Some(Way { fraction: 0.0, length, angle: (to.table.theta2 - from.table.theta2).abs() });
-        self.row(index, kind, &RowPlace { at, way, ends_track: true }, to, tool_length);
+        self.row(index, kind, &RowPlace { tip: at.tip, way, ends_track: true }, to, tool_length);
         self.examine_between(index, [from, to], tool_length);
     }
 }
