@@ -72,7 +72,8 @@ pub struct PlanOptions {
     pub tolerance: Deviation,
     /// Greatest deviation of the tool's end in rapids.
     pub rapid_tolerance: f64,
-    /// Half-angle of the cap around the pole in which theta2 is free; part of the axis tolerance.
+    /// Half-angle of the cap around the pole in which theta2 is free; part of the axis tolerance. Less than 1e-9 counts
+    /// as 1e-9.
     pub pole: f64,
     /// Radius of the tool's end, for the height over the table.
     pub tool_radius: f64,
@@ -191,7 +192,6 @@ fn planned(
         stretches: &stretches,
         table_clearance: options.table_clearance,
         tool_radius: options.tool_radius,
-        pole: options.pole,
     };
     let part = |index: usize| fraction(index, motions.count());
     let weights = machine.data().drives.map_or([1.0; 2], |drives| drives.turning_weights());

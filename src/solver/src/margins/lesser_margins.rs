@@ -5,11 +5,10 @@
 use super::posture_margins::{det_margin, heights, range_margins};
 use super::worst::{FAMILY_ROD, WorstMargin, each_length, each_range, least};
 use super::{cone, interference};
-use crate::clearance::Clearance;
 use crate::fast_math::greater;
 use crate::limit::{Constraint, Element, Margin};
 use crate::machine::Machine;
-use crate::pose::{PlatformPose, TableAngles};
+use crate::pose::PlatformPose;
 use crate::rods::Rods;
 
 /// Greatest change of a rod's direction, as a chord, for which the margins are bounded, and an upper bound of an angle
@@ -27,15 +26,18 @@ pub(crate) struct ClosedPosture<'a> {
     pub(crate) pose: &'a PlatformPose,
     pub(crate) rho: [f64; 3],
     pub(crate) rods: &'a Rods,
-    pub(crate) table: TableAngles,
-    pub(crate) clearance: Option<Clearance>,
+    pub(crate) theta1: f64,
+    /// `None`: the range of theta2 takes no part.
+    pub(crate) theta2: Option<f64>,
+    /// The margin of the height over the table's plane, if it is checked.
+    pub(crate) clearance: Option<Margin>,
 }
 
 /// The margins of joints, and of the distances between rods but those of one parallelogram, at one posture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reference {
-    pose: PlatformPose,
-    rho: [f64; 3],
+    directions: [[f64; 3]; 4],
+    alpha: f64,
     slider_joint: f64,
     platform_joint: f64,
     rod_interference: f64,
@@ -80,7 +82,7 @@ impl Reference {
         lesser: &mut Lesser<'_, F>,
     ) -> Self {
         let (g, limits, home) = (machine.geometry(), machine.limits(), &machine.home);
-        let ClosedPosture { pose, rho, rods, .. } = *posture;
+        let rods = posture.rods;
         let factors = &machine.normalization;
         let directions = cone::columns(&rods.directions);
         let joints = cone::margins(limits.slider_cone, &home.slider_axes, &directions);
@@ -93,7 +95,8 @@ impl Reference {
         let (distance, [a, b]) = interference::least_distance_of_others(g, rods);
         let (rod_interference, element) = (distance - 2.0 * g.rod_radius, Element::Rods(a, b));
         lesser.meet(Constraint::RodInterference, element, rod_interference, factors.rod_interference);
-        Self { pose: *pose, rho, slider_joint, platform_joint, rod_interference }
+        let (directions, alpha) = (rods.directions, posture.pose.alpha);
+        Self { directions, alpha, slider_joint, platform_joint, rod_interference }
     }
 
     /// Whether the margins of a posture certainly are neither the worst nor less than known ones.
@@ -105,17 +108,17 @@ impl Reference {
         lesser: &Lesser<'_, F>,
     ) -> bool {
         let (g, factors) = (machine.geometry(), &machine.normalization);
-        let (a, b) = (&self.pose, posture.pose);
-        let alpha = (a.alpha - b.alpha).abs();
-        let platform = (a.x - b.x).abs() + (a.y - b.y).abs() + (a.z - b.z).abs();
-        // How far the rods' ends are from those of the reference.
-        let platform_end = platform + greater(g.R1, g.R2) * alpha;
-        let slider = |i: usize| (self.rho[i] - posture.rho[i]).abs();
-        let slider_end = greater(slider(0), greater(slider(1), slider(2)));
-        let [first, _, second, third] = machine.mechanism.inverse_lengths;
-        let chord = (platform_end + slider_end) * greater(first, greater(second, third));
+        let alpha = (self.alpha - posture.pose.alpha).abs();
+        let square = |i: usize| {
+            let [x, y, z]: [f64; 3] =
+                std::array::from_fn(|axis| self.directions[i][axis] - posture.rods.directions[i][axis]);
+            x * x + y * y + z * z
+        };
+        let chord = greater(greater(square(0), square(1)), greater(square(2), square(3))).sqrt();
         let angle = ANGLE_OVER_CHORD * chord;
-        let distance = self.rod_interference - 2.0 * greater(platform_end, slider_end);
+        // Rods move against each other with the platform's rotation and with their directions.
+        let length = greater(g.L1, greater(g.L2, g.L3));
+        let distance = self.rod_interference - 2.0 * (greater(g.R1, g.R2) * alpha + length * chord);
         let (at_slider, at_platform) = (self.slider_joint - angle, self.platform_joint - angle - alpha);
         chord <= GREATEST_CHORD
             && lesser.is_no_matter(Constraint::SliderJoint, at_slider, factors.slider_joint)
@@ -134,17 +137,16 @@ pub(crate) fn worst_and_lesser(
     found: impl FnMut(Margin),
 ) -> (Margin, f64) {
     let (g, limits, factors) = (machine.geometry(), machine.limits(), &machine.normalization);
-    let ClosedPosture { pose, rho, rods, table, clearance } = posture;
+    let ClosedPosture { pose, rho, rods, theta1, theta2, clearance } = *posture;
     let worst = WorstMargin::new(g.R1 * rods.c - g.r1, factors.rod_crossing);
     let crossing = worst.margin;
     let mut lesser = Lesser { worst, known, found };
     lesser.note(crossing);
     let stroke = [0, 1, 2].map(|i| range_margins(limits.stroke[i], rho[i]));
     let mut meet = |constraint, element, value, factor| lesser.meet(constraint, element, value, factor);
-    each_length(machine, &stroke, &heights(g, pose, *rho, rods), &mut meet);
-    let (tilt, rotary) =
-        (range_margins(limits.tilt, table.theta1), range_margins(limits.rotary, table.theta2));
-    each_range(machine, Some(tilt), Some(rotary), &mut meet);
+    each_length(machine, &stroke, &heights(g, pose, rho, rods), &mut meet);
+    let rotary = theta2.map(|theta2| range_margins(limits.rotary, theta2));
+    each_range(machine, Some(range_margins(limits.tilt, theta1)), rotary, &mut meet);
     let (family, value) = least(&rods.directions.map(|direction| direction[2] - limits.serial_margin));
     meet(Constraint::SerialSingularity, FAMILY_ROD[family], value, factors.serial_singularity);
     let det = det_margin(machine, rods);
@@ -152,8 +154,7 @@ pub(crate) fn worst_and_lesser(
     let (distance, [a, b]) = interference::least_distance_in_parallelograms(g, rods);
     let (value, element) = (distance - 2.0 * g.rod_radius, Element::Rods(a, b));
     meet(Constraint::RodInterference, element, value, factors.rod_interference);
-    if let Some(clearance) = clearance {
-        let Margin { constraint, element, value } = clearance.margin(machine, pose, *table);
+    if let Some(Margin { constraint, element, value }) = clearance {
         meet(constraint, element, value, factors.table_clearance);
     }
     if !reference.is_some_and(|reference| reference.excludes(machine, posture, &lesser)) {

@@ -11,7 +11,7 @@ const SEAM: f64 = 1e-9;
 /// Fraction of a period below which a difference clearly is the one nearest to zero.
 const CLEARLY_NEAREST: f64 = 0.49;
 /// Sine of the inclination below which an axis has no azimuth.
-const LEAST_SINE: f64 = 1e-9;
+pub(super) const LEAST_SINE: f64 = 1e-9;
 
 /// phi1 of an axis on the meridian of this sine and cosine, rad: of its component there, if phi2 is not its own. Also
 /// sine and cosine of phi1.

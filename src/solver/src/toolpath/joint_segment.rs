@@ -6,7 +6,7 @@ use super::differential::Differential;
 use super::golden_section::{STEPS, beside, least};
 use super::meridian::Span;
 use super::nearby_pose::{hermite_middle, parabola, solved};
-use super::node::{Node, Setting};
+use super::node::{Node, Setting, Turns};
 use super::path::Path;
 use super::tool_motion::ToolMotion;
 use crate::machine::Machine;
@@ -138,12 +138,14 @@ impl<'a> JointSegment<'a> {
         tolerance: &Deviation,
     ) -> Option<Deviation> {
         let machine = track.setting.machine;
+        let weights = [tolerance.tip, tolerance.axis].map(|tolerance| 1.0 / (tolerance * tolerance));
         let at = |t: f64, node: &Node| {
             let tool = ToolMotion::at(machine, node, track.tool_length).position();
-            from_path(track.path, parameters, t, tool, tolerance)
+            from_path(track.path, parameters, t, tool, weights)
         };
         let (rho, table) = between(self.ends, 0.5);
-        let middle = at(0.5, &Node::new(self.middle, rho, table));
+        let turns = Turns::in_middle(self.ends, self.middle.alpha);
+        let middle = at(0.5, &Node { pose: self.middle, rho, table, turns });
         // Inside a cap the axis is off its path at the ends, too.
         let held = if track.span.stretch().is_some() {
             [at(0.0, self.ends[0])[1], at(1.0, self.ends[1])[1]]
@@ -152,7 +154,7 @@ impl<'a> JointSegment<'a> {
         };
         let width = parameters[1] - parameters[0];
         let rates = [0, 1].map(|end| {
-            let [tip, axis] = self.rates_from_path(surroundings[end], width, end, tolerance);
+            let [tip, axis] = self.rates_from_path(surroundings[end], width, end, weights);
             [tip, axis - (held[1] - held[0])]
         });
         let tips = Interpolated::new(middle[0], [rates[0][0], rates[1][0]]);
@@ -177,13 +179,13 @@ impl<'a> JointSegment<'a> {
         &Surroundings { tool, path, .. }: &Surroundings,
         width: f64,
         end: usize,
-        tolerance: &Deviation,
+        weights: [f64; 2],
     ) -> [Vector3<f64>; 2] {
         let [a, b] = self.ends;
         let turn = [b.table.theta1 - a.table.theta1, b.table.theta2 - a.table.theta2];
         let tool = tool.rates(&self.rates[end], turn);
         let off = [tool[0] - path[0] * width, tool[1] - path[1] * width];
-        across_path(off, path, tolerance, [f64::NEG_INFINITY, f64::INFINITY])
+        across_path(off, path, weights, [f64::NEG_INFINITY, f64::INFINITY])
     }
 
     /// The place of the worst margin along the segment, as a fraction of its constraint's range.
@@ -238,27 +240,27 @@ fn from_path(
     parameters: [f64; 2],
     t: f64,
     [tip, axis]: [Vector3<f64>; 2],
-    tolerance: &Deviation,
+    weights: [f64; 2],
 ) -> [Vector3<f64>; 2] {
     let s = parameters[0] + (parameters[1] - parameters[0]) * t;
     let ([at_tip, at_axis], rates) = path.with_rates(s);
-    across_path([tip - at_tip, axis - at_axis], rates, tolerance, parameters.map(|end| end - s))
+    across_path([tip - at_tip, axis - at_axis], rates, weights, parameters.map(|end| end - s))
 }
 
-/// The offset less the step along the path that makes it smallest in proportion to the tolerances. The path is
+/// The offset less the step along the path that makes it smallest; `weights` are those of the squares of tip and axis,
+/// the reciprocals of the squares of the tolerances. The path is
 /// straight as far as the parameter moves.
 fn across_path(
     [tip, axis]: [Vector3<f64>; 2],
     [tip_rate, axis_rate]: [Vector3<f64>; 2],
-    tolerance: &Deviation,
+    weights: [f64; 2],
     [least, most]: [f64; 2],
 ) -> [Vector3<f64>; 2] {
-    let squares = [tolerance.tip, tolerance.axis].map(|tolerance| 1.0 / (tolerance * tolerance));
-    let square = tip_rate.norm_squared() * squares[0] + axis_rate.norm_squared() * squares[1];
+    let square = tip_rate.norm_squared() * weights[0] + axis_rate.norm_squared() * weights[1];
     if square <= 0.0 {
         return [tip, axis];
     }
-    let along = tip_rate.dot(&tip) * squares[0] + axis_rate.dot(&axis) * squares[1];
+    let along = tip_rate.dot(&tip) * weights[0] + axis_rate.dot(&axis) * weights[1];
     let step = (along / square).max(least).min(most);
     [tip - tip_rate * step, axis - axis_rate * step]
 }

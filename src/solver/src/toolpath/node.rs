@@ -1,6 +1,6 @@
 //! The joints at one place of the path.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::RangeInclusive;
 
 use super::azimuth::inclination;
@@ -31,8 +31,6 @@ pub(super) struct Setting<'a> {
     pub(super) stretches: &'a [Stretch],
     pub(super) table_clearance: Option<f64>,
     pub(super) tool_radius: f64,
-    /// Half-angle of the cap around the pole, rad.
-    pub(super) pole: f64,
 }
 
 /// Joints and platform pose at a place of the path.
@@ -53,9 +51,23 @@ pub(super) struct Turns {
 }
 
 impl Turns {
+    /// Those in the middle between two nodes with this alpha there.
+    pub(super) fn in_middle([a, b]: [&Node; 2], alpha: f64) -> Self {
+        let tilt = halfway([a.table.theta1, b.table.theta1], [a.turns.tilt, b.turns.tilt]);
+        let rotary = halfway([a.table.theta2, b.table.theta2], [a.turns.rotary, b.turns.rotary]);
+        Self { platform: direction(alpha), tilt, rotary }
+    }
+
     pub(super) fn of(alpha: f64, table: TableAngles) -> Self {
         let [platform, tilt, rotary] = [alpha, table.theta1, table.theta2].map(direction);
         Self { platform, tilt, rotary }
+    }
+
+    /// The tool's axis in the part frame.
+    pub(super) fn axis(&self) -> [f64; 3] {
+        let ([s1, c1], [s2, c2]) = (self.inclination(), self.rotary);
+        // phi2 = -theta2.
+        [-s1 * s2, -s1 * c2, c1]
     }
 
     /// Sine and cosine of phi1.
@@ -68,6 +80,16 @@ impl Turns {
 fn direction(angle: f64) -> [f64; 2] {
     let (sine, cosine) = sin_cos(angle);
     [sine, cosine]
+}
+
+/// Sine and cosine of the mean of two angles, of which sine and cosine are known.
+fn halfway([a, b]: [f64; 2], [[sa, ca], [sb, cb]]: [[f64; 2]; 2]) -> [f64; 2] {
+    if (b - a).abs() > FRAC_PI_2 {
+        return direction(0.5 * (a + b));
+    }
+    let (sine, cosine) = (sa + sb, ca + cb);
+    let scale = 1.0 / (sine * sine + cosine * cosine).sqrt();
+    [sine * scale, cosine * scale]
 }
 
 /// Sine and cosine of the difference of two angles.
@@ -143,7 +165,10 @@ impl Setting<'_> {
     /// The joints at a place, with what margins need of them.
     pub(super) fn closed<'n>(&self, node: &'n Node, rods: &'n Rods, tool_length: f64) -> ClosedPosture<'n> {
         let Node { pose, rho, table, .. } = node;
-        ClosedPosture { pose, rho: *rho, rods, table: *table, clearance: self.clearance(tool_length) }
+        let clearance = self.clearance(tool_length);
+        let clearance = clearance.map(|clearance| clearance.margin(self.machine, pose, *table));
+        let (theta1, theta2) = (table.theta1, Some(table.theta2));
+        ClosedPosture { pose, rho: *rho, rods, theta1, theta2, clearance }
     }
 
     fn clearance(&self, tool_length: f64) -> Option<Clearance> {

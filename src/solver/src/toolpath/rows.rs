@@ -191,6 +191,9 @@ impl<'a> Rower<'a> {
             }
         }
         self.report.least = self.least.found();
+        // An arc is longer than its chord.
+        let axis = &mut self.report.deviation.axis;
+        *axis = 2.0 * (0.5 * *axis).min(1.0).asin();
         Some(self.report)
     }
 
@@ -246,9 +249,7 @@ impl<'a> Rower<'a> {
         tool_length: f64,
     ) {
         let (margin, fraction) = self.meet(index, (node, tool_length));
-        let ([s1, c1], [s2, c2]) = (node.turns.inclination(), node.turns.rotary);
-        // phi2 = -theta2.
-        let position = ToolPosition { tip: place.tip, axis: [-s1 * s2, -s1 * c2, c1] };
+        let position = ToolPosition { tip: place.tip, axis: node.turns.axis() };
         self.report.add_row(node, self.now.as_ref());
         (self.emit)(&Row {
             motion: index,

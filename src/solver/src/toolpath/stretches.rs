@@ -8,7 +8,7 @@ use super::motion::{Motion, MotionKind, Motions, ToolPosition, Turning};
 use super::path::Path;
 
 /// Measure, relative to the machine's longest dimension, of a stretch that is a point.
-const LEAST_MEASURE: f64 = 1e-9;
+const LEAST_MEASURE: f64 = 1e-8;
 
 /// A place on the path of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,6 +10,9 @@ use crate::toolpath::motion::Motion;
 use crate::toolpath::path::Path;
 use crate::toolpath::stretches::Place;
 
+/// Least turn at the pole for which the tool stands still, rad: the edge of a cap rounds azimuths by less.
+const LEAST_TURN: f64 = 1e-6;
+
 impl Rower<'_> {
     pub(super) fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
         self.report.length[0] += path.length();
@@ -49,6 +52,9 @@ impl Rower<'_> {
         let turning = span.turning();
         let track = self.track(&held, turning, motion.tool_length);
         let Ok(end) = track.node(1.0, Some(&now)) else { return };
+        if (end.table.theta2 - now.table.theta2).abs() < LEAST_TURN {
+            return;
+        }
         let stops = [Stop { s: 0.0, node: now }, Stop { s: 1.0, node: end }];
         self.rows_between(index, motion, &track, stops, RowKind::Turn);
     }
