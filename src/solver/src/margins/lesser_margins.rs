@@ -2,7 +2,7 @@
 //! between rods are computed at a few postures only: a bound of their change usually shows that they do not matter at
 //! the postures nearby.
 
-use super::posture_margins::{det_margin, heights, range_margins};
+use super::posture_margins::{heights, margin_of_det, range_margins};
 use super::worst::{FAMILY_ROD, WorstMargin, each_length, each_range, least};
 use super::{cone, interference};
 use crate::fast_math::greater;
@@ -26,6 +26,8 @@ pub(crate) struct ClosedPosture<'a> {
     pub(crate) pose: &'a PlatformPose,
     pub(crate) rho: [f64; 3],
     pub(crate) rods: &'a Rods,
+    /// `det_P`.
+    pub(crate) det: f64,
     pub(crate) theta1: f64,
     /// `None`: the range of theta2 takes no part.
     pub(crate) theta2: Option<f64>,
@@ -137,7 +139,7 @@ pub(crate) fn worst_and_lesser(
     found: impl FnMut(Margin),
 ) -> (Margin, f64) {
     let (g, limits, factors) = (machine.geometry(), machine.limits(), &machine.normalization);
-    let ClosedPosture { pose, rho, rods, theta1, theta2, clearance } = *posture;
+    let ClosedPosture { pose, rho, rods, det, theta1, theta2, clearance } = *posture;
     let worst = WorstMargin::new(g.R1 * rods.c - g.r1, factors.rod_crossing);
     let crossing = worst.margin;
     let mut lesser = Lesser { worst, known, found };
@@ -149,7 +151,7 @@ pub(crate) fn worst_and_lesser(
     each_range(machine, Some(range_margins(limits.tilt, theta1)), rotary, &mut meet);
     let (family, value) = least(&rods.directions.map(|direction| direction[2] - limits.serial_margin));
     meet(Constraint::SerialSingularity, FAMILY_ROD[family], value, factors.serial_singularity);
-    let det = det_margin(machine, rods);
+    let det = margin_of_det(machine, det);
     meet(Constraint::ParallelSingularity, Element::Platform, det, factors.parallel_singularity);
     let (distance, [a, b]) = interference::least_distance_in_parallelograms(g, rods);
     let (value, element) = (distance - 2.0 * g.rod_radius, Element::Rods(a, b));

@@ -202,8 +202,13 @@ pub(super) fn heights(g: &Geometry, pose: &PlatformPose, rho: [f64; 3], rods: &R
 /// `det_P` in the sign of home less the limit.
 #[inline]
 pub(super) fn det_margin(machine: &Machine, rods: &Rods) -> f64 {
-    determinant(&matrix(machine.geometry(), rods)) * machine.home.det.signum()
-        - machine.limits().parallel_margin
+    margin_of_det(machine, determinant(&matrix(machine.geometry(), rods)))
+}
+
+/// The same from the determinant.
+#[inline]
+pub(super) fn margin_of_det(machine: &Machine, det: f64) -> f64 {
+    det * machine.home.det.signum() - machine.limits().parallel_margin
 }
 
 /// The margins of a value in a range.

@@ -6,7 +6,7 @@ use super::differential::Differential;
 use super::golden_section::{STEPS, beside, least};
 use super::meridian::Span;
 use super::nearby_pose::{hermite_middle, parabola, solved};
-use super::node::{Node, Setting, Turns};
+use super::node::{ClosedRods, Node, Setting, Turns};
 use super::path::Path;
 use super::tool_motion::ToolMotion;
 use crate::machine::Machine;
@@ -58,6 +58,7 @@ pub(super) struct Stop {
 
 /// What the segments on both sides of a stop need of it.
 pub(super) struct Surroundings {
+    pub(super) closed: ClosedRods,
     pub(super) differential: Differential,
     tool: ToolMotion,
     /// The rates of the path by its parameter.
@@ -68,9 +69,11 @@ impl Surroundings {
     /// `None` at a parallel singularity.
     pub(super) fn of(track: &Track<'_>, stop: &Stop, path: [Vector3<f64>; 2]) -> Option<Self> {
         let machine = track.setting.machine;
-        let differential = Differential::of(machine, &stop.node.rods(machine))?;
+        let rods = stop.node.rods(machine);
+        let differential = Differential::of(machine, &rods)?;
+        let closed = ClosedRods { rods, det: differential.det };
         let tool = ToolMotion::at(machine, &stop.node, track.tool_length);
-        Some(Self { differential, tool, path })
+        Some(Self { closed, differential, tool, path })
     }
 }
 

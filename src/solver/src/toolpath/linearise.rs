@@ -3,9 +3,10 @@
 use super::bound::{InverseBound, second_derivatives};
 use super::joint_segment::{Deviation, JointSegment, Stop, Surroundings, Track};
 use super::motion::ToolPosition;
-use super::node::{Node, Target};
+use super::node::{ClosedRods, Node, Target};
 use crate::error::KinematicsError;
 use crate::machine::Machine;
+use crate::rods::Rods;
 
 /// The fraction of the tolerance that is used: the greatest deviation may lie between the places that are examined.
 const USED: f64 = 0.97;
@@ -44,17 +45,19 @@ pub(super) fn linearise(
     end: &Stop,
     tolerance: &Deviation,
     bend: &mut Bend,
-    mut found: impl FnMut(&Stop, Option<&JointSegment<'_>>, Deviation),
+    mut found: impl FnMut(&Stop, &ClosedRods, Option<&JointSegment<'_>>, Deviation),
 ) -> Result<(), LineariseError> {
     let machine = track.setting.machine;
     let way = square_way(machine, &start.node, &end.node);
     let expected = bend.known.map(|known| known * way);
-    if expected.is_none_or(|expected| expected <= BOUNDABLE)
-        && let Some(deviation) = bounded(track, [&start, end], &mut bend.inverse)
-        && deviation.ratio(tolerance) <= USED
-    {
-        found(end, None, deviation);
-        return Ok(());
+    if expected.is_none_or(|expected| expected <= BOUNDABLE) {
+        let rods = [&start, end].map(|stop| stop.node.rods(machine));
+        if let Some(deviation) = bounded(track, [&start, end], [&rods[0], &rods[1]], &mut bend.inverse)
+            && deviation.ratio(tolerance) <= USED
+        {
+            found(end, &ClosedRods::of(machine, rods[1]), None, deviation);
+            return Ok(());
+        }
     }
     let mut places = [start, *end].map(|stop| Place { stop, surroundings: None });
     let [first, last] = &mut places;
@@ -73,12 +76,12 @@ pub(super) fn linearise(
             next.move_to(track, from + width, &now.stop.node)?;
         }
         let segment = Place::segment([now, next], track, tolerance);
-        let ratio = segment.as_ref().map_or(f64::INFINITY, |(_, deviation)| deviation.ratio(tolerance));
+        let ratio = segment.as_ref().map_or(f64::INFINITY, |(.., deviation)| deviation.ratio(tolerance));
         let bounds = RATIOS.map(|ratio| AIM / (ratio * ratio));
         curvature = ratio.clamp(bounds[1], bounds[0]) / (width * width);
         match segment {
-            Some((segment, deviation)) if ratio <= USED => {
-                found(&next.stop, Some(&segment), deviation);
+            Some((segment, rods, deviation)) if ratio <= USED => {
+                found(&next.stop, rods, Some(&segment), deviation);
                 let way = square_way(machine, &now.stop.node, &next.stop.node);
                 bend.known = (way > 0.0).then(|| ratio / way).or(bend.known);
                 std::mem::swap(&mut now, &mut next);
@@ -102,10 +105,11 @@ fn square_way(machine: &Machine, a: &Node, b: &Node) -> f64 {
 fn bounded(
     track: &Track<'_>,
     [start, end]: [&Stop; 2],
+    rods: [&Rods; 2],
     inverse: &mut Option<InverseBound>,
 ) -> Option<Deviation> {
     let ends = [&start.node, &end.node];
-    let joints = second_derivatives(track.setting.machine, ends, track.tool_length, inverse)?;
+    let joints = second_derivatives(track.setting.machine, ends, rods, track.tool_length, inverse)?;
     let width = end.s - start.s;
     let [tip, axis] = track.path.second_derivatives().map(|second| second * width * width);
     // Inside a cap the axis is off its path at the ends, too.
@@ -136,18 +140,18 @@ impl Place {
         Ok(())
     }
 
-    /// The joint segment between two places, with its deviation.
+    /// The joint segment between two places, with the rods at its end and its deviation.
     fn segment<'p>(
         [now, next]: [&'p Self; 2],
         track: &Track<'_>,
         tolerance: &Deviation,
-    ) -> Option<(JointSegment<'p>, Deviation)> {
+    ) -> Option<(JointSegment<'p>, &'p ClosedRods, Deviation)> {
         let surroundings = [now.surroundings.as_ref()?, next.surroundings.as_ref()?];
         let ends = [&now.stop.node, &next.stop.node];
         let differentials = surroundings.map(|surroundings| &surroundings.differential);
         let segment = JointSegment::new(track.setting.machine, ends, differentials)?;
         let deviation = segment.deviation(track, [now.stop.s, next.stop.s], surroundings, tolerance)?;
-        Some((segment, deviation))
+        Some((segment, &surroundings[1].closed, deviation))
     }
 }
 

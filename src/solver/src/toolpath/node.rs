@@ -14,6 +14,7 @@ use crate::inverse::{part_every_working, part_working, part_working_near};
 use crate::machine::Machine;
 use crate::margins::Margins;
 use crate::margins::lesser_margins::ClosedPosture;
+use crate::parallel_matrix::{determinant, matrix};
 use crate::pose::{PartPose, PlatformPose, TableAngles};
 use crate::posture::Posture;
 use crate::rods::Rods;
@@ -40,6 +41,19 @@ pub(super) struct Node {
     pub(super) rho: [f64; 3],
     pub(super) table: TableAngles,
     pub(super) turns: Turns,
+}
+
+/// The rods at a place, and `det_P`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ClosedRods {
+    pub(super) rods: Rods,
+    pub(super) det: f64,
+}
+
+impl ClosedRods {
+    pub(super) fn of(machine: &Machine, rods: Rods) -> Self {
+        Self { rods, det: determinant(&matrix(machine.geometry(), &rods)) }
+    }
 }
 
 /// Sine and cosine of alpha, theta1 and theta2.
@@ -163,12 +177,17 @@ impl Setting<'_> {
     }
 
     /// The joints at a place, with what margins need of them.
-    pub(super) fn closed<'n>(&self, node: &'n Node, rods: &'n Rods, tool_length: f64) -> ClosedPosture<'n> {
-        let Node { pose, rho, table, .. } = node;
+    pub(super) fn closed<'n>(
+        &self,
+        node: &'n Node,
+        closed: &'n ClosedRods,
+        tool_length: f64,
+    ) -> ClosedPosture<'n> {
+        let (Node { pose, rho, table, .. }, ClosedRods { rods, det }) = (node, closed);
         let clearance = self.clearance(tool_length);
         let clearance = clearance.map(|clearance| clearance.margin(self.machine, pose, *table));
         let (theta1, theta2) = (table.theta1, Some(table.theta2));
-        ClosedPosture { pose, rho: *rho, rods, theta1, theta2, clearance }
+        ClosedPosture { pose, rho: *rho, rods, det: *det, theta1, theta2, clearance }
     }
 
     fn clearance(&self, tool_length: f64) -> Option<Clearance> {
@@ -207,6 +226,10 @@ impl Node {
         let table = TableAngles { theta1: posture.pose.alpha - phi1, theta2: -phi2 };
         let turns = Turns { platform, tilt: difference(platform, inclination), rotary: [-sine, cosine] };
         Self { pose: posture.pose, rho: posture.rho, table, turns }
+    }
+
+    pub(super) fn closed_rods(&self, machine: &Machine) -> ClosedRods {
+        ClosedRods::of(machine, self.rods(machine))
     }
 
     pub(super) fn rods(&self, machine: &Machine) -> Rods {

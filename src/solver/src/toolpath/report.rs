@@ -1,9 +1,11 @@
 //! What is found out about a program.
 
 use super::joint_segment::Deviation;
-use super::node::{Node, Setting};
+use super::node::Node;
+use crate::fast_math::{greater, lesser};
 use crate::limit::{Constraint, Margin};
-use crate::margins::lesser_margins::{Known, Reference, worst_and_lesser};
+use crate::machine::Machine;
+use crate::margins::lesser_margins::{ClosedPosture, Known, Reference, worst_and_lesser};
 use crate::pose::PartPose;
 
 /// Greatest number of failures that a report lists.
@@ -52,14 +54,12 @@ impl LeastMargins {
     /// range.
     pub(super) fn meet(
         &mut self,
-        setting: &Setting<'_>,
+        machine: &Machine,
         motion: usize,
-        (node, tool_length): (&Node, f64),
+        posture: &ClosedPosture<'_>,
     ) -> (Margin, f64) {
-        let rods = node.rods(setting.machine);
-        let posture = setting.closed(node, &rods, tool_length);
         let known = (&mut self.known, &mut self.reference);
-        worst_and_lesser(setting.machine, &posture, known, |margin| {
+        worst_and_lesser(machine, posture, known, |margin| {
             self.found[margin.constraint as usize] = Some(LeastMargin { margin, motion });
         })
     }
@@ -161,7 +161,7 @@ impl Report {
         let joints = [node.rho[0], node.rho[1], node.rho[2], node.table.theta1, node.table.theta2];
         let ranges = self.ranges.get_or_insert(joints.map(|joint| [joint; 2]));
         for (range, joint) in ranges.iter_mut().zip(joints) {
-            *range = [range[0].min(joint), range[1].max(joint)];
+            *range = [lesser(range[0], joint), greater(range[1], joint)];
         }
         if let Some(before) = before {
             self.turning[0] += (node.table.theta1 - before.table.theta1).abs();
@@ -170,6 +170,6 @@ impl Report {
         // phi1 = alpha - theta1.
         let inclination = (node.pose.alpha - node.table.theta1).abs();
         let least = self.least_inclination.get_or_insert(inclination);
-        *least = least.min(inclination);
+        *least = lesser(*least, inclination);
     }
 }

@@ -10,7 +10,7 @@ use super::joint_segment::{Deviation, Track};
 use super::linearise::Bend;
 use super::meridian::{Meridian, Span};
 use super::motion::{MotionKind, Motions, ToolPosition};
-use super::node::{Node, Setting};
+use super::node::{ClosedRods, Node, Setting};
 use super::path::Path;
 use super::report::{LeastMargins, Report};
 use crate::error::KinematicsError;
@@ -248,7 +248,20 @@ impl<'a> Rower<'a> {
         node: &Node,
         tool_length: f64,
     ) {
-        let (margin, fraction) = self.meet(index, (node, tool_length));
+        let rods = node.closed_rods(self.setting.machine);
+        self.closed_row(index, kind, place, (node, &rods), tool_length);
+    }
+
+    /// The same with the rods.
+    pub(super) fn closed_row(
+        &mut self,
+        index: usize,
+        kind: RowKind,
+        place: &RowPlace,
+        (node, rods): (&Node, &ClosedRods),
+        tool_length: f64,
+    ) {
+        let (margin, fraction) = self.meet_closed(index, (node, rods), tool_length);
         let position = ToolPosition { tip: place.tip, axis: node.turns.axis() };
         self.report.add_row(node, self.now.as_ref());
         (self.emit)(&Row {

@@ -43,7 +43,7 @@ impl Reserve {
         mut reference: Option<Reference>,
     ) -> Self {
         let fraction = node.map_or(-1.0, |node| {
-            let rods = node.rods(setting.machine);
+            let rods = node.closed_rods(setting.machine);
             let posture = ClosedPosture { theta2: None, ..setting.closed(node, &rods, tool_length) };
             let mut known = [f64::NEG_INFINITY; Constraint::COUNT];
             worst_and_lesser(setting.machine, &posture, (&mut known, &mut reference), |_| {}).1

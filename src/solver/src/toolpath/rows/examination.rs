@@ -9,7 +9,7 @@ use crate::toolpath::differential::Differential;
 use crate::toolpath::golden_section::{STEPS, beside, least};
 use crate::toolpath::joint_segment::{JointSegment, Track};
 use crate::toolpath::meridian::Span;
-use crate::toolpath::node::Node;
+use crate::toolpath::node::{ClosedRods, Node};
 use crate::toolpath::path::places;
 
 /// Fraction of a margin's range below which a segment's margins are examined between its ends.
@@ -112,7 +112,18 @@ impl Rower<'_> {
     /// Notes the margins of a place, which is given by its joints and the tool's length; those of limits that are
     /// broken are failures. The answer is the worst margin and its fraction of its constraint's range.
     pub(super) fn meet(&mut self, index: usize, (node, tool_length): (&Node, f64)) -> (Margin, f64) {
-        let (margin, fraction) = self.least.meet(&self.setting, index, (node, tool_length));
+        self.meet_closed(index, (node, &node.closed_rods(self.setting.machine)), tool_length)
+    }
+
+    /// The same with the rods.
+    pub(super) fn meet_closed(
+        &mut self,
+        index: usize,
+        (node, rods): (&Node, &ClosedRods),
+        tool_length: f64,
+    ) -> (Margin, f64) {
+        let posture = self.setting.closed(node, rods, tool_length);
+        let (margin, fraction) = self.least.meet(self.setting.machine, index, &posture);
         if margin.value < 0.0 {
             let pose = part_pose(self.setting.machine, &node.pose, node.table, tool_length);
             self.report.fail(index, pose, margin, fraction);

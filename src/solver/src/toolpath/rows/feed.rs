@@ -97,18 +97,19 @@ impl Rower<'_> {
             return;
         }
         let mut from = start;
-        let result = linearise(track, stops[0], &stops[1], &feed, &mut bend, |stop, segment, deviation| {
-            let kind = kind_at(kind, stop.s);
-            self.report.deviation = self.report.deviation.with(deviation);
-            let (before, start) = (self.now.zip(self.margin), from);
-            let mut place = RowPlace::on(track.path, from, stop.s, end);
-            if let (RowKind::Turn, Some(way), Some(now)) = (kind, &mut place.way, &self.now) {
-                way.angle = (stop.node.table.theta2 - now.table.theta2).abs();
-            }
-            from = stop.s;
-            self.row(index, kind, &place, &stop.node, motion.tool_length);
-            self.examine_way(index, track, before, [start, stop.s], segment);
-        });
+        let result =
+            linearise(track, stops[0], &stops[1], &feed, &mut bend, |stop, rods, segment, deviation| {
+                let kind = kind_at(kind, stop.s);
+                self.report.deviation = self.report.deviation.with(deviation);
+                let (before, start) = (self.now.zip(self.margin), from);
+                let mut place = RowPlace::on(track.path, from, stop.s, end);
+                if let (RowKind::Turn, Some(way), Some(now)) = (kind, &mut place.way, &self.now) {
+                    way.angle = (stop.node.table.theta2 - now.table.theta2).abs();
+                }
+                from = stop.s;
+                self.closed_row(index, kind, &place, (&stop.node, rods), motion.tool_length);
+                self.examine_way(index, track, before, [start, stop.s], segment);
+            });
         self.bends[0] = bend;
         match result {
             Ok(()) => {}

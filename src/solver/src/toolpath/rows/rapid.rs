@@ -75,7 +75,7 @@ impl Rower<'_> {
             let Ok(end) = track.node(span.to, Some(&now)) else { return false };
             let stops = [Stop { s: span.from, node: now }, Stop { s: span.to, node: end }];
             let result =
-                linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _| {
+                linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _, _| {
                     rows.push((stop.s, *span, stop.node));
                 });
             if result.is_err() {

@@ -93,10 +93,16 @@ impl Rower<'_> {
         }
         let end = track.node(1.0, Some(now)).map_err(|refusal| (1.0, refusal))?;
         let stops = [Stop { s: 0.0, node: *now }, Stop { s: 1.0, node: end }];
-        let result =
-            linearise(track, stops[0], &stops[1], &self.settings.feed, &mut Bend::default(), |stop, _, _| {
+        let result = linearise(
+            track,
+            stops[0],
+            &stops[1],
+            &self.settings.feed,
+            &mut Bend::default(),
+            |stop, _, _, _| {
                 away.push(stop.node);
-            });
+            },
+        );
         result.map_err(|error| match error {
             LineariseError::Refused(s, refusal) => (s, refusal),
             LineariseError::Jump(s) => (s, no_way(Constraint::ParallelSingularity, Element::Platform)),
