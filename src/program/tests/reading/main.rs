@@ -19,6 +19,7 @@ mod motion;
 mod packed;
 mod rows;
 mod sources;
+mod tables;
 mod texts;
 mod tools;
 

@@ -5,12 +5,14 @@ pub(crate) mod examples;
 pub(crate) mod machine_schema;
 pub(crate) mod problem_responses;
 pub(crate) mod security;
+pub(crate) mod table_examples;
 
 use serde_json::{Value, json};
 use utoipa::OpenApi;
 
 use crate::http::openapi::examples::examples;
 use crate::http::openapi::machine_schema::join_descriptions;
+use crate::http::openapi::table_examples::write_table_examples;
 use crate::http::problem::Problem;
 use crate::wire::dexterity::DexteritySummary;
 use crate::wire::family::FamilySummary;
@@ -69,6 +71,7 @@ pub(crate) fn complete(api: &utoipa::openapi::OpenApi) -> Value {
     for example in examples() {
         example.write_into(&mut document);
     }
+    write_table_examples(&mut document);
     join_descriptions(&mut document);
     document
 }

@@ -26,7 +26,7 @@ pub(crate) struct KeyHolder {
     /// The role.
     pub role: Role,
     /// The rate. The bucket is full again after the file was read again.
-    pub bucket: Option<TokenBucket>,
+    pub bucket: Option<Arc<TokenBucket>>,
 }
 
 /// Holders by the hashes of their keys.
@@ -103,7 +103,7 @@ pub(crate) fn read(path: &Path, default: Option<Rate>) -> Result<KeyTable, KeysF
         if entry.rate.is_none() && entry.rate_burst.is_some() {
             return Err(bad(Some(format!("{location}: rate_burst")), "needs a rate".to_owned()));
         }
-        let bucket = entry.rate(default).map(TokenBucket::new);
+        let bucket = entry.rate(default).map(|rate| Arc::new(TokenBucket::new(rate)));
         let holder = Arc::new(KeyHolder { name: entry.name, role: entry.role, bucket });
         if keys.insert(entry.hash, holder).is_some() {
             return Err(bad(Some(location), "its hash is that of an earlier entry".to_owned()));

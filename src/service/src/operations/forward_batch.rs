@@ -1,5 +1,7 @@
 //! `/fk/batch`: the working pose for many joint positions.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use serde_json::value::RawValue;
 use verne_solver::axis::tool_axis;
@@ -9,7 +11,7 @@ use crate::operations::batch_rows::{
     BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_refusal,
     outcome_of_solution, row_report,
 };
-use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Orientation, Row};
 use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::error::OperationError;
@@ -27,16 +29,16 @@ const JOINTS_WITH_TABLE: RowFormat = RowFormat {
     description: "[rho1, rho2, rho3, theta1, theta2]: table_clearance needs theta1",
 };
 
-/// One answered row.
-struct AnsweredRow {
-    pose: Option<Row>,
-    part: Option<Row>,
-    outcome: RowOutcome,
+/// The poses of a row.
+pub(crate) struct AnsweredJoints {
+    pub(crate) pose: Option<Row>,
+    pub(crate) part: Option<Row>,
+    pub(crate) outcome: RowOutcome,
     /// Whether the row gives theta1.
     has_theta1: bool,
 }
 
-impl AnsweredRow {
+impl AnsweredJoints {
     fn without_solution(outcome: RowOutcome, has_theta1: bool) -> Self {
         Self { pose: None, part: None, outcome, has_theta1 }
     }
@@ -60,29 +62,50 @@ fn answer<R: BatchRow>(
     machines: &MachineRegistry,
     max_rows: usize,
 ) -> Result<Vec<u8>, OperationError> {
-    let tool = request.tool();
-    check_batch(tool, None, request.joints.len(), max_rows)?;
-    let machine = machines.resolve(&request.machine)?;
-    let clearance = tool.clearance(&machine);
-    let rows: Vec<_> = request
-        .joints
-        .items()
-        .par_iter()
-        .with_min_len(MIN_CHUNK)
-        .map(|row| answer_row(&machine, tool, clearance.as_ref(), request.orientation, row))
-        .collect();
+    let batch = JointBatch::new(request, machines, max_rows)?;
+    let rows = batch.answer(request.joints.items());
     let (mut poses, mut parts) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
     let mut outcomes = Vec::with_capacity(rows.len());
-    let mut table_checked = clearance.is_some();
-    for AnsweredRow { pose, part, outcome, has_theta1 } in rows {
+    let mut table_checked = batch.clearance.is_some();
+    for AnsweredJoints { pose, part, outcome, has_theta1 } in rows {
         table_checked &= has_theta1;
         poses.push(pose);
         parts.push(part);
         outcomes.push(outcome);
     }
     let report = row_report(outcomes.into_iter(), table_checked);
-    let answer = FkBatchAnswer { machine: machine.id.clone(), poses, parts, report };
+    let answer = FkBatchAnswer { machine: batch.machine.id.clone(), poses, parts, report };
     write_json(&answer, ROW_BYTES * answer.poses.len())
+}
+
+/// What all rows of a batch share.
+pub(crate) struct JointBatch {
+    pub(crate) machine: Arc<IdentifiedMachine>,
+    pub(crate) tool: Tool,
+    clearance: Option<Clearance>,
+    pub(crate) orientation: Orientation,
+}
+
+impl JointBatch {
+    /// Checks what all rows share. Of the rows only the number is checked.
+    pub(crate) fn new<R>(
+        request: &FkBatchRequest<R>,
+        machines: &MachineRegistry,
+        max_rows: usize,
+    ) -> Result<Self, OperationError> {
+        let tool = request.tool();
+        check_batch(tool, None, request.joints.len(), max_rows)?;
+        let machine = machines.resolve(&request.machine)?;
+        let clearance = tool.clearance(&machine);
+        Ok(Self { machine, tool, clearance, orientation: request.orientation })
+    }
+
+    /// Answers some rows.
+    pub(crate) fn answer<R: BatchRow>(&self, rows: &[R]) -> Vec<AnsweredJoints> {
+        let Self { machine, tool, clearance, orientation } = self;
+        let rows = rows.par_iter().with_min_len(MIN_CHUNK);
+        rows.map(|row| answer_row(machine, *tool, clearance.as_ref(), *orientation, row)).collect()
+    }
 }
 
 fn answer_row(
@@ -91,23 +114,23 @@ fn answer_row(
     clearance: Option<&Clearance>,
     orientation: Orientation,
     row: &impl BatchRow,
-) -> AnsweredRow {
+) -> AnsweredJoints {
     let format = if tool.table_clearance.is_none() { JOINTS } else { JOINTS_WITH_TABLE };
     let row = match row.numbers(format) {
         Ok(row) => row,
-        Err(detail) => return AnsweredRow::without_solution(RowOutcome::Invalid(detail), true),
+        Err(detail) => return AnsweredJoints::without_solution(RowOutcome::Invalid(detail), true),
     };
     let table =
         (row.len() == 5).then(|| TableAngles { theta1: from_degrees(row[3]), theta2: from_degrees(row[4]) });
     let posture = match forward_working(machine, [row[0], row[1], row[2]]) {
         Ok(posture) => posture,
         Err(refusal) => {
-            return AnsweredRow::without_solution(outcome_of_refusal(machine, refusal), table.is_some());
+            return AnsweredJoints::without_solution(outcome_of_refusal(machine, refusal), table.is_some());
         }
     };
     let pose = &posture.pose;
     let part = table.map(|table| part_row(&part_pose(machine, pose, table, tool.length), orientation));
-    AnsweredRow {
+    AnsweredJoints {
         pose: Some([pose.x, pose.y, pose.z, to_degrees(pose.alpha)].into_iter().collect()),
         part,
         outcome: outcome_of_solution(machine, &posture, table, clearance),

@@ -1,5 +1,7 @@
 //! `/ik/batch`: the working solution for many poses.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use serde_json::value::RawValue;
 use verne_solver::{
@@ -12,8 +14,8 @@ use crate::operations::batch_rows::{
     outcome_of_solution, row_report,
 };
 use crate::operations::continuation::{Setting, Standing};
-use crate::operations::continuous_rows::answer_continuous;
-use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::continuous_rows::{AnsweredPose, answer_continuous};
+use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::operations::part_row::PartRow;
 use crate::operations::table_angles::{TablePosition, ToolOrientation};
 use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, Row, RowReport};
@@ -50,34 +52,73 @@ fn answer<R: BatchRow>(
     machines: &MachineRegistry,
     max_rows: usize,
 ) -> Result<Vec<u8>, OperationError> {
-    let (tool, frame) = (request.tool(), request.frame);
-    check_batch(tool, frame.without_tilt(), request.poses.len(), max_rows)?;
-    check_continuous(request)?;
-    let machine = machines.resolve(&request.machine)?;
-    let clearance = tool.clearance(&machine).filter(|_| frame == Frame::Part);
-    let setting = Setting { machine: &machine, tool_length: tool.length, clearance: clearance.as_ref() };
+    let mut batch = PoseBatch::new(request, machines, max_rows)?;
+    let rows = batch.answer(request.poses.items());
     let mut answer = IkBatchAnswer {
-        machine: machine.id.clone(),
+        machine: batch.machine.id.clone(),
         joints: Vec::new(),
         jump: None,
         jumps: None,
         report: RowReport::default(),
     };
-    let rows = request.poses.items();
-    let outcomes: Vec<RowOutcome>;
-    if request.continuous {
-        let start = request.start.map(|start| standing_at(&setting, start)).transpose()?;
-        let answered = answer_continuous(setting, PART_POSE, rows, start);
-        let jumps: Vec<_> = answered.iter().map(|row| row.jump).collect();
+    if batch.continuous {
+        let jumps: Vec<_> = rows.iter().map(|row| row.jump).collect();
         answer.jumps = Some(jumps.iter().filter(|jump| **jump == Some(true)).count());
         answer.jump = Some(jumps);
-        (answer.joints, outcomes) = answered.into_iter().map(|row| (row.joints, row.outcome)).unzip();
-    } else {
-        let answered = rows.par_iter().with_min_len(MIN_CHUNK);
-        (answer.joints, outcomes) = answered.map(|row| answer_row(setting, frame, row)).unzip();
     }
-    answer.report = row_report(outcomes.into_iter(), clearance.is_some());
+    let outcomes: Vec<RowOutcome>;
+    (answer.joints, outcomes) = rows.into_iter().map(|row| (row.joints, row.outcome)).unzip();
+    answer.report = row_report(outcomes.into_iter(), batch.clearance.is_some());
     write_json(&answer, ROW_BYTES * answer.joints.len())
+}
+
+/// What all rows of a batch share, and where the machine stands after those that are answered.
+pub(crate) struct PoseBatch {
+    pub(crate) machine: Arc<IdentifiedMachine>,
+    pub(crate) frame: Frame,
+    tool_length: f64,
+    clearance: Option<Clearance>,
+    pub(crate) continuous: bool,
+    standing: Option<Standing>,
+}
+
+impl PoseBatch {
+    /// Checks what all rows share. Of the rows only the number is checked.
+    pub(crate) fn new<R>(
+        request: &IkBatchRequest<R>,
+        machines: &MachineRegistry,
+        max_rows: usize,
+    ) -> Result<Self, OperationError> {
+        let (tool, frame) = (request.tool(), request.frame);
+        check_batch(tool, frame.without_tilt(), request.poses.len(), max_rows)?;
+        check_continuous(request)?;
+        let machine = machines.resolve(&request.machine)?;
+        let clearance = tool.clearance(&machine).filter(|_| frame == Frame::Part);
+        let (tool_length, continuous) = (tool.length, request.continuous);
+        let mut batch = Self { machine, frame, tool_length, clearance, continuous, standing: None };
+        batch.standing = request.start.map(|start| standing_at(&batch.setting(), start)).transpose()?;
+        Ok(batch)
+    }
+
+    fn setting(&self) -> Setting<'_> {
+        Setting { machine: &self.machine, tool_length: self.tool_length, clearance: self.clearance.as_ref() }
+    }
+
+    /// Answers the next rows.
+    pub(crate) fn answer<R: BatchRow>(&mut self, rows: &[R]) -> Vec<AnsweredPose> {
+        if self.continuous {
+            let mut standing = self.standing.take();
+            let answered = answer_continuous(self.setting(), PART_POSE, rows, &mut standing);
+            self.standing = standing;
+            return answered;
+        }
+        let (setting, frame) = (self.setting(), self.frame);
+        let answered = rows.par_iter().with_min_len(MIN_CHUNK).map(|row| {
+            let (joints, outcome) = answer_row(setting, frame, row);
+            AnsweredPose { joints, outcome, jump: None }
+        });
+        answered.collect()
+    }
 }
 
 /// Checks `continuous` and `start`.

@@ -199,6 +199,21 @@ pub(crate) enum Status {
     Invalid,
 }
 
+impl Status {
+    /// All of them, in the order of their values.
+    pub(crate) const ALL: [Self; 4] = [Self::Ok, Self::Unreachable, Self::Infeasible, Self::Invalid];
+
+    /// The name.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::Unreachable => "unreachable",
+            Self::Infeasible => "infeasible",
+            Self::Invalid => "invalid",
+        }
+    }
+}
+
 /// Number of rows with each status.
 #[derive(Clone, Copy, Debug, Default, Serialize, ToSchema)]
 pub(crate) struct Counts {

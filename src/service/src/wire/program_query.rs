@@ -19,7 +19,7 @@ const MOST_MOVES: usize = 2_000_000;
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct ProgramQuery {
-    /// Format of the program: `apt` (CL text), `gcode`, `csv` or `ndjson`. With it the service accepts any
+    /// Format of the program: `apt` (CL text), `gcode`, `csv`, `ndjson` or `arrow`. With it the service accepts any
     /// Content-Type. Without it Content-Type must tell the format.
     #[arg(long)]
     #[param(nullable = false)]

@@ -32,6 +32,7 @@ use crate::wire::result_id::ResultId;
     post, path = "/programs", operation_id = "programs_post", tag = "programs", params(ProgramQuery),
     request_body(content(
         (Text = "text/plain"), (Text = "text/csv"), (Text = "application/x-ndjson"),
+        (Binary = "application/vnd.apache.arrow.stream"),
         (Binary = "application/octet-stream"),
     ), description = "The file."),
     responses(
@@ -92,6 +93,7 @@ pub(crate) async fn get_program(
     responses(
         (status = 200, description = "The file.", content(
             (Text = "text/plain"), (Text = "text/csv"), (Text = "application/x-ndjson"),
+            (Binary = "application/vnd.apache.arrow.stream"),
         )),
         ProgramProblems
     )

@@ -43,7 +43,8 @@ use crate::wire::toolpath_report::ToolpathReport;
     post, path = "/toolpath", operation_id = "toolpath", tag = "toolpath", params(ProgramQuery, ToolpathQuery),
     request_body(content(
         (ToolpathRequest = "application/json"), (Text = "text/plain"), (Text = "text/csv"),
-        (Text = "application/x-ndjson"), (Binary = "application/octet-stream"),
+        (Text = "application/x-ndjson"), (Binary = "application/vnd.apache.arrow.stream"),
+        (Binary = "application/octet-stream"),
     ), description = "The program, its set-up and the tolerances as JSON; or the file of a program."),
     responses(
         (status = 200, description = "The report.", body = ToolpathReport),

@@ -78,7 +78,7 @@ problems! {
     /// Problems of a request with a body.
     BodyProblems: BODY;
     /// Problems of a batch.
-    BatchProblems: BODY, &[Code::TooManyRows];
+    BatchProblems: BODY, &[Code::TooManyRows, Code::BadRows];
     /// Problems of a workspace in the query string.
     WorkspaceQueryProblems: JOB, &[Code::RangeNotSatisfiable];
     /// Problems of a workspace, or a family of workspaces, in the body.

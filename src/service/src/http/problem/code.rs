@@ -127,6 +127,9 @@ problems! {
     InvalidRequest, "invalid_request", UNPROCESSABLE_ENTITY, "Fields or query parameters are invalid.";
         Operation(OperationError::Fields(_))
             => HttpError::field("/query/tool_length", "must be a number from 0 to 1e7 mm");
+    BadRows, "bad_rows", UNPROCESSABLE_ENTITY, "The body is not of its format of rows, or ends too early.";
+        Operation(OperationError::Rows(_))
+            => OperationError::Rows("the Arrow stream cannot be read: it ends within a message".to_owned());
     ProgramFault, "program_fault", UNPROCESSABLE_ENTITY,
         "The program has faults; `errors` lists them with line, column and word.";
         Operation(OperationError::ProgramFaults(_)) => OperationError::ProgramFaults(example_of_faults());

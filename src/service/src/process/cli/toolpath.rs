@@ -19,7 +19,7 @@ use crate::operations::programs::receiver::{ProgramReceiver, ReceivedProgram};
 use crate::operations::toolpath::compute_toolpath;
 use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
 use crate::operations::toolpath_report::is_feasible;
-use crate::operations::toolpath_row_text::{RowText, RowTextWriter};
+use crate::operations::toolpath_row_text::{RowText, RowWriter};
 use crate::process::cli::answer::{flags_of_query, machine};
 use crate::process::cli::progress::TerminalProgress;
 use crate::process::cli::toolpath::output::{OutputFormat, RowsOutput, is_standard};
@@ -133,7 +133,7 @@ fn writer(
     received: &ReceivedProgram,
 ) -> Result<Box<dyn RowText>, OperationError> {
     Ok(match format {
-        OutputFormat::Rows(format) => Box::new(RowTextWriter::new(question.id, format, 0)),
+        OutputFormat::Rows(format) => Box::new(RowWriter::new(question.id, format, 0)?),
         OutputFormat::JointProgram => Box::new(JointProgramText::new(options, question, &received.program)?),
     })
 }
@@ -146,6 +146,9 @@ fn plan(
     faults: impl Fn(OperationError) -> String,
 ) -> Result<Vec<u8>, String> {
     let texts = |lines: &[u32]| {
+        if received.format == Format::Arrow {
+            return Ok(Vec::new());
+        }
         let source = io::BufReader::new(GzDecoder::new(&*received.source));
         Ok(line_texts(source, lines).unwrap_or_default())
     };

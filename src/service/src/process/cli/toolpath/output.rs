@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::operations::toolpath_row_text::RowText;
 use crate::operations::toolpath_rows::read_chunk;
 use crate::process::cli::answer::to_json;
-use crate::wire::toolpath_row::RowFormat;
+use crate::wire::row_format::RowFormat;
 
 /// Whether a path means standard input or output.
 pub(super) fn is_standard(path: &Path) -> bool {
@@ -51,9 +51,9 @@ pub(super) fn format(path: &Path) -> Result<OutputFormat, String> {
     if ["ngc", "nc"].iter().any(|known| extension.eq_ignore_ascii_case(known)) {
         return Ok(OutputFormat::JointProgram);
     }
-    RowFormat::from_str(extension, true)
-        .map(OutputFormat::Rows)
-        .map_err(|_| format!("--output {} must end in .csv, .ndjson, .json, .ngc or .nc", path.display()))
+    RowFormat::from_str(extension, true).map(OutputFormat::Rows).map_err(|_| {
+        format!("--output {} must end in .arrow, .csv, .ndjson, .json, .ngc or .nc", path.display())
+    })
 }
 
 /// Removes a joint program that is not complete, or that the machine cannot run.
