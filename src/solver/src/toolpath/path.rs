@@ -91,7 +91,7 @@ impl Path {
     }
 
     /// The path of the same motion from another place of the tool's end.
-    pub(super) fn beginning_at(&self, tip: Point, motion: &Motion) -> Self {
+    pub(super) fn begun_at(&self, tip: Point, motion: &Motion) -> Self {
         Self::new(ToolPosition { tip, ..self.start }, motion)
     }
 

@@ -24,8 +24,8 @@ pub struct Failure {
     pub fraction: f64,
     /// Index of the motion with this margin.
     pub motion: usize,
-    /// The pose with this margin: the inverse problem for it, with the motion's tool, reproduces the failure but for the
-    /// winding of theta2.
+    /// The pose with this margin: the inverse problem for it, with the motion's tool, reproduces the failure but for
+    /// the winding of theta2.
     pub pose: PartPose,
     /// The joints there: sliders, mm, and table. `None`: the pose has none in the working mode.
     pub joints: Option<([f64; 3], TableAngles)>,

@@ -192,13 +192,14 @@ impl<'a> Rower<'a> {
                 self.begin(&motion);
             }
             meridian.advance(&motion);
-            match meridian.path {
+            match &meridian.path {
                 Some(path) => {
-                    let path = self.take_tool(index, &motion, &path);
+                    let changed = self.take_tool(index, &motion, path);
+                    let path = changed.as_ref().unwrap_or(path);
                     if motion.kind == MotionKind::Rapid {
-                        self.rapid(index, &motion, &path, &meridian.spans);
+                        self.rapid(index, &motion, path, &meridian.spans);
                     } else {
-                        self.feed(index, &motion, &path, &meridian.spans);
+                        self.feed(index, &motion, path, &meridian.spans);
                     }
                 }
                 None => self.arrive(index, &motion, &meridian.spans),

@@ -15,15 +15,15 @@ impl Rower<'_> {
         }
     }
 
-    /// The path of a motion. If the tool is another one, it begins at the new tool's end, whose limits are examined: in
-    /// a cap the axis is not exactly the path's.
-    pub(super) fn take_tool(&mut self, index: usize, motion: &Motion, path: &Path) -> Path {
+    /// The path of a motion if the tool is another one: it begins at the new tool's end, because in a cap the axis is
+    /// not exactly the path's. Examines the new tool's limits there.
+    pub(super) fn take_tool(&mut self, index: usize, motion: &Motion, path: &Path) -> Option<Path> {
         let length = motion.tool_length;
         let is_same = self.tool_length.is_none_or(|before| before.to_bits() == length.to_bits());
-        let Some(now) = self.now.filter(|_| !is_same) else { return *path };
+        let now = self.now.filter(|_| !is_same)?;
         let (_, fraction) = self.meet(index, (&now, length));
         self.margin = Some(fraction);
         let [tip, _] = ToolMotion::at(self.setting.machine, &now, length).position();
-        path.beginning_at(tip.into(), motion)
+        Some(path.begun_at(tip.into(), motion))
     }
 }
