@@ -14,7 +14,7 @@ use crate::rods::Rods;
 /// Greatest change of a rod's direction, as a chord, for which the margins are bounded, and an upper bound of an angle
 /// up to that chord over the chord.
 const GREATEST_CHORD: f64 = 1.0;
-const ANGLE_OVER_CHORD: f64 = 1.0472;
+const ANGLE_OVER_CHORD: f64 = 1.05;
 /// Upper bound of the rounding error of a fraction of a range.
 const ROUNDING: f64 = 1e-12;
 
