@@ -13,7 +13,7 @@ from verne.batch import JointBatch, Membership, PoseBatch
 from verne.client import Client
 from verne.decoding import DecodingError
 from verne.job import DexterityJob, FamilyJob, Job, ToolpathJob, WorkspaceJob
-from verne.local import LocalService, find_binary, local
+from verne.local_service import LocalService, find_binary, local
 from verne.problem import Problem, ProblemError
 from verne.table import Table
 

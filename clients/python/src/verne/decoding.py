@@ -32,7 +32,9 @@ def decode(kind: Any, value: Any) -> Any:
     try:
         return _decoder(kind)(value)
     except (KeyError, TypeError, ValueError) as error:
-        raise DecodingError(f"the answer is no {getattr(kind, '__name__', kind)}: {error!r}") from error
+        raise DecodingError(
+            f"the answer is no {kind.__name__ if isinstance(kind, type) else kind}: {error!r}"
+        ) from error
 
 
 @functools.cache

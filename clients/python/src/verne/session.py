@@ -9,13 +9,14 @@ from __future__ import annotations
 import email.utils
 import json
 import time
-from collections.abc import Generator, Mapping
+from collections.abc import Generator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any, TypeAlias, TypeVar
 
 import httpx
 import numpy as np
+from numpy.typing import NDArray
 
 from verne.problem import Problem
 
@@ -45,6 +46,9 @@ class Pause:
 
     seconds: float
 
+
+Numbers: TypeAlias = Sequence[float] | NDArray[Any]
+"""A list of numbers."""
 
 Operation: TypeAlias = Generator[Request | Pause, httpx.Response | None, R]
 """A computation that sends requests and waits. Its result has the type R."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 
 import numpy as np
@@ -22,8 +22,8 @@ class ArrowStream(Protocol):
         ...
 
 
-Rows: TypeAlias = ArrowStream | Mapping[str, ArrayLike] | ArrayLike
-"""Rows as a table with named columns, as a mapping from names to columns, or as an array with a row for each row."""
+Rows: TypeAlias = ArrowStream | Mapping[str, ArrayLike] | Sequence[Sequence[float]] | NDArray[Any]
+"""Rows as a table with named columns, as a mapping from names to columns, or as an array."""
 
 
 def to_arrow(rows: Rows, *layouts: tuple[str, ...]) -> tuple[pyarrow.Table, tuple[str, ...]]:
@@ -45,7 +45,7 @@ def to_arrow(rows: Rows, *layouts: tuple[str, ...]) -> tuple[pyarrow.Table, tupl
     layout = max((layout for layout in layouts if set(layout) <= set(table.column_names)), key=len, default=None)
     if layout is None:
         raise ValueError(f"expected the columns {_named(layouts)}; found {', '.join(table.column_names)}")
-    return table.replace_schema_metadata(None), layout
+    return table, layout
 
 
 def _array_to_arrow(

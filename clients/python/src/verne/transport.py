@@ -37,7 +37,11 @@ def batch_answer(response: httpx.Response, rows: pyarrow.Table, layout: tuple[st
     columns = {name: rows.column(name) for name in rows.column_names if name not in layout}
     for name, parts in LISTS.items():
         if name in answer:
-            filled = [row or [None] * len(parts) for row in answer[name]]
-            columns |= {part: [row[i] for row in filled] for i, part in enumerate(parts)}
+            # Frames without the part's have no angles of the table.
+            filled = [[*(row or ()), *[None] * len(parts)] for row in answer[name]]
+            columns |= {
+                part: pyarrow.array([row[i] for row in filled], pyarrow.float64()) for i, part in enumerate(parts)
+            }
     columns |= {name: answer[name] for name in COLUMNS if name in answer}
-    return pyarrow.table(columns)
+    # The metadata contains the index of a data frame of pandas.
+    return pyarrow.table(columns).replace_schema_metadata(rows.schema.metadata)

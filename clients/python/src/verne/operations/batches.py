@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, TypeVar
 
 from verne.answers.machine import Machine
 from verne.batch import JOINTS, JointBatch, Membership, PoseBatch
 from verne.operations.kinematics import Frame
 from verne.operations.workspaces import WorkspaceKind
-from verne.session import Operation, Session, given
+from verne.session import Numbers, Operation, Session, given
 from verne.table import Rows, Table, to_arrow
 from verne.transport import batch_answer, batch_request
 
@@ -29,7 +28,7 @@ def ik_batch(
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
     continuous: bool = False,
-    start: Sequence[float] | None = None,
+    start: Numbers | None = None,
     machine: str | Machine = "verne",
 ) -> Operation[JointBatch]:
     """Solves the inverse problem for many poses: one solution in the working mode for each.

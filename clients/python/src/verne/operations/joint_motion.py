@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
 from typing import Literal
 
 import pyarrow.csv
 
 from verne.answers.toolpath import ToolpathReport
 from verne.operations.jobs import Submission, fetch
-from verne.session import Operation
+from verne.session import Numbers, Operation
 from verne.table import Table
 
 
@@ -35,7 +34,7 @@ def joint_program(
     job: Submission[ToolpathReport],
     *,
     axes: str | None = None,
-    axis_offsets: Sequence[float] | None = None,
+    axis_offsets: Numbers | None = None,
     length_decimals: int | None = None,
     angle_decimals: int | None = None,
     feed_word: Literal["inverse_time", "per_minute"] | None = None,

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, Literal
 
 from verne.answers.machine import Machine
 from verne.answers.solution import ForwardResult, InverseResult
 from verne.decoding import decode
-from verne.session import Operation, Session, given
+from verne.session import Numbers, Operation, Session, given
 
 Frame = Literal["part", "tool", "platform"]
 Wanted = Literal["working", "feasible", "all"]
@@ -16,14 +15,14 @@ Wanted = Literal["working", "feasible", "all"]
 
 def fk(
     session: Session,
-    joints: Sequence[float],
+    joints: Numbers,
     *,
     tool_length: float = 0.0,
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
     solutions: Wanted = "working",
-    near_joints: Sequence[float] | None = None,
-    near_pose: Sequence[float] | None = None,
+    near_joints: Numbers | None = None,
+    near_pose: Numbers | None = None,
     machine: str | Machine = "verne",
 ) -> Operation[ForwardResult]:
     """Solves the forward problem: from joints to poses.
@@ -64,14 +63,14 @@ def ik(
     phi1: float | None = None,
     phi2: float | None = None,
     *,
-    axis: Sequence[float] | None = None,
+    axis: Numbers | None = None,
     frame: Frame = "part",
     tool_length: float = 0.0,
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
     solutions: Wanted = "working",
-    near_joints: Sequence[float] | None = None,
-    near_pose: Sequence[float] | None = None,
+    near_joints: Numbers | None = None,
+    near_pose: Numbers | None = None,
     machine: str | Machine = "verne",
 ) -> Operation[InverseResult]:
     """Solves the inverse problem: from a pose to joints.
@@ -112,7 +111,7 @@ def ik(
     return decode(InverseResult, response.json())
 
 
-def _joints(joints: Sequence[float]) -> dict[str, Any]:
+def _joints(joints: Numbers) -> dict[str, Any]:
     if len(joints) not in (3, 5):
         raise ValueError(
             f"joints are rho1, rho2, rho3 or rho1, rho2, rho3, theta1, theta2; found {len(joints)} numbers"
@@ -120,7 +119,7 @@ def _joints(joints: Sequence[float]) -> dict[str, Any]:
     return {"rho": joints[:3], **dict(zip(("theta1", "theta2"), joints[3:], strict=False))}
 
 
-def _near(joints: Sequence[float] | None, pose: Sequence[float] | None) -> dict[str, Any] | None:
+def _near(joints: Numbers | None, pose: Numbers | None) -> dict[str, Any] | None:
     if joints is not None and pose is not None:
         raise ValueError("near_joints and near_pose exclude each other")
     if joints is not None:

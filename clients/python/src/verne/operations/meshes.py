@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
 
 import httpx
@@ -11,7 +10,7 @@ import httpx
 from verne.answers.workspace import DexterityCells, DexteritySummary, FamilySummary, Slice, WorkspaceSummary
 from verne.decoding import decode
 from verne.operations.jobs import Submission, fetch
-from verne.session import Operation, Session
+from verne.session import Numbers, Operation, Session
 
 if TYPE_CHECKING:
     from trimesh import Trimesh
@@ -36,7 +35,7 @@ def trimesh(job: Submission[WorkspaceSummary]) -> Operation[Trimesh]:
     return _trimesh((yield from mesh(job, "ply")))
 
 
-def slice_(job: Submission[WorkspaceSummary], z: float, alpha: Sequence[float] | None = None) -> Operation[Slice]:
+def slice_(job: Submission[WorkspaceSummary], z: float, alpha: Numbers | None = None) -> Operation[Slice]:
     """The cut of a workspace with a plane.
 
     Args:
@@ -49,7 +48,7 @@ def slice_(job: Submission[WorkspaceSummary], z: float, alpha: Sequence[float] |
 def drawing(
     job: Submission[WorkspaceSummary],
     z: float,
-    alpha: Sequence[float] | None = None,
+    alpha: Numbers | None = None,
     *,
     format: DrawingFormat = "svg",
 ) -> Operation[bytes]:
@@ -111,7 +110,7 @@ def _file(session: Session, path: str, format: MeshFormat) -> Operation[bytes]:
 
 
 def _slice(
-    job: Submission[WorkspaceSummary], z: float, alpha: Sequence[float] | None, format: str
+    job: Submission[WorkspaceSummary], z: float, alpha: Numbers | None, format: str
 ) -> Operation[httpx.Response]:
     summary = yield from job.result()
     request = job.session.get(f"workspace/{summary.id}/slice", z=z, alpha=alpha, format=format)

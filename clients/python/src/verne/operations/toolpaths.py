@@ -15,7 +15,7 @@ from verne.answers.toolpath import ProgramSummary, ToolpathReport
 from verne.decoding import decode
 from verne.operations.batches import POSE, POSE_WITH_AXIS, POSITION
 from verne.operations.jobs import Submission, submit
-from verne.session import Operation, Session, given
+from verne.session import Numbers, Operation, Session, given
 from verne.table import Rows, to_arrow
 
 ProgramFormat = Literal["apt", "gcode", "csv", "ndjson"]
@@ -112,7 +112,7 @@ def toolpath(
     tolerance: Tolerance | None = None,
     pole: float | None = None,
     rapids: Literal["linear", "joint"] = "linear",
-    start: Sequence[float] | None = None,
+    start: Numbers | None = None,
     table_clearance: float | None = None,
     on_limit: Literal["fail", "retract"] = "fail",
     clearance: float | None = None,

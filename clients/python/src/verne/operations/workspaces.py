@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Literal
 
 from verne.answers.machine import Machine
 from verne.answers.workspace import DexteritySummary, FamilySummary, WorkspaceSummary
 from verne.operations.jobs import Submission, submit
-from verne.session import Operation, Session, given
+from verne.session import Numbers, Operation, Session, given
 
 WorkspaceKind = Literal["platform", "tool", "part"]
 
@@ -55,9 +54,9 @@ def family(
     session: Session,
     kind: WorkspaceKind = "part",
     *,
-    tool_length: float | Sequence[float] = 0.0,
-    phi1: float | Sequence[float] = 0.0,
-    phi2: float | Sequence[float] = 0.0,
+    tool_length: float | Numbers = 0.0,
+    phi1: float | Numbers = 0.0,
+    phi2: float | Numbers = 0.0,
     tolerance: float = 1.0,
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
