@@ -20,6 +20,12 @@ def test_two_services_run_at_once_and_stop() -> None:
         httpx.get(f"{first.url}/livez")
 
 
+def test_a_proxy_is_not_asked_for_a_local_service(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HTTP_PROXY", "http://127.0.0.1:1")
+    with verne.local() as client:
+        assert client.machines()
+
+
 def test_a_program_that_does_not_start_says_why(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("VERNE_QUEUE", "many")
     with pytest.raises(RuntimeError, match="many"):

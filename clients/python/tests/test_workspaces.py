@@ -101,6 +101,12 @@ def test_a_cancelled_job_has_no_result(client: verne.Client) -> None:
     assert job.state == "cancelled"
 
 
+def test_a_job_that_has_ended_is_not_cancelled(workspace: verne.WorkspaceJob) -> None:
+    workspace.wait()
+    workspace.cancel()
+    assert workspace.state == "succeeded"
+
+
 def test_a_job_continues_after_a_timeout(client: verne.Client) -> None:
     job = client.dexterity((-40, 40), tool_length=52, cell=5)
     with pytest.raises(TimeoutError):

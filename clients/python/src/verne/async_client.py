@@ -33,7 +33,7 @@ class AsyncClient(Awaiting[Session]):
     @property
     def url(self) -> str:
         """Address of the service."""
-        return str(self._subject.base)
+        return str(self._subject.base).removesuffix("/")
 
     async def aclose(self) -> None:
         """Closes the connections."""

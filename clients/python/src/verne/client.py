@@ -41,7 +41,7 @@ class Client(Blocking[Session]):
     @property
     def url(self) -> str:
         """Address of the service."""
-        return str(self._subject.base)
+        return str(self._subject.base).removesuffix("/")
 
     def close(self) -> None:
         """Closes the connections."""

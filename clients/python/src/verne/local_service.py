@@ -15,6 +15,7 @@ from types import TracebackType
 import httpx
 
 from verne.client import Client
+from verne.session import TIMEOUT
 
 SECONDS_TO_START = 60.0
 SECONDS_TO_STOP = 15.0
@@ -29,10 +30,13 @@ class LocalService:
         command = [str(find_binary(binary)), "serve", "--listen", f"127.0.0.1:{port}", "--memory-only"]
         self.url = f"http://127.0.0.1:{port}"
         """Address of the service."""
-        self.client = Client(self.url)
+        # A proxy that the environment names does not reach this computer's own addresses.
+        self.client = Client(self.url, http=httpx.Client(timeout=TIMEOUT, trust_env=False))
         """A client of it."""
         with tempfile.TemporaryFile() as log:
-            self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
+            self._process = subprocess.Popen(
+                command, env={"RUST_LOG": "warn", **os.environ}, stdin=subprocess.DEVNULL, stdout=log, stderr=log
+            )
             # It also ends when the interpreter does.
             self._stop = weakref.finalize(self, _stop, self._process)
             deadline = time.monotonic() + SECONDS_TO_START
@@ -45,7 +49,7 @@ class LocalService:
 
     def _is_ready(self) -> bool:
         try:
-            return httpx.get(f"{self.url}/readyz").is_success
+            return httpx.get(f"{self.url}/readyz", trust_env=False).is_success
         except httpx.TransportError:
             return False
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import functools
 import inspect
 import time
@@ -41,17 +42,18 @@ class Blocking(Generic[C]):
 
     def _run(self, operation: Operation[R]) -> R:
         response = None
-        try:
+        with contextlib.closing(operation):
             while True:
-                step = operation.send(response)
+                try:
+                    step = operation.send(response)
+                except StopIteration as end:
+                    result: R = end.value
+                    return result
                 if isinstance(step, Pause):
                     time.sleep(step.seconds)
                     response = None
                 else:
                     response = self._http.request(**_arguments(step))
-        except StopIteration as end:
-            result: R = end.value
-            return result
 
 
 class Awaiting(Generic[C]):
@@ -64,17 +66,18 @@ class Awaiting(Generic[C]):
 
     async def _run(self, operation: Operation[R]) -> R:
         response = None
-        try:
+        with contextlib.closing(operation):
             while True:
-                step = operation.send(response)
+                try:
+                    step = operation.send(response)
+                except StopIteration as end:
+                    result: R = end.value
+                    return result
                 if isinstance(step, Pause):
                     await asyncio.sleep(step.seconds)
                     response = None
                 else:
                     response = await self._http.request(**_arguments(step))
-        except StopIteration as end:
-            result: R = end.value
-            return result
 
 
 def _describe(method: Any, operation: Callable[..., Any], result: Callable[..., Any] | None = None) -> None:

@@ -64,7 +64,9 @@ class Submission(Generic[T]):
             self._take(decode(JobStatus, response.json()))
 
     def cancel(self) -> Operation[None]:
-        """Cancels the job."""
+        """Cancels the job. A job that has ended stays as it is."""
+        if self.state in ENDED:
+            return
         response = yield from self.session.send(self.session.delete(self.path))
         self._take(decode(JobStatus, response.json()))
 
@@ -79,8 +81,10 @@ class Submission(Generic[T]):
         with _reporter(progress) as report:
             report(self.progress)
             while self.state not in ENDED:
-                if deadline is not None and time.monotonic() + pause > deadline:
-                    raise TimeoutError(f"job {self.id} has not ended within {timeout} s")
+                if deadline is not None:
+                    pause = min(pause, deadline - time.monotonic())
+                    if pause <= 0:
+                        raise TimeoutError(f"job {self.id} has not ended within {timeout} s")
                 yield Pause(pause)
                 pause = min(pause * 1.5, LONGEST_PAUSE)
                 yield from self.refresh()
