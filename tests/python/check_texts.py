@@ -3,9 +3,9 @@
 
     check_texts.py target/debug/verne
 
-Checks the help of every command, openapi/openapi.json, README.md, clients/python/README.md and docs/*.md. A sentence must not begin with What,
-Who, Whoever, Whose or Of, nor with That as a conjunction: such a sentence hides who does what. It must not contain
-"told of", "is held" or "whoever". Questions and headings may begin with any word.
+Checks the help of every command, openapi/openapi.json, README.md, clients/python/README.md and docs/*.md. A sentence
+must not begin with What, Who, Whoever, Whose or Of, nor with That as a conjunction: such a sentence hides who does what.
+It must not contain "told of", "is held" or "whoever". Questions and headings may begin with any word.
 """
 
 import json

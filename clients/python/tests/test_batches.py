@@ -41,7 +41,8 @@ def test_a_batch_has_the_joints_of_single_requests(client: verne.Client) -> None
 def test_other_frames_have_positions_alone(client: verne.Client, frame: Any) -> None:
     batch = client.ik_batch([[0, 0, 1300], [10, 20, 1250]], frame=frame)
     assert batch.ok.all()
-    assert not np.isnan(batch.joints[:, :3]).any()
+    assert batch.joints.shape == (2, 3)
+    assert not np.isnan(batch.joints).any()
 
 
 def test_axes_and_angles_state_the_same_poses(client: verne.Client) -> None:
@@ -92,6 +93,7 @@ def test_rows_without_solution_have_nan_and_a_status(client: verne.Client) -> No
     assert np.isnan(batch.margin).tolist() == [False, True, False]
     assert batch.constraint[1] is None
     assert batch.element[1] is None
+    assert [detail is None for detail in batch.detail] == [True, False, True]
 
 
 def test_continuous_rows_pass_half_a_turn(client: verne.Client) -> None:
@@ -118,10 +120,55 @@ def test_an_invalid_point_is_not_inside(client: verne.Client) -> None:
     assert np.isnan(answer.margin[1])
 
 
-@pytest.mark.parametrize("rows", [np.zeros((2, 4)), np.zeros(5), {"x": [1.0], "y": [2.0]}])
-def test_other_columns_are_refused(client: verne.Client, rows: Any) -> None:
+@pytest.mark.parametrize("rows", [np.zeros((2, 4)), np.zeros(5)])
+def test_an_array_of_another_width_is_refused(client: verne.Client, rows: Any) -> None:
     with pytest.raises(ValueError, match="expected"):
         client.ik_batch(rows)
+
+
+@pytest.mark.parametrize(
+    ("names", "wrong"),
+    [(["x", "y"], "z"), (["x", "y", "z", "phi1"], "phi2"), ([*NAMES, "i", "j", "k"], "i"), (["x", "y", "z"], "phi1")],
+)
+def test_a_table_with_other_columns_is_refused(client: verne.Client, names: list[str], wrong: str) -> None:
+    with pytest.raises(verne.Problem) as caught:
+        client.ik_batch({name: [1.0] for name in names})
+    assert f"/columns/{wrong}" in [error.pointer for error in caught.value.errors]
+
+
+def test_a_column_cannot_have_a_name_of_the_answer(client: verne.Client) -> None:
+    with pytest.raises(ValueError, match="inside"):
+        client.contains({"x": [0.0], "y": [0.0], "z": [1300.0], "inside": [True]})
+
+
+def test_columns_of_any_type_are_kept(client: verne.Client) -> None:
+    frame = pandas.DataFrame(feasible_poses(3, seed=11), columns=NAMES)
+    frame["time"] = pandas.date_range("2026-01-01", periods=3)
+    frame["kind"] = pandas.Categorical(["a", "b", "a"])
+    frame["list"] = [[1], [], [2, 3]]
+    answer = client.ik_batch(frame, tool_length=TOOL_LENGTH).to_pandas()
+    pandas.testing.assert_frame_equal(answer[["time", "kind"]], frame[["time", "kind"]])
+    assert [list(numbers) for numbers in answer["list"]] == [[1], [], [2, 3]]
+
+
+def test_integers_and_single_precision_are_numbers(client: verne.Client) -> None:
+    columns = {"x": np.array([1, 2]), "y": np.array([3, 4], dtype=np.float32), "z": np.array([1300.0, 1310.0])}
+    assert client.contains(columns).inside.all()
+
+
+def test_many_rows_travel_in_several_requests(client: verne.Client, monkeypatch: pytest.MonkeyPatch) -> None:
+    poses = feasible_poses(1000, seed=12)
+    at_once = client.ik_batch(poses, tool_length=TOOL_LENGTH)
+    monkeypatch.setattr("verne.operations.batches.ROWS_PER_REQUEST", 300)
+    in_parts = client.ik_batch(poses, tool_length=TOOL_LENGTH)
+    np.testing.assert_array_equal(in_parts.joints, at_once.joints)
+    assert in_parts.to_pandas().equals(at_once.to_pandas())
+
+
+def test_no_rows_have_no_answers(client: verne.Client) -> None:
+    answer = client.ik_batch(np.zeros((0, 5)))
+    assert len(answer) == 0
+    assert answer.joints.shape == (0, 5)
 
 
 def test_the_asynchronous_client_has_the_same_answers(client: verne.Client) -> None:

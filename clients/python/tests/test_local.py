@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import httpx
+import numpy as np
 import pytest
 
 import verne
@@ -18,6 +20,21 @@ def test_two_services_run_at_once_and_stop() -> None:
     first.close()
     with pytest.raises(httpx.ConnectError):
         httpx.get(f"{first.url}/livez")
+
+
+def test_machines_of_a_directory_are_published(client: verne.Client, tmp_path: Path) -> None:
+    machine = client.machine("verne")
+    machine["name"] = "longer"
+    machine["geometry"]["L1"] += 50
+    (tmp_path / "longer.json").write_text(json.dumps(machine))
+    with verne.local(machines=tmp_path) as own:
+        position = {"x": [0.0], "y": [0.0], "z": [1300.0]}
+        joints = own.ik_batch(position, frame="platform", machine="longer").joints
+        single = own.ik(0, 0, 1300, frame="platform", machine=machine).solutions[0].joints
+        assert single is not None
+        np.testing.assert_allclose(joints[0], single.rho, atol=1e-9)
+        other = own.ik_batch(position, frame="platform").joints
+        assert not np.allclose(joints, other)
 
 
 def test_a_proxy_is_not_asked_for_a_local_service(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -68,8 +68,12 @@ def test_a_dexterity_map_has_two_meshes_and_a_grid(client: verne.Client) -> None
     job = client.dexterity((-20, 20), tool_length=50, cell=80)
     assert 0 < job.to_trimesh("dexterous").volume < job.to_trimesh().volume
     cells = job.cells()
-    assert len(cells.offsets) == np.prod(cells.grid.counts) + 1
-    assert np.count_nonzero(np.diff(cells.offsets)) == job.result().reached
+    assert len(np.unique(cells["point"])) == job.result().reached
+    assert (cells["from"] <= cells["to"]).all()
+    # The middle of an interval is an inclination that reaches the point.
+    phi1 = (cells["from"] + cells["to"]) / 2
+    poses = np.column_stack([cells.to_numpy("x", "y", "z"), phi1, np.zeros(len(cells))])
+    assert client.ik_batch(poses, tool_length=50).ok.all()
 
 
 def test_a_bar_shows_the_progress(client: verne.Client, capsys: pytest.CaptureFixture[str]) -> None:

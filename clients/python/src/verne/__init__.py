@@ -6,7 +6,7 @@ Lengths are millimetres and angles degrees.
 from verne.answers.machine import Machine, MachineEntry, MachineId
 from verne.answers.solution import ForwardResult, InverseResult, Joints, Limit, PartPose, PlatformPose, Solution
 from verne.answers.toolpath import ProgramSummary, ToolpathFailure, ToolpathReport
-from verne.answers.workspace import DexterityCells, DexteritySummary, FamilySummary, Slice, WorkspaceSummary
+from verne.answers.workspace import DexteritySummary, FamilySummary, Slice, WorkspaceSummary
 from verne.async_client import AsyncClient
 from verne.async_job import AsyncDexterityJob, AsyncFamilyJob, AsyncJob, AsyncToolpathJob, AsyncWorkspaceJob
 from verne.batch import JointBatch, Membership, PoseBatch
@@ -26,7 +26,6 @@ __all__ = [
     "AsyncWorkspaceJob",
     "Client",
     "DecodingError",
-    "DexterityCells",
     "DexterityJob",
     "DexteritySummary",
     "FamilyJob",

@@ -40,14 +40,22 @@ class Batch(Table):
         """The part of the machine that the limit belongs to. None if the row is invalid."""
         return self["element"]
 
+    @property
+    def detail(self) -> NDArray[np.object_]:
+        """The reason why a row is invalid, for people. None for other rows."""
+        return self["detail"]
+
 
 class JointBatch(Batch):
     """Solutions of the inverse problem."""
 
     @property
     def joints(self) -> NDArray[np.float64]:
-        """A row ``[rho1, rho2, rho3, theta1, theta2]`` for each row, mm and degrees. NaN without a solution."""
-        return self.to_numpy(*JOINTS)
+        """A row ``[rho1, rho2, rho3, theta1, theta2]`` for each row, mm and degrees. NaN without a solution.
+
+        Other frames than ``part`` do not determine the table: a row is then ``[rho1, rho2, rho3]``.
+        """
+        return self.to_numpy(*(name for name in JOINTS if name in self.columns))
 
     @property
     def jump(self) -> NDArray[Any]:
@@ -65,7 +73,11 @@ class PoseBatch(Batch):
 
     @property
     def part(self) -> NDArray[np.float64]:
-        """A row ``[x, y, z, phi1, phi2]`` of the tool in the part frame for each row, mm and degrees."""
+        """A row ``[x, y, z, phi1, phi2]`` of the tool in the part frame for each row, mm and degrees.
+
+        Raises:
+            KeyError: The joints had no theta1 and theta2.
+        """
         return self.to_numpy("x", "y", "z", "phi1", "phi2")
 
 

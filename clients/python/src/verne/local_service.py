@@ -24,10 +24,14 @@ SECONDS_TO_STOP = 15.0
 class LocalService:
     """A running service. Its jobs and results are in memory and end with it."""
 
-    def __init__(self, binary: str | os.PathLike[str] | None = None) -> None:
+    def __init__(
+        self, binary: str | os.PathLike[str] | None = None, machines: str | os.PathLike[str] | None = None
+    ) -> None:
         """Starts the service and waits until it is ready. See ``local``."""
         port = _free_port()
         command = [str(find_binary(binary)), "serve", "--listen", f"127.0.0.1:{port}", "--memory-only"]
+        if machines is not None:
+            command += ["--machines", os.fspath(machines)]
         self.url = f"http://127.0.0.1:{port}"
         """Address of the service."""
         # A proxy that the environment names does not reach this computer's own addresses.
@@ -69,7 +73,9 @@ class LocalService:
         self.close()
 
 
-def local(binary: str | os.PathLike[str] | None = None) -> LocalService:
+def local(
+    binary: str | os.PathLike[str] | None = None, *, machines: str | os.PathLike[str] | None = None
+) -> LocalService:
     """Starts a service on a free port of this computer.
 
     ``with verne.local() as client:`` stops it at the end of the block. In a notebook, keep the service instead, use its
@@ -77,12 +83,13 @@ def local(binary: str | os.PathLike[str] | None = None) -> LocalService:
 
     Args:
         binary: Path of the program ``verne``. By default it is found as ``find_binary`` says.
+        machines: Directory of JSON files of machines, which the service publishes beside the built-in one.
 
     Raises:
         FileNotFoundError: There is no such program.
         RuntimeError: It does not start.
     """
-    return LocalService(binary)
+    return LocalService(binary, machines)
 
 
 def find_binary(binary: str | os.PathLike[str] | None = None) -> Path:

@@ -26,40 +26,26 @@ Rows: TypeAlias = ArrowStream | Mapping[str, ArrayLike] | Sequence[Sequence[floa
 """Rows as a table with named columns, as a mapping from names to columns, or as an array."""
 
 
-def to_arrow(rows: Rows, *layouts: tuple[str, ...]) -> tuple[pyarrow.Table, tuple[str, ...]]:
-    """Rows as a table of Arrow, and their layout.
+def to_arrow(rows: Rows, *layouts: tuple[str, ...]) -> pyarrow.Table:
+    """Rows as a table of Arrow.
 
     Args:
-        rows: A table with the columns of a layout, and perhaps more of them; or an array as wide as a layout.
-        layouts: The possible names of the columns. A table that has several has the longest of them.
+        rows: A table with named columns, or an array that is as wide as a layout.
+        layouts: The possible names of an array's columns.
 
     Raises:
-        ValueError: The rows have none of these layouts.
+        ValueError: The array has none of these layouts.
     """
     if hasattr(rows, "__arrow_c_stream__"):
-        table = pyarrow.table(rows)
-    elif isinstance(rows, Mapping):
-        table = pyarrow.table({name: np.asarray(column) for name, column in rows.items()})
-    else:
-        return _array_to_arrow(np.asarray(rows, dtype=np.float64), layouts)
-    layout = max((layout for layout in layouts if set(layout) <= set(table.column_names)), key=len, default=None)
-    if layout is None:
-        raise ValueError(f"expected the columns {_named(layouts)}; found {', '.join(table.column_names)}")
-    return table, layout
-
-
-def _array_to_arrow(
-    array: NDArray[np.float64], layouts: tuple[tuple[str, ...], ...]
-) -> tuple[pyarrow.Table, tuple[str, ...]]:
-    if array.ndim == 2:
-        for layout in layouts:
-            if len(layout) == array.shape[1]:
-                return pyarrow.table({name: array[:, i] for i, name in enumerate(layout)}), layout
-    raise ValueError(f"expected an array with the columns {_named(layouts)}; found the shape {array.shape}")
-
-
-def _named(layouts: tuple[tuple[str, ...], ...]) -> str:
-    return " or ".join(", ".join(layout) for layout in layouts)
+        return pyarrow.table(rows)
+    if isinstance(rows, Mapping):
+        return pyarrow.table({name: np.asarray(column) for name, column in rows.items()})
+    array = np.asarray(rows, dtype=np.float64)
+    for layout in layouts:
+        if array.ndim == 2 and array.shape[1] == len(layout):
+            return pyarrow.table({name: array[:, i] for i, name in enumerate(layout)})
+    names = " or ".join(", ".join(layout) for layout in layouts)
+    raise ValueError(f"expected an array with the columns {names}; found the shape {array.shape}")
 
 
 class Table:

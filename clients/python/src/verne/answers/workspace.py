@@ -135,16 +135,6 @@ class DexteritySummary:
 
 
 @dataclass(frozen=True, slots=True)
-class DexterityCells:
-    """The inclinations that reach each point of the grid."""
-
-    id: str
-    grid: PointGrid
-    offsets: NDArray[np.int64]
-    intervals: NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
 class Polygon:
     """A polygon with holes, mm."""
 

@@ -4,19 +4,28 @@ from __future__ import annotations
 
 from typing import Any, TypeVar
 
-from verne.answers.machine import Machine
+import pyarrow
+
+from verne.arrow_stream import MEDIA_TYPE, read_stream, write_stream
 from verne.batch import JOINTS, JointBatch, Membership, PoseBatch
 from verne.operations.kinematics import Frame
 from verne.operations.workspaces import WorkspaceKind
 from verne.session import Numbers, Operation, Session, given
 from verne.table import Rows, Table, to_arrow
-from verne.transport import batch_answer, batch_request
 
 T = TypeVar("T", bound=Table)
 
 POSITION = ("x", "y", "z")
 POSE = (*POSITION, "phi1", "phi2")
 POSE_WITH_AXIS = (*POSITION, "i", "j", "k")
+ROW_COLUMNS = {
+    "ik/batch": {*POSE, *POSE_WITH_AXIS},
+    "fk/batch": {*JOINTS},
+    "workspace/contains": {*POSITION},
+}
+"""The columns that the service reads."""
+ROWS_PER_REQUEST = 100_000
+"""A request has at most some 5 MB. The service bounds the rows that it reads before the client reads the answer."""
 
 
 def ik_batch(
@@ -29,7 +38,7 @@ def ik_batch(
     tool_radius: float = 0.0,
     continuous: bool = False,
     start: Numbers | None = None,
-    machine: str | Machine = "verne",
+    machine: str = "verne",
 ) -> Operation[JointBatch]:
     """Solves the inverse problem for many poses: one solution in the working mode for each.
 
@@ -41,13 +50,15 @@ def ik_batch(
         tool_length: Distance from P to the tool end, mm.
         table_clearance: Least height over the table, mm. By default it is the machine's limit, if it has one.
         tool_radius: Radius of the tool's end circle, mm. Only ``table_clearance`` uses it.
-        continuous: Whether each row continues from the row before.
+        continuous: Whether each row continues from the row before. All rows then travel in one request, and its size
+            must be below the service's limit: 16 MiB by default, or 300,000 rows.
         start: Joints from which the first row continues: rho1, rho2, rho3 in mm, theta1, theta2 in degrees.
-        machine: Name of a published machine, or a machine.
+        machine: Name of a published machine.
 
     Raises:
-        ValueError: The rows do not have these columns.
-        Problem: The service refused the request. An invalid row is no problem: ``status`` says so.
+        ValueError: An array does not have these columns, or another column has a name of the answer's.
+        Problem: The service refused the request or a column. An invalid row is no problem: ``detail`` says what is
+            wrong with it.
     """
     options = given(
         frame=frame,
@@ -59,7 +70,8 @@ def ik_batch(
         machine=machine,
     )
     layouts = (POSE, POSE_WITH_AXIS) if frame == "part" else (POSITION,)
-    return (yield from _batch(session, "ik/batch", poses, layouts, options, JointBatch))
+    is_divisible = not continuous
+    return (yield from _batch(session, "ik/batch", poses, layouts, options, JointBatch, is_divisible=is_divisible))
 
 
 def fk_batch(
@@ -69,7 +81,7 @@ def fk_batch(
     tool_length: float = 0.0,
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
-    machine: str | Machine = "verne",
+    machine: str = "verne",
 ) -> Operation[PoseBatch]:
     """Solves the forward problem for many joints: one solution in the working mode for each row.
 
@@ -79,11 +91,12 @@ def fk_batch(
         tool_length: Distance from P to the tool end, mm.
         table_clearance: Least height over the table, mm. By default it is the machine's limit, if it has one.
         tool_radius: Radius of the tool's end circle, mm. Only ``table_clearance`` uses it.
-        machine: Name of a published machine, or a machine.
+        machine: Name of a published machine.
 
     Raises:
-        ValueError: The rows do not have these columns.
-        Problem: The service refused the request. An invalid row is no problem: ``status`` says so.
+        ValueError: An array does not have these columns, or another column has a name of the answer's.
+        Problem: The service refused the request or a column. An invalid row is no problem: ``detail`` says what is
+            wrong with it.
     """
     options = given(
         tool_length=tool_length,
@@ -104,7 +117,7 @@ def contains(
     phi2: float = 0.0,
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
-    machine: str | Machine = "verne",
+    machine: str = "verne",
 ) -> Operation[Membership]:
     """Tests which points are inside a workspace, without computing it.
 
@@ -117,10 +130,10 @@ def contains(
         phi2: Azimuth of the tool in the part frame, degrees. Only kind ``part`` uses it.
         table_clearance: Least height over the table, mm. By default it is the machine's limit, if it has one.
         tool_radius: Radius of the tool's end circle, mm. Only ``table_clearance`` uses it.
-        machine: Name of a published machine, or a machine.
+        machine: Name of a published machine.
 
     Raises:
-        ValueError: The rows do not have these columns.
+        ValueError: An array does not have these columns, or another column has a name of the answer's.
         Problem: The service refused the request.
     """
     options = given(
@@ -142,7 +155,23 @@ def _batch(
     layouts: tuple[tuple[str, ...], ...],
     options: dict[str, Any],
     kind: type[T],
+    *,
+    is_divisible: bool = True,
 ) -> Operation[T]:
-    table, layout = to_arrow(rows, *layouts)
-    response = yield from session.send(batch_request(session, path, table, layout, options))
-    return kind(batch_answer(response, table, layout))
+    table = to_arrow(rows, *layouts)
+    # The service says what is wrong with the columns of a row. The others stay here.
+    others = [name for name in table.column_names if name not in ROW_COLUMNS[path]]
+    own = table.drop_columns(others)
+    step = ROWS_PER_REQUEST if is_divisible else max(len(own), 1)
+    parts = []
+    for first in range(0, max(len(own), 1), step):
+        content = write_stream(own.slice(first, step))
+        response = yield from session.send(session.post_bytes(path, content, MEDIA_TYPE, **options))
+        parts.append(read_stream(response.content))
+    answer = pyarrow.concat_tables(parts).unify_dictionaries()
+    for name in reversed(others):
+        if name in answer.column_names:
+            raise ValueError(f"{name} is a column of the answer, too: rename it, or leave it out")
+        answer = answer.add_column(0, table.schema.field(name), table.column(name))
+    # The metadata contains the index of a data frame of pandas.
+    return kind(answer.replace_schema_metadata(table.schema.metadata))

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import io
 from typing import Literal
 
-import pyarrow.csv
-
 from verne.answers.toolpath import ToolpathReport
+from verne.arrow_stream import read_stream
 from verne.operations.jobs import Submission, fetch
 from verne.session import Numbers, Operation
 from verne.table import Table
@@ -25,9 +23,9 @@ def rows(job: Submission[ToolpathReport], first: int = 0, end: int | None = None
         duration (s), margin, constraint and element.
     """
     report = yield from job.result()
-    request = job.session.get(report.links.rows, format="csv", **{"from": first, "to": end})
+    request = job.session.get(report.links.rows, format="arrow", **{"from": first, "to": end})
     response = yield from fetch(job.session, request)
-    return Table(pyarrow.csv.read_csv(io.BytesIO(response.content), convert_options=_COLUMNS))
+    return Table(read_stream(response.content))
 
 
 def joint_program(
@@ -92,11 +90,3 @@ def path(job: Submission[ToolpathReport], *, least: float = 0.0, greatest: float
     report = yield from job.result()
     request = job.session.get(report.links.path, least=least, greatest=greatest)
     return (yield from fetch(job.session, request)).content
-
-
-_NUMBERS = ("x", "y", "z", "i", "j", "k", "rho1", "rho2", "rho3", "theta1", "theta2", "duration", "margin")
-_TEXTS = ("kind", "constraint", "element")
-_COLUMNS = pyarrow.csv.ConvertOptions(
-    column_types={name: pyarrow.float64() for name in _NUMBERS} | {name: pyarrow.string() for name in _TEXTS},
-    strings_can_be_null=True,
-)

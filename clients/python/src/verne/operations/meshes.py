@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Literal
 
 import httpx
 
-from verne.answers.workspace import DexterityCells, DexteritySummary, FamilySummary, Slice, WorkspaceSummary
+from verne.answers.workspace import DexteritySummary, FamilySummary, Slice, WorkspaceSummary
+from verne.arrow_stream import read_stream
 from verne.decoding import decode
 from verne.operations.jobs import Submission, fetch
 from verne.session import Numbers, Operation, Session
+from verne.table import Table
 
 if TYPE_CHECKING:
     from trimesh import Trimesh
@@ -96,11 +98,15 @@ def dexterity_trimesh(job: Submission[DexteritySummary], points: PointSet = "rea
     return _trimesh((yield from dexterity_mesh(job, points, "ply")))
 
 
-def cells(job: Submission[DexteritySummary]) -> Operation[DexterityCells]:
-    """The inclinations that reach each point of the grid."""
+def cells(job: Submission[DexteritySummary]) -> Operation[Table]:
+    """The inclinations that reach the points of the grid, as a table with a row for each interval of them.
+
+    Returns:
+        A table with the columns point (number of the point), x, y, z (mm), from, to (degrees).
+    """
     summary = yield from job.result()
-    response = yield from fetch(job.session, job.session.get(summary.links.cells))
-    return decode(DexterityCells, response.json())
+    response = yield from fetch(job.session, job.session.get(summary.links.cells, format="arrow"))
+    return Table(read_stream(response.content))
 
 
 def _file(session: Session, path: str, format: MeshFormat) -> Operation[bytes]:

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import io
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, TypedDict
 
-import pyarrow.csv
-
 from verne.answers.machine import Machine
 from verne.answers.toolpath import ProgramSummary, ToolpathReport
+from verne.arrow_stream import write_stream
 from verne.decoding import decode
 from verne.operations.batches import POSE, POSE_WITH_AXIS, POSITION
 from verne.operations.jobs import Submission, submit
 from verne.session import Numbers, Operation, Session, given
 from verne.table import Rows, to_arrow
 
-ProgramFormat = Literal["apt", "gcode", "csv", "ndjson"]
+ProgramFormat = Literal["apt", "gcode", "csv", "ndjson", "arrow"]
 Source: TypeAlias = str | os.PathLike[str] | bytes | Rows
 """A program: the path of its file, the bytes of this file, or its points as rows."""
 
@@ -27,6 +25,7 @@ EXTENSIONS: dict[str, ProgramFormat] = {
     **dict.fromkeys((".nc", ".ngc", ".tap", ".gcode", ".cnc"), "gcode"),
     ".csv": "csv",
     **dict.fromkeys((".ndjson", ".jsonl"), "ndjson"),
+    ".arrow": "arrow",
 }
 
 
@@ -67,7 +66,8 @@ def program(
     Args:
         source: The path of a file, the bytes of a file, or points: columns x, y, z in mm, phi1, phi2 in degrees or the
             tool axis i, j, k, and perhaps feed in mm/min, kind and line.
-        format: ``apt`` (CL text), ``gcode``, ``csv`` or ``ndjson``. By default the extension of the path decides.
+        format: ``apt`` (CL text), ``gcode``, ``csv``, ``ndjson`` or ``arrow``. By default the extension of the path
+            decides.
         units: Unit of a program that states none.
         compensation: ``refuse``: cutter radius compensation is a fault instead of a warning.
         tcp: G-code: control of the tool centre point is always on.
@@ -188,7 +188,4 @@ def _read(source: Source, format: ProgramFormat | None) -> tuple[bytes, ProgramF
         if format is None:
             raise ValueError("the bytes of a program need a format")
         return source, format
-    points, _ = to_arrow(source, POSE, POSE_WITH_AXIS, POSITION)
-    text = io.BytesIO()
-    pyarrow.csv.write_csv(points, text)
-    return text.getvalue(), "csv"
+    return write_stream(to_arrow(source, POSE, POSE_WITH_AXIS, POSITION)), "arrow"
