@@ -90,9 +90,6 @@ def _optional_decoder(arguments: tuple[Any, ...]) -> Any:
 
 
 def _tuple_decoder(arguments: tuple[Any, ...]) -> Any:
-    if arguments[-1] is Ellipsis:
-        item = _decoder(arguments[0])
-        return lambda value: tuple(item(entry) for entry in value)
     items = [_decoder(argument) for argument in arguments]
     return lambda value: tuple(item(entry) for item, entry in zip(items, value, strict=True))
 
