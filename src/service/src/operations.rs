@@ -46,7 +46,6 @@ pub(crate) mod nearest;
 pub(crate) mod observers;
 pub(crate) mod outcome_columns;
 pub(crate) mod part_row;
-pub(crate) mod program_check;
 pub(crate) mod program_motions;
 pub(crate) mod program_pace;
 pub(crate) mod programs;

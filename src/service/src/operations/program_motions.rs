@@ -1,6 +1,7 @@
 //! The motions of a program in the part frame, as the planner reads them. They are made one by one from the program's
 //! moves: a second list of a million motions would take more memory than the program.
 
+pub(crate) mod check;
 pub(crate) mod frame;
 pub(crate) mod sections;
 pub(crate) mod tool_lengths;
@@ -8,8 +9,10 @@ pub(crate) mod tool_lengths;
 use std::sync::Arc;
 
 use verne_program::{Move, MoveKind, Orientation, Program, ProgramErrors};
+use verne_solver::Machine;
 use verne_solver::toolpath::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
 
+use crate::operations::program_motions::check::{Checked, check_motions};
 use crate::operations::program_motions::frame::Frame;
 use crate::operations::program_motions::sections::{Section, Sections};
 use crate::wire::canonical_toolpath::CanonicalToolpath;
@@ -32,11 +35,19 @@ impl ProgramMotions {
     ///
     /// # Errors
     ///
-    /// The lines whose motion is unknown: without a length or without an origin.
-    pub(crate) fn new(program: Arc<Program>, request: &CanonicalToolpath) -> Result<Self, ProgramErrors> {
+    /// The lines whose motion is unknown or impossible on every machine of this size: without a length, without an
+    /// origin, with an axis that could turn either way.
+    pub(crate) fn new(
+        program: Arc<Program>,
+        request: &CanonicalToolpath,
+        machine: &Machine,
+    ) -> Result<Self, ProgramErrors> {
         let Sections { list: sections, frames, warnings } = Sections::of(&program, request)?;
         let CanonicalToolpath { orientation, hold_rotary, .. } = *request;
-        Ok(Self { program, sections, frames, orientation, hold_rotary, warnings })
+        let motions = Self { program, sections, frames, orientation, hold_rotary, warnings };
+        let Self { program, sections, .. } = &motions;
+        check_motions(&motions, &Checked { program, sections, orientation, machine })?;
+        Ok(motions)
     }
 
     /// The program.
@@ -47,16 +58,6 @@ impl ProgramMotions {
     /// The line of a motion.
     pub(crate) fn line(&self, index: usize) -> u32 {
         self.program.moves().get(index).map_or(0, Move::line)
-    }
-
-    /// The program, and how the request turns the axis between two points.
-    pub(crate) fn orientation(&self) -> Option<OrientationName> {
-        self.orientation
-    }
-
-    /// Whether the tool, its length or the origin are others than in the move before.
-    pub(crate) fn begins_section(&self, index: usize) -> bool {
-        self.section(index).first as usize == index
     }
 
     fn frame(&self, index: usize) -> &Frame {

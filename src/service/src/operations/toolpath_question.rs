@@ -10,7 +10,6 @@ use verne_solver::machine::Drive;
 use verne_solver::toolpath::{Deviation, OnLimit, PlanOptions};
 
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
-use crate::operations::program_check::check_motions;
 use crate::operations::program_motions::ProgramMotions;
 use crate::operations::toolpath_cost::toolpath_cost;
 use crate::operations::toolpath_question::checks::{check_request, standing_at};
@@ -95,9 +94,7 @@ impl ToolpathQuestion {
 
     /// The motions of the program.
     pub(crate) fn motions(&self, program: &Arc<Program>) -> Result<ProgramMotions, ProgramErrors> {
-        let motions = ProgramMotions::new(Arc::clone(program), &self.request)?;
-        check_motions(&motions, &self.machine)?;
-        Ok(motions)
+        ProgramMotions::new(Arc::clone(program), &self.request, &self.machine)
     }
 
     /// Seconds in which the velocities of drives may change at corners.

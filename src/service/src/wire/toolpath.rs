@@ -71,7 +71,7 @@ pub(crate) struct ToolpathRequest {
     /// The motion in rapids.
     #[serde(default)]
     pub rapids: RapidsName,
-    /// Where the machine stands before the program. It moves from there to the first point as in a rapid. Without it,
+    /// Where the machine stands before the program: it moves from there to the first point as in a rapid. Without it,
     /// the machine stands at the first point.
     #[serde(default, deserialize_with = "optional_strict_object")]
     pub start: Option<Start>,

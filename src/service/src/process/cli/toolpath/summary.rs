@@ -23,6 +23,7 @@ pub(super) struct Summary {
     warnings: Vec<Warning>,
     warning_count: u64,
     retracts: u64,
+    dwell_mark_count: u64,
     departures: Vec<Departure>,
     departure_count: u64,
 }
@@ -77,6 +78,15 @@ impl Summary {
             writeln!(
                 err,
                 "warning: within a cut the tool leaves the part {times}, so that the table can turn back."
+            )?;
+        }
+        if self.dwell_mark_count > 0 {
+            let places = if self.dwell_mark_count == 1 { "place" } else { "places" };
+            writeln!(
+                err,
+                "warning: the tool stands on the part while the table turns, at {} {places}; the report lists them in \
+                 dwell_marks.",
+                self.dwell_mark_count
             )?;
         }
         self.write_verdict(err)
@@ -165,7 +175,7 @@ mod tests {
         departures.extend((0..10).map(|i| json!({"line": 100 + i, "distance": 10 - i})));
         let report = json!({
             "verdict": "ok", "failures": [], "failure_count": 0, "rows": 9, "margins": [], "warnings": [],
-            "warning_count": 0, "retracts": 2, "departures": departures, "departure_count": 13
+            "warning_count": 0, "retracts": 2, "dwell_mark_count": 3, "departures": departures, "departure_count": 13
         });
         let mut text = Vec::new();
         Summary::read(report.to_string().as_bytes()).unwrap().write(&mut text).unwrap();
@@ -174,9 +184,10 @@ mod tests {
         assert_eq!(lines[0], "warning: line 75: in a rapid the tool leaves its line by 62.8 mm");
         let singular =
             "warning: line 80: in a rapid the tool leaves its line and the platform passes a singularity";
-        assert_eq!((lines[1], lines.len()), (singular, 13));
+        assert_eq!((lines[1], lines.len()), (singular, 14));
         assert_eq!(lines[10], "warning: in 2 more rapids the tool leaves its line; the report lists them.");
         assert!(lines[11].contains("leaves the part 2 times"), "{text}");
-        assert_eq!(lines[12], "The machine can run the program: 9 rows.");
+        assert!(lines[12].contains("while the table turns, at 3 places"), "{text}");
+        assert_eq!(lines[13], "The machine can run the program: 9 rows.");
     }
 }
