@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use arrow_array::types::Int32Type;
 use arrow_array::{
-    Array, ArrayRef, DictionaryArray, Float32Array, Int64Array, ListArray, NullArray, RecordBatch,
+    ArrayRef, DictionaryArray, Float32Array, Int64Array, ListArray, NullArray, RecordBatch,
     StringArray, StringViewArray, TimestampSecondArray, UInt16Array,
 };
 use arrow_ipc::writer::StreamWriter;
