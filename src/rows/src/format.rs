@@ -33,6 +33,23 @@ impl Format {
         }
     }
 
+    /// The format of a file by its extension, in letters of either case.
+    ///
+    /// ```
+    /// use verne_rows::Format;
+    ///
+    /// assert_eq!(Format::of_extension("CSV"), Some(Format::Csv));
+    /// assert_eq!(Format::of_extension("jsonl"), Some(Format::Ndjson));
+    /// assert_eq!(Format::of_extension("json"), None);
+    /// ```
+    pub fn of_extension(extension: &str) -> Option<Self> {
+        let extension = extension.to_ascii_lowercase();
+        match extension.as_str() {
+            "jsonl" => Some(Self::Ndjson),
+            name => Self::ALL.into_iter().find(|format| format.name() == name),
+        }
+    }
+
     /// The format of a media type; parameters such as `charset` are ignored.
     ///
     /// ```

@@ -55,6 +55,7 @@ pub(crate) mod question_text;
 pub(crate) mod requested_orientation;
 pub(crate) mod results;
 pub(crate) mod row_stream;
+pub(crate) mod row_tally;
 pub(crate) mod slice;
 pub(crate) mod solutions;
 pub(crate) mod solver_errors;

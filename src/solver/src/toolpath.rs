@@ -75,7 +75,8 @@ pub struct PlanOptions {
     pub tolerance: Deviation,
     /// Greatest deviation of the tool's end in rapids.
     pub rapid_tolerance: f64,
-    /// Half-angle of the cap around the pole in which theta2 is free; part of the axis tolerance.
+    /// Half-angle of the cap around the pole in which theta2 is free; part of the axis tolerance. Less than 1e-9 counts
+    /// as 1e-9.
     pub pole: f64,
     /// Radius of the tool's end, for the height over the table.
     pub tool_radius: f64,
@@ -175,7 +176,17 @@ pub fn plan<M: Motions + ?Sized>(
     motions: &M,
     options: &PlanOptions,
     mut progress: impl FnMut(f64) -> bool,
-    emit: impl FnMut(&Row),
+    mut emit: impl FnMut(&Row),
+) -> Result<Report, PlanError> {
+    planned(machine, &motions, options, &mut progress, &mut emit)
+}
+
+fn planned(
+    machine: &Machine,
+    motions: &dyn Motions,
+    options: &PlanOptions,
+    progress: &mut dyn FnMut(f64) -> bool,
+    emit: &mut dyn FnMut(&Row),
 ) -> Result<Report, PlanError> {
     let cap = Cap::new(options.pole, machine.longest());
     let retraction = retraction(motions, options.on_limit);
@@ -187,7 +198,6 @@ pub fn plan<M: Motions + ?Sized>(
         stretches: &stretches,
         table_clearance: options.table_clearance,
         tool_radius: options.tool_radius,
-        pole: options.pole,
     };
     let part = |index: usize| fraction(index, motions.count());
     let weights = machine.data().drives.map_or([1.0; 2], |drives| drives.turning_weights());
@@ -215,7 +225,7 @@ pub fn plan<M: Motions + ?Sized>(
     report.ok_or(if is_full { PlanError::TooManyRows } else { PlanError::Cancelled })
 }
 
-fn retraction<M: Motions + ?Sized>(motions: &M, on_limit: OnLimit) -> Option<Retraction> {
+fn retraction(motions: &dyn Motions, on_limit: OnLimit) -> Option<Retraction> {
     let OnLimit::Retract { clearance, height } = on_limit else { return None };
     let top = highest(motions);
     let height = height.unwrap_or(top + clearance).max(top);
@@ -223,7 +233,7 @@ fn retraction<M: Motions + ?Sized>(motions: &M, on_limit: OnLimit) -> Option<Ret
 }
 
 /// Height of the program's highest point.
-fn highest<M: Motions + ?Sized>(motions: &M) -> f64 {
+fn highest(motions: &dyn Motions) -> f64 {
     let mut standstill = Standstill::default();
     let mut highest = f64::NEG_INFINITY;
     for index in 0..motions.count() {

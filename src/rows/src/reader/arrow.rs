@@ -94,7 +94,7 @@ impl ArrowSource {
         }
         let chunk = columns.iter().map(|column| column.slice(start, count)).collect();
         self.batch = Some((columns, start + count, rows));
-        Some(Chunk { rows: count, columns: chunk, faults: Vec::new() })
+        Some(Chunk { rows: count, columns: chunk, faults: Vec::new(), lines: Vec::new() })
     }
 
     /// The columns of a record batch.

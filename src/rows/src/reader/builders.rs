@@ -13,8 +13,9 @@ use crate::header::Header;
 #[derive(Debug)]
 pub(crate) struct Builders {
     columns: Vec<Builder>,
-    rows: usize,
     faults: Vec<RowFault>,
+    /// The line on which each row ends.
+    lines: Vec<u64>,
     texts: Texts,
 }
 
@@ -42,11 +43,11 @@ impl Builders {
                 Builder::Texts(StringBuilder::new())
             }
         });
-        Self { columns: columns.collect(), rows: 0, faults: Vec::new(), texts }
+        Self { columns: columns.collect(), faults: Vec::new(), lines: Vec::new(), texts }
     }
 
     pub(crate) fn rows(&self) -> usize {
-        self.rows
+        self.lines.len()
     }
 
     /// Adds a number or a text to a column; `text` is read if the column is one of numbers. What is not a number is
@@ -61,15 +62,15 @@ impl Builders {
         }
     }
 
-    /// The row is complete; `fault` says why it cannot be used.
-    pub(crate) fn end_row(&mut self, fault: Option<String>) {
-        self.faults.extend(fault.map(|detail| RowFault { row: self.rows, detail }));
-        self.rows += 1;
+    /// The row is complete, and ends on this line; `fault` says why it cannot be used.
+    pub(crate) fn end_row(&mut self, line: u64, fault: Option<String>) {
+        self.faults.extend(fault.map(|detail| RowFault { row: self.lines.len(), detail }));
+        self.lines.push(line);
     }
 
     /// The rows so far, which start anew; `None` if there is none.
     pub(crate) fn finish(&mut self, header: &Header) -> Option<Chunk> {
-        if self.rows == 0 {
+        if self.lines.is_empty() {
             return None;
         }
         let columns = header.names.iter().zip(&mut self.columns).map(|(name, builder)| match builder {
@@ -77,8 +78,8 @@ impl Builders {
             Builder::Texts(texts) => self.texts.column(&name.name, texts.finish()),
         });
         let columns = columns.collect();
-        let rows = std::mem::take(&mut self.rows);
-        Some(Chunk { rows, columns, faults: std::mem::take(&mut self.faults) })
+        let lines = std::mem::take(&mut self.lines);
+        Some(Chunk { rows: lines.len(), columns, faults: std::mem::take(&mut self.faults), lines })
     }
 }
 

@@ -76,7 +76,7 @@ impl Source for CsvSource {
             }
             let fault =
                 (count != expected).then(|| format!("the row has {count} values instead of {expected}"));
-            builders.end_row(fault);
+            builders.end_row(self.records.line, fault);
         }
         Ok(builders.finish(header))
     }
@@ -103,6 +103,8 @@ struct Records {
     complete: bool,
     /// Records so far.
     number: u64,
+    /// The line on which the record ends.
+    line: u64,
 }
 
 impl Records {
@@ -118,6 +120,7 @@ impl Records {
             ended: 0,
             complete: true,
             number: 0,
+            line: 0,
         }
     }
 
@@ -140,6 +143,7 @@ impl Records {
             }
             let (output, ends) = (&mut self.output[self.written..], &mut self.ends[self.ended..]);
             let (result, read, written, ended) = self.parser.read_record(input, output, ends);
+            let ends_line = input[..read].ends_with(b"\n");
             self.at += read;
             self.written += written;
             self.ended += ended;
@@ -158,6 +162,7 @@ impl Records {
                 }
                 ReadRecordResult::Record => {
                     self.number += 1;
+                    self.line = self.parser.line() - u64::from(ends_line);
                     self.complete = true;
                     return Ok(true);
                 }

@@ -39,19 +39,19 @@ impl Source for NdjsonSource {
                 break;
             }
             let Some(line) = self.lines.next(ended)? else { break };
-            if line.trim_ascii().is_empty() {
+            if line.text.trim_ascii().is_empty() {
                 continue;
             }
-            let row = read_row(line);
+            let (number, row) = (line.number, read_row(line.text));
             if let Some((header, builders)) = &mut self.table {
-                add_row(header, builders, row);
+                add_row(header, builders, number, row);
             } else {
                 let row = row.map_err(|reason| {
                     ReadError::Malformed(format!("the first line must be a JSON object: {reason}"))
                 })?;
                 let header = Header::new(row.0.iter().map(|(name, _)| name.to_string()), self.numbers)?;
                 let mut builders = Builders::new(&header, Texts::Json);
-                add_row(&header, &mut builders, Ok(row));
+                add_row(&header, &mut builders, number, Ok(row));
                 self.table = Some((header, builders));
             }
         }
@@ -74,7 +74,7 @@ fn read_row(line: &[u8]) -> Result<Object<'_>, String> {
     object.map_err(|error| error.to_string().replace(" at line 1 column", ", column"))
 }
 
-fn add_row(header: &Header, builders: &mut Builders, row: Result<Object<'_>, String>) {
+fn add_row(header: &Header, builders: &mut Builders, line: u64, row: Result<Object<'_>, String>) {
     let (row, mut fault) = match row {
         Ok(row) => (row.0, None),
         Err(reason) => (Vec::new(), Some(format!("the line is no JSON object: {reason}"))),
@@ -97,7 +97,7 @@ fn add_row(header: &Header, builders: &mut Builders, row: Result<Object<'_>, Str
             None => "a name occurs twice".to_owned(),
         });
     }
-    builders.end_row(fault);
+    builders.end_row(line, fault);
 }
 
 /// The names and values of an object, in their order.
@@ -150,6 +150,13 @@ impl<'de> Deserialize<'de> for Name<'de> {
     }
 }
 
+/// A line of the text.
+struct Line<'a> {
+    /// From 1.
+    number: u64,
+    text: &'a [u8],
+}
+
 /// Splits bytes into lines.
 #[derive(Debug, Default)]
 struct Lines {
@@ -170,7 +177,7 @@ impl Lines {
     }
 
     /// The next line; the last one may have no end.
-    fn next(&mut self, at_end: bool) -> Result<Option<&[u8]>, ReadError> {
+    fn next(&mut self, at_end: bool) -> Result<Option<Line<'_>>, ReadError> {
         let rest = &self.bytes[self.searched..];
         let end = rest.iter().position(|byte| *byte == b'\n').map(|length| self.searched + length);
         self.searched = end.map_or(self.bytes.len(), |end| end + 1);
@@ -186,6 +193,6 @@ impl Lines {
         };
         self.at = self.searched;
         self.number += 1;
-        Ok(Some(&self.bytes[start..end]))
+        Ok(Some(Line { number: self.number, text: &self.bytes[start..end] }))
     }
 }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use arrow_array::types::Int32Type;
 use arrow_array::{
-    ArrayRef, DictionaryArray, Float32Array, Int64Array, ListArray, NullArray, RecordBatch,
-    StringArray, StringViewArray, TimestampSecondArray, UInt16Array,
+    ArrayRef, DictionaryArray, Float32Array, Int64Array, ListArray, NullArray, RecordBatch, StringArray,
+    StringViewArray, TimestampSecondArray, UInt16Array,
 };
 use arrow_ipc::writer::StreamWriter;
 use verne_rows::{CHUNK_ROWS, Column, Format, WriteError, Writer};

@@ -2,7 +2,7 @@
 
 use verne_rows::{Format, LONGEST_ROW, MOST_COLUMNS, ReadError};
 
-use crate::{numbers, read};
+use crate::{numbers, read, read_in_pieces};
 
 fn refused(format: Format, text: &str) -> String {
     read(format, text.as_bytes()).unwrap_err().to_string()
@@ -67,4 +67,22 @@ fn marks_blank_lines_and_line_ends_of_other_systems_are_no_rows() {
     assert_eq!(numbers(&read(Format::Csv, text.as_bytes()).unwrap(), "x"), [Some(1.0), Some(2.0)]);
     let text = "{\"x\":1}\r\n\r\n  \n{\"x\":2}";
     assert_eq!(numbers(&read(Format::Ndjson, text.as_bytes()).unwrap(), "x"), [Some(1.0), Some(2.0)]);
+}
+
+/// With pieces of one byte a row is read in several steps.
+#[test]
+fn each_row_has_its_line() {
+    for (format, text) in [
+        (Format::Csv, "x,id\n1,a\n\n2,b\n3,\"c\nd\"\n4,e"),
+        (Format::Csv, "\nx,id\r\n1,a\r\n2,b\r\n3,\"c\r\nd\"\r\n4,e\r\n"),
+        (Format::Ndjson, "\n{\"x\":1}\n \n{\"x\":2}\nno row\n{\"x\":4}"),
+    ] {
+        let expected = if text.contains('\r') { [3, 4, 6, 7] } else { [2, 4, 6, 7] };
+        let expected = if format == Format::Ndjson { [2, 4, 5, 6] } else { expected };
+        for size in [1, 2, 3, text.len()] {
+            let chunks = read_in_pieces(format, text.as_bytes(), size).unwrap();
+            let lines = chunks.iter().flat_map(|chunk| (0..chunk.rows()).map(|row| chunk.line(row).unwrap()));
+            assert_eq!(lines.collect::<Vec<_>>(), expected, "{text} in pieces of {size}");
+        }
+    }
 }

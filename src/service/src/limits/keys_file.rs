@@ -88,10 +88,19 @@ impl Entry {
 
 /// Reads the keys of a file. `default` applies to keys without a rate of their own.
 pub(crate) fn read(path: &Path, default: Option<Rate>) -> Result<KeyTable, KeysFileError> {
+    let unreadable = |error: std::io::Error| KeysFileError {
+        path: path.to_owned(),
+        location: None,
+        reason: error.to_string(),
+    };
+    parse(path, &std::fs::read_to_string(path).map_err(unreadable)?, default)
+}
+
+/// Reads the keys of the text of a file.
+pub(crate) fn parse(path: &Path, text: &str, default: Option<Rate>) -> Result<KeyTable, KeysFileError> {
     let bad = |location, reason| KeysFileError { path: path.to_owned(), location, reason };
-    let text = std::fs::read_to_string(path).map_err(|error| bad(None, error.to_string()))?;
     let Document { key } =
-        toml::from_str(&text).map_err(|error| bad(None, toml_error::describe(&error, &text)))?;
+        toml::from_str(text).map_err(|error| bad(None, toml_error::describe(&error, text)))?;
     let mut keys = KeyTable::new();
     for (i, entry) in key.into_iter().enumerate() {
         let location = location(i + 1, &entry);

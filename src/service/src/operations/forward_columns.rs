@@ -8,6 +8,7 @@ use crate::operations::forward_batch::JointBatch;
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::operations::outcome_columns::{OutcomeColumns, number_columns};
 use crate::operations::row_stream::RowAnswer;
+use crate::operations::row_tally::RowTally;
 use crate::wire::batch::{FkBatchNumbers, Orientation};
 use crate::wire::error::OperationError;
 
@@ -58,15 +59,19 @@ impl RowAnswer for ForwardColumns {
     }
 
     fn answer(&mut self, chunk: &Chunk, _: &dyn Observer) -> Result<Vec<Column>, OperationError> {
-        let columns = RowColumns::of(chunk, &self.names)?;
-        let answered = self.batch.answer(&columns.rows());
+        let rows = RowColumns::of(chunk, &self.names)?;
+        let answered = self.batch.answer(&rows.rows());
         let poses: Vec<_> = answered.iter().map(|row| row.pose.as_ref()).collect();
         let parts: Vec<_> = answered.iter().map(|row| row.part.as_ref()).collect();
         let mut columns: Vec<_> = number_columns(PLATFORM, &poses).collect();
         columns.extend(number_columns(self.part(), &parts));
         let outcomes: Vec<_> = answered.iter().map(|row| &row.outcome).collect();
-        columns.extend(self.outcomes.of(&outcomes)?);
+        columns.extend(self.outcomes.of(chunk, &outcomes)?);
         Ok(columns)
+    }
+
+    fn tally(&self) -> &RowTally {
+        self.outcomes.tally()
     }
 
     fn machine(&self) -> &IdentifiedMachine {

@@ -8,6 +8,7 @@ use crate::operations::inverse_batch::PoseBatch;
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::operations::outcome_columns::{OutcomeColumns, number_columns};
 use crate::operations::row_stream::RowAnswer;
+use crate::operations::row_tally::RowTally;
 use crate::wire::batch::IkBatchNumbers;
 use crate::wire::error::OperationError;
 use crate::wire::request::Frame;
@@ -54,20 +55,24 @@ impl RowAnswer for InverseColumns {
     }
 
     fn answer(&mut self, chunk: &Chunk, _: &dyn Observer) -> Result<Vec<Column>, OperationError> {
-        let columns = RowColumns::of(chunk, &self.names)?;
-        let answered = self.batch.answer(&columns.rows());
+        let rows = RowColumns::of(chunk, &self.names)?;
+        let answered = self.batch.answer(&rows.rows());
         let joints: Vec<_> = answered.iter().map(|row| row.joints.as_ref()).collect();
         let outcomes: Vec<_> = answered.iter().map(|row| &row.outcome).collect();
         let names = if self.batch.frame == Frame::Part { JOINTS } else { &JOINTS[..3] };
         let (mut columns, outcomes) = rayon::join(
             || number_columns(names, &joints).collect::<Vec<_>>(),
-            || self.outcomes.of(&outcomes),
+            || self.outcomes.of(chunk, &outcomes),
         );
         if self.batch.continuous {
             columns.push(Column::flags("jump", answered.iter().map(|row| row.jump)));
         }
         columns.extend(outcomes?);
         Ok(columns)
+    }
+
+    fn tally(&self) -> &RowTally {
+        self.outcomes.tally()
     }
 
     fn machine(&self) -> &IdentifiedMachine {

@@ -1,20 +1,22 @@
 //! The outcomes of rows as columns.
 
-use verne_rows::{Column, Names, WriteError};
+use verne_rows::{Chunk, Column, Names, WriteError};
 use verne_solver::Margin;
 
 use crate::operations::batch_rows::RowOutcome;
 use crate::operations::column_rows::pointer;
+use crate::operations::row_tally::{Reason, RowTally};
 use crate::wire::batch::{Row, Status};
 use crate::wire::constraint::{ConstraintName, ElementName};
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::limit::Limit;
 
-/// The words of the columns of outcomes, which every chunk of an answer shares.
+/// The words of the columns of outcomes, which every chunk of an answer shares, and the outcomes so far.
 #[derive(Debug)]
 pub(crate) struct OutcomeColumns {
     statuses: Names,
     limits: LimitColumns,
+    tally: RowTally,
 }
 
 /// The constraint, the margin in its unit, and the part of the machine.
@@ -30,17 +32,32 @@ pub(crate) struct LimitColumns {
 impl OutcomeColumns {
     pub(crate) fn new() -> Result<Self, OperationError> {
         let statuses = Status::ALL.map(Status::name);
-        Ok(Self { statuses: Names::new(&statuses).map_err(defect)?, limits: LimitColumns::new()? })
+        Ok(Self {
+            statuses: Names::new(&statuses).map_err(defect)?,
+            limits: LimitColumns::new()?,
+            tally: RowTally::new(&statuses),
+        })
     }
 
-    /// The columns `status`, `constraint`, `margin`, `element` and `detail`.
-    pub(crate) fn of(&self, outcomes: &[&RowOutcome]) -> Result<Vec<Column>, OperationError> {
+    /// The columns `status`, `constraint`, `margin`, `element` and `detail` of the rows of a chunk.
+    pub(crate) fn of(
+        &mut self,
+        chunk: &Chunk,
+        outcomes: &[&RowOutcome],
+    ) -> Result<Vec<Column>, OperationError> {
+        let counted = outcomes.iter().map(|outcome| (outcome.status() as usize, Reason::of(outcome)));
+        self.tally.add(chunk, counted);
         let status = outcomes.iter().map(|outcome| code(outcome.status() as usize));
         let mut columns = vec![Column::names("status", &self.statuses, status).map_err(defect)?];
         let margins: Vec<_> = outcomes.iter().map(|outcome| outcome.margin()).collect();
         columns.extend(self.limits.of(&margins)?);
         columns.push(Column::texts("detail", outcomes.iter().map(|outcome| outcome.detail())));
         Ok(columns)
+    }
+
+    /// The outcomes so far.
+    pub(crate) fn tally(&self) -> &RowTally {
+        &self.tally
     }
 }
 

@@ -12,7 +12,7 @@ use verne_program::{Move, MoveKind, Orientation, Program, ProgramErrors};
 use verne_solver::Machine;
 use verne_solver::toolpath::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
 
-use crate::operations::program_motions::check::check_motions;
+use crate::operations::program_motions::check::{Checked, check_motions};
 use crate::operations::program_motions::frame::Frame;
 use crate::operations::program_motions::sections::{Section, Sections};
 use crate::wire::canonical_toolpath::CanonicalToolpath;
@@ -45,7 +45,8 @@ impl ProgramMotions {
         let Sections { list: sections, frames, warnings } = Sections::of(&program, request)?;
         let CanonicalToolpath { orientation, hold_rotary, .. } = *request;
         let motions = Self { program, sections, frames, orientation, hold_rotary, warnings };
-        check_motions(&motions, machine)?;
+        let Self { program, sections, .. } = &motions;
+        check_motions(&motions, &Checked { program, sections, orientation, machine })?;
         Ok(motions)
     }
 
@@ -57,16 +58,6 @@ impl ProgramMotions {
     /// The line of a motion.
     pub(crate) fn line(&self, index: usize) -> u32 {
         self.program.moves().get(index).map_or(0, Move::line)
-    }
-
-    /// The program, and how the request turns the axis between two points.
-    pub(crate) fn orientation(&self) -> Option<OrientationName> {
-        self.orientation
-    }
-
-    /// Whether the tool, its length or the origin are others than in the move before.
-    pub(crate) fn begins_section(&self, index: usize) -> bool {
-        self.section(index).first as usize == index
     }
 
     fn frame(&self, index: usize) -> &Frame {

@@ -6,6 +6,7 @@ use verne_solver::workspace::Observer;
 use crate::operations::column_rows::pointer;
 use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::outcome_columns::write_error;
+use crate::operations::row_tally::RowTally;
 use crate::wire::error::{FieldError, OperationError};
 
 /// Answers the rows of a batch, chunk by chunk.
@@ -18,6 +19,9 @@ pub(crate) trait RowAnswer: Send {
 
     /// The columns of the answer to the next rows.
     fn answer(&mut self, chunk: &Chunk, observer: &dyn Observer) -> Result<Vec<Column>, OperationError>;
+
+    /// The outcomes of all rows so far.
+    fn tally(&self) -> &RowTally;
 
     /// The machine.
     fn machine(&self) -> &IdentifiedMachine;
@@ -91,6 +95,11 @@ impl RowStream {
     /// How many rows are answered since the last call.
     pub(crate) fn take_rows(&mut self) -> usize {
         std::mem::take(&mut self.rows)
+    }
+
+    /// The outcomes of all rows so far.
+    pub(crate) fn tally(&self) -> &RowTally {
+        self.answer.tally()
     }
 
     /// The columns that the answer passes on, and those of the answer.

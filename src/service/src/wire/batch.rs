@@ -1,6 +1,7 @@
 //! Batches: many rows in, columns out.
 
 use arrayvec::ArrayVec;
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -94,7 +95,7 @@ pub(crate) struct FkBatchRequest<R> {
 
 /// Orientation of a pose in the part frame: `rotary` (default), phi1 and phi2 in degrees; `vector`, the tool axis i, j,
 /// k, a unit vector from the tool end to the holder.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Orientation {
     /// phi1 and phi2.

@@ -71,8 +71,8 @@ pub(crate) struct ToolpathRequest {
     /// The motion in rapids.
     #[serde(default)]
     pub rapids: RapidsName,
-    /// Where the machine stands before the program: it moves from there to the first point as in a rapid. Without it, the
-    /// machine stands at the first point.
+    /// Where the machine stands before the program: it moves from there to the first point as in a rapid. Without it,
+    /// the machine stands at the first point.
     #[serde(default, deserialize_with = "optional_strict_object")]
     pub start: Option<Start>,
     /// Least height of the tool's end and of the platform's six joints over the table (the plane Z = 0 of the part

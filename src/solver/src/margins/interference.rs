@@ -25,6 +25,12 @@ impl NearestPair {
             *self = Self { square, rods };
         }
     }
+
+    /// The distance, and the rods' numbers.
+    #[inline]
+    fn distance(&self) -> (f64, [u8; 2]) {
+        (self.square.sqrt(), self.rods.map(|rod| RODS[rod]))
+    }
 }
 
 /// The least distance between two rods' axes as segments, mm, and the two rods' numbers.
@@ -38,7 +44,25 @@ pub(crate) fn least_distance(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     let mut nearest = NearestPair { square, rods: [0, 1] };
     compare_parallelograms(&mut nearest, g, rods);
     compare_between_legs(&mut nearest, g, &ends, rods);
-    (nearest.square.sqrt(), nearest.rods.map(|rod| RODS[rod]))
+    nearest.distance()
+}
+
+/// The same of a parallelogram's two rods.
+#[inline]
+pub(super) fn least_distance_in_parallelograms(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
+    let mut nearest = NearestPair { square: f64::INFINITY, rods: [2, 3] };
+    compare_parallelograms(&mut nearest, g, rods);
+    nearest.distance()
+}
+
+/// The same of all other pairs.
+#[inline]
+pub(super) fn least_distance_of_others(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
+    let ends = rods.platform_ends(g);
+    let square = square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1]);
+    let mut nearest = NearestPair { square, rods: [0, 1] };
+    compare_between_legs(&mut nearest, g, &ends, rods);
+    nearest.distance()
 }
 
 /// The least distances between two rods' axes, mm: of leg I's, of a parallelogram's, and of rods of

@@ -76,9 +76,9 @@ impl<'a> Chooser<'a> {
     }
 
     /// Examines the program; `go_on` is asked from time to time and ends the examination by `false`.
-    pub(super) fn choose<M: Motions + ?Sized>(
+    pub(super) fn choose(
         mut self,
-        motions: &M,
+        motions: &dyn Motions,
         mut meridian: Meridian<'_>,
         mut go_on: impl FnMut(usize) -> bool,
     ) -> Option<Choice> {
@@ -119,7 +119,7 @@ impl<'a> Chooser<'a> {
         let Some(span) = span else { return };
         self.examine_skipped();
         let before = std::mem::take(&mut self.states);
-        let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
+        let (phi2, _) = span.meridian(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
         // The nodes of both preimages; whole turns change theta2 alone.
         let mut known: [Option<Solutions>; 2] = [None, None];
         for h in half_turns(phi2, span.is_odd(), useful_range(&before, &self.setting)) {

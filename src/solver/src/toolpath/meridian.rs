@@ -8,13 +8,14 @@
 //! enters and leaves the cap, phi2 changes linearly with the path: over the rapids of the stretch if it has any, else
 //! over all of it. A program may also state phi2 there; it then is the program's everywhere.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
-use super::azimuth::{Azimuths, azimuth, continued, of_arrival, to_nearest};
+use super::azimuth::{Azimuths, azimuth_direction, azimuth_of, continued, of_arrival, to_nearest};
 use super::cap::Cap;
 use super::motion::{Motion, MotionKind, Standstill, Turning};
 use super::path::Path;
 use super::stretches::Stretch;
+use crate::fast_math::{is_odd, sin_cos};
 
 /// A part of one motion's path on which phi2 follows one rule.
 #[derive(Clone, Copy, Debug)]
@@ -67,13 +68,25 @@ impl Span {
         }
     }
 
-    /// phi2 at a parameter, for h half turns at the beginning and at the end of a stretch.
-    pub(super) fn phi2(&self, stretches: &[Stretch], s: f64, axis: [f64; 3], h: [i32; 2]) -> f64 {
-        match self.rule {
+    /// phi2 at a parameter with its sine and cosine, for h half turns at the beginning and at the end of a stretch.
+    pub(super) fn meridian(
+        &self,
+        stretches: &[Stretch],
+        s: f64,
+        axis: [f64; 3],
+        h: [i32; 2],
+    ) -> (f64, [f64; 2]) {
+        let phi2 = match self.rule {
             Rule::Follow { azimuth: [start, end], phi2 } => {
                 let nearer = if s - self.from < self.to - s { start } else { end };
-                let now = if s == self.to { end } else { azimuth(axis).unwrap_or(nearer) };
-                phi2 + to_nearest(now - start, TAU) + PI * f64::from(h[1])
+                let along = azimuth_direction(axis);
+                let now = if s == self.to { end } else { along.map_or(nearer, azimuth_of) };
+                let phi2 = phi2 + to_nearest(now - start, TAU) + PI * f64::from(h[1]);
+                if let Some(along) = along {
+                    let is_opposite = is_odd((phi2 - now) * FRAC_1_PI);
+                    return (phi2, if is_opposite { along.map(|c| -c) } else { along });
+                }
+                phi2
             }
             Rule::Words { phi2: [from, to], .. } => from + (to - from) * s + PI * f64::from(h[1]),
             Rule::Held { phi2 } => phi2,
@@ -84,7 +97,9 @@ impl Span {
                 let part = if width > 0.0 { (s - self.from) / width } else { 1.0 };
                 from + (to - from) * (share[0] + (share[1] - share[0]) * part)
             }
-        }
+        };
+        let (sine, cosine) = sin_cos(phi2);
+        (phi2, [sine, cosine])
     }
 }
 

@@ -109,6 +109,16 @@ pub trait Motions {
     fn motion(&self, index: usize) -> Motion;
 }
 
+impl<M: Motions + ?Sized> Motions for &M {
+    fn count(&self) -> usize {
+        (**self).count()
+    }
+
+    fn motion(&self, index: usize) -> Motion {
+        (**self).motion(index)
+    }
+}
+
 impl Motions for [Motion] {
     fn count(&self) -> usize {
         self.len()

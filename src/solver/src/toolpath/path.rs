@@ -24,6 +24,7 @@ pub(super) struct Path {
     end: ToolPosition,
     tip: TipPath,
     axis: AxisPath,
+    length: f64,
     /// phi2 at both ends, if theta2 follows it also at the pole.
     held: Option<[f64; 2]>,
 }
@@ -57,6 +58,15 @@ enum AxisPath {
     },
 }
 
+impl TipPath {
+    fn length(&self, start: &ToolPosition, end: &ToolPosition) -> f64 {
+        match self {
+            Self::Line => (Vector3::from(end.tip) - Vector3::from(start.tip)).norm(),
+            Self::Arc { radius, sweep, rest, .. } => (radius[0].norm() * sweep).hypot(rest.norm()),
+        }
+    }
+}
+
 impl Path {
     /// The path of a motion that begins at `start`.
     pub(super) fn new(start: ToolPosition, motion: &Motion) -> Self {
@@ -77,11 +87,11 @@ impl Path {
             Turning::Held { start, end } => Some([start[1], end[1]]),
             Turning::GreatCircle | Turning::Angles { .. } => None,
         };
-        Self { start, end, tip, axis, held }
+        Self { start, end, length: tip.length(&start, &end), tip, axis, held }
     }
 
     /// The path of the same motion from another place of the tool's end.
-    pub(super) fn from_tip(&self, tip: Point, motion: &Motion) -> Self {
+    pub(super) fn begun_at(&self, tip: Point, motion: &Motion) -> Self {
         Self::new(ToolPosition { tip, ..self.start }, motion)
     }
 
@@ -99,6 +109,17 @@ impl Path {
             return self.end;
         }
         ToolPosition { tip: self.tip(s).into(), axis: self.axis(s).into() }
+    }
+
+    /// The tool's end at a parameter; at 0 and 1 it is that of the motion's ends, to the last bit.
+    pub(super) fn tip_at(&self, s: f64) -> Point {
+        if s <= 0.0 {
+            self.start.tip
+        } else if s >= 1.0 {
+            self.end.tip
+        } else {
+            self.tip(s).into()
+        }
     }
 
     fn tip(&self, s: f64) -> Vector3<f64> {
@@ -167,10 +188,7 @@ impl Path {
     /// Length of the path of the tool's end, mm; of a helix that misses its end the length is that of the arc and the
     /// rest.
     pub(super) fn length(&self) -> f64 {
-        match self.tip {
-            TipPath::Line => (Vector3::from(self.end.tip) - Vector3::from(self.start.tip)).norm(),
-            TipPath::Arc { radius, sweep, rest, .. } => (radius[0].norm() * sweep).hypot(rest.norm()),
-        }
+        self.length
     }
 
     /// Upper bound of the angle that the axis moves through, rad.

@@ -8,7 +8,7 @@ use super::motion::{Motion, MotionKind, Motions, Standstill, ToolPosition, Turni
 use super::path::Path;
 
 /// Measure, relative to the machine's longest dimension, of a stretch that is a point.
-const LEAST_MEASURE: f64 = 1e-9;
+const LEAST_MEASURE: f64 = 1e-8;
 
 /// A place on the path of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,8 +47,8 @@ struct Open {
 }
 
 /// Finds the stretches inside the cap of a program that begins at a standstill, with phi2 there if it is known.
-pub(super) fn stretches<M: Motions + ?Sized>(
-    motions: &M,
+pub(super) fn stretches(
+    motions: &dyn Motions,
     cap: &Cap,
     (mut standstill, phi2): (Standstill, Option<f64>),
 ) -> Vec<Stretch> {

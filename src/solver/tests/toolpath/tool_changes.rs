@@ -90,7 +90,7 @@ fn limits_are_examined_on_the_way_of_the_new_tool() {
     let clearance = |failure: &&verne_solver::toolpath::Failure| {
         failure.margin.constraint == Constraint::TableClearance && failure.motions == [1, 1]
     };
-    let failure = report.failures.iter().find(clearance).expect("the tool's end begins at -10 mm");
+    let failure = report.failures.iter().find(clearance).unwrap();
     assert!((failure.margin.value + 10.0).abs() < 1e-9, "{failure:?}");
 }
 

@@ -20,10 +20,10 @@ fn a_cut_of_many_turns_runs_without_a_retract() {
     let retract = OnLimit::Retract { clearance: 50.0, height: None };
     for on_limit in [OnLimit::Fail, retract] {
         let options = PlanOptions { on_limit, ..PlanOptions::default() };
-        let (report, rows) = planned(&unlimited(), &helix(0.0, 3600.0), &options);
+        let (report, rows) = planned(&unlimited(), &helix(0.0, 1800.0), &options);
         assert!(report.is_feasible() && report.retracts == 0, "{:?}", report.failures);
         let [first, last] = [rows.first(), rows.last()].map(|row| row.unwrap().table.theta2);
-        assert!((first - last - 10.0 * TAU).abs() < 1e-9 && first.abs() < 1e-9, "{first} {last}");
+        assert!((first - last - 5.0 * TAU).abs() < 1e-9 && first.abs() < 1e-9, "{first} {last}");
         assert!(report.least.iter().all(|least| least.margin.constraint != verne_solver::Constraint::Rotary));
     }
 }
@@ -33,10 +33,10 @@ fn a_cut_of_many_turns_runs_without_a_retract() {
 fn rapids_take_the_nearest_winding() {
     let mut random = Random::new(77);
     let tip = [20.0, 10.0, 320.0];
-    for _ in 0..10 {
+    for _ in 0..3 {
         let mut azimuth = random.between(-180.0, 180.0);
         let mut program = vec![arrive(tip, tilted(10.0, azimuth))];
-        for _ in 0..40 {
+        for _ in 0..20 {
             for _ in 0..5 {
                 azimuth += random.between(20.0, 60.0);
                 program.push(feed(tip, tilted(10.0, azimuth)));

@@ -106,8 +106,8 @@ fn check_hold(request: &ToolpathRequest, faults: &mut FieldErrors) {
     }
     let frames = request.offsets.values().chain([&request.setup]);
     if frames.into_iter().any(|frame| frame.a != 0.0 || frame.b != 0.0) {
-        let detail = "is allowed only where a and b of setup and offsets are 0: in an inclined frame the program's C is \
-                      no angle of the table";
+        let detail = "is allowed only where a and b of setup and offsets are 0: in an inclined frame the program's C \
+                      is no angle of the table";
         faults.add("/hold_rotary", detail);
     }
 }

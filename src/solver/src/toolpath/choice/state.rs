@@ -4,7 +4,8 @@ use std::cmp::Ordering;
 use std::f64::consts::PI;
 
 use super::cost::Cost;
-use crate::margins::Margins;
+use crate::limit::Constraint;
+use crate::margins::lesser_margins::{ClosedPosture, Reference, worst_and_lesser};
 use crate::toolpath::node::{Node, Setting, Target};
 use crate::toolpath::start::Start;
 
@@ -26,7 +27,7 @@ pub(super) struct State {
 impl State {
     /// The state before the program. Its limits are examined at the next place.
     pub(super) fn of_start(start: Start) -> Self {
-        let reserve = Reserve { holds: false, way: 0.0 };
+        let reserve = Reserve { holds: false, way: 0.0, reference: None };
         Self { h: [0; 2], node: Some(start.node()), reserve, cost: Cost::START, parent: 0, twin: None }
     }
 }
@@ -38,15 +39,28 @@ pub(super) struct Reserve {
     holds: bool,
     /// How far the machine may move until they are examined again, as [`Node::way_from`].
     way: f64,
+    reference: Option<Reference>,
 }
 
 impl Reserve {
     pub(super) fn of(setting: &Setting<'_>, node: Option<&Node>, tool_length: f64) -> Self {
+        Self::near(setting, node, tool_length, None)
+    }
+
+    /// The same near the place of a reference.
+    fn near(
+        setting: &Setting<'_>,
+        node: Option<&Node>,
+        tool_length: f64,
+        mut reference: Option<Reference>,
+    ) -> Self {
         let fraction = node.map_or(-1.0, |node| {
-            let margins = Margins { rotary: None, ..setting.margins(node, tool_length) };
-            margins.worst_with_fraction(setting.machine).1
+            let rods = node.closed_rods(setting.machine);
+            let posture = ClosedPosture { theta2: None, ..setting.closed(node, &rods, tool_length) };
+            let mut known = [f64::NEG_INFINITY; Constraint::COUNT];
+            worst_and_lesser(setting.machine, &posture, (&mut known, &mut reference), |_| {}).1
         });
-        Self { holds: fraction >= 0.0, way: WAY * fraction }
+        Self { holds: fraction >= 0.0, way: WAY * fraction, reference }
     }
 
     /// The reserve after the machine has moved.
@@ -56,10 +70,10 @@ impl Reserve {
         {
             let way = self.way - node.way_from(before, setting.machine.longest());
             if way > 0.0 {
-                return Self { holds: true, way };
+                return Self { holds: true, way, ..self };
             }
         }
-        Self::of(setting, node, tool_length)
+        Self::near(setting, node, tool_length, self.reference)
     }
 
     /// The cost of a place with these limits.

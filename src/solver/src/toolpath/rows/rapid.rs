@@ -1,6 +1,6 @@
 //! Rapids, and positions that are reached from anywhere.
 
-use super::{Row, RowKind, RowPlace, Rower};
+use super::{RowKind, RowPlace, Rower};
 use crate::pose::PartPose;
 use crate::table::part_pose;
 use crate::toolpath::choice::Chosen;
@@ -13,13 +13,13 @@ use crate::toolpath::node::Node;
 use crate::toolpath::path::Path;
 use crate::toolpath::report::{Departure, MOST_DEPARTURES};
 
-impl<F: FnMut(&Row)> Rower<'_, F> {
+impl Rower<'_> {
     /// A motion whose path is not the program's.
     pub(super) fn arrive(&mut self, index: usize, motion: &Motion, spans: &[Span]) {
         let chosen = self.next_choice();
         self.change_to(chosen);
         self.now = None;
-        self.go_straight(index, motion, spans, &RowPlace::of_arrival(motion.end), chosen);
+        self.go_straight(index, motion, spans, &RowPlace::of_arrival(motion.end.tip), chosen);
     }
 
     /// Moves all joints straight to the end of a motion.
@@ -75,7 +75,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             let Ok(end) = track.node(span.to, Some(&now)) else { return false };
             let stops = [Stop { s: span.from, node: now }, Stop { s: span.to, node: end }];
             let result =
-                linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _| {
+                linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _, _| {
                     rows.push((stop.s, *span, stop.node));
                 });
             if result.is_err() {

@@ -34,7 +34,7 @@ async fn a_start_is_the_first_row_and_its_sliders_count() {
         assert!(rows[1..].iter().all(|row| row.duration.is_some()));
         times.push(report["time"]["seconds"].as_f64().unwrap());
     }
-    assert!((times[0] - times[1]).abs() > 0.5, "the sliders need time: {times:?}");
+    assert!((times[0] - times[1]).abs() > 0.3, "the sliders need time: {times:?}");
     let (_, query) = post(
         &service,
         "/toolpath?format=apt&tool_length=100&start={%22rho%22:[500,500,500],%22theta1%22:0,%22theta2%22:0}",
@@ -54,7 +54,6 @@ async fn a_start_outside_its_ranges_is_a_field_error() {
         (start(json!([500, 500, 500]), 0.0, 361.0), "/start/theta2"),
         (start(json!([500, 500, 500]), -200.0, 0.0), "/start/theta1"),
         (start(json!([500, 9000, 500]), 0.0, 0.0), "/start/rho/1"),
-        (start(json!([1000, 250, 250]), 0.0, 0.0), "/start/rho"),
         (json!({"theta1": 0, "theta2": 0}), "/start/rho"),
     ] {
         let request = json!({"program": {"points": [[0, 0, 300]]}, "tool_length": 100, "start": start});
@@ -62,6 +61,12 @@ async fn a_start_outside_its_ranges_is_a_field_error() {
         assert_eq!(status, StatusCode::UNPROCESSABLE_ENTITY, "{start} {problem}");
         assert_eq!(problem["errors"][0]["pointer"], pointer, "{start} {problem}");
     }
+    let mut machine = super::get(&service, "/machines/verne").await.1["definition"].clone();
+    machine["limits"]["stroke"][0] = json!([0, 2000]);
+    let request = json!({"program": {"points": [[0, 0, 300]]}, "tool_length": 100, "machine": machine,
+        "start": start(json!([1500, 0, 0]), 0.0, 0.0)});
+    let (_, problem) = post(&service, "/toolpath", JSON, request.to_string()).await;
+    assert_eq!(problem["errors"][0]["pointer"], "/start/rho", "no working posture: {problem}");
 }
 
 #[tokio::test]
@@ -120,7 +125,7 @@ async fn a_turn_while_the_tool_stands_is_a_dwell_mark() {
 #[tokio::test]
 async fn a_feed_move_after_a_change_of_length_has_rows() {
     let service = service().await;
-    let gcode = "G21 G90\nG43.4 H1 G0 X0 Y0 Z330\nG43.4 H2\nG1 X100 Z300 F500\n";
+    let gcode = "G21 G90\nG43.4 H1 G0 X0 Y0 Z330\nG43.4 H2\nG1 X100 Z300 F500\nM2\n";
     let query = "/toolpath?format=gcode&tool_length={%221%22:100,%222%22:130}";
     let (_, report) = post(&service, query, FORM, gcode).await;
     assert_eq!((&report["verdict"], &report["warnings"]), (&json!("ok"), &json!([])), "{report}");
