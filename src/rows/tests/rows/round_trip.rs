@@ -76,12 +76,12 @@ fn columns_may_have_any_order() {
 
 #[test]
 fn many_rows_come_in_chunks() {
-    let count = 3 * CHUNK_ROWS + 5;
-    let columns = [Column::numbers("x", (0..count).map(|i| Some(i as f64)))];
+    let count = u32::try_from(3 * CHUNK_ROWS + 5).unwrap();
+    let columns = [Column::numbers("x", (0..count).map(|i| Some(f64::from(i))))];
     for format in Format::ALL {
         let chunks = read(format, &write(format, [&columns[..]])).unwrap();
         assert!(chunks.iter().all(|chunk| chunk.rows() <= CHUNK_ROWS));
-        let expected: Vec<_> = (0..count).map(|i| Some(i as f64)).collect();
+        let expected: Vec<_> = (0..count).map(|i| Some(f64::from(i))).collect();
         assert!(numbers(&chunks, "x") == expected, "{format:?}");
     }
 }
