@@ -33,6 +33,10 @@ impl Header {
             let is_number = numbers.contains(&name.as_str());
             known.push(HeaderName { name, is_number });
         }
+        if known.is_empty() {
+            // Rows without columns cannot be written.
+            return Err(ReadError::Malformed("there is no column".to_owned()));
+        }
         Ok(Self { names: known })
     }
 

@@ -50,6 +50,7 @@ fn an_unusable_table_is_refused() {
     assert!(refused(Format::Csv, "x,,y\n").contains("column 2 has no name"));
     assert!(refused(Format::Ndjson, "[1,2]").contains("must be a JSON object"));
     assert!(refused(Format::Ndjson, "").contains("no row"));
+    assert!(refused(Format::Ndjson, "{}\n").contains("no column"));
     let many: Vec<_> = (0..=MOST_COLUMNS).map(|i| format!("c{i}")).collect();
     assert!(refused(Format::Csv, &many.join(",")).contains("more than 256"));
 }

@@ -1,6 +1,6 @@
 //! What is written is read, in every format.
 
-use verne_rows::{CHUNK_ROWS, Column, Format, Names};
+use verne_rows::{CHUNK_ROWS, Chunk, Column, Format, Names};
 
 use crate::{numbers, read, read_in_pieces, write};
 
@@ -47,21 +47,21 @@ fn extra_columns_pass_from_every_format_to_every_format() {
     for from in Format::ALL {
         let chunks = read(from, &direct(from)).unwrap();
         for to in Format::ALL {
-            let passed = write(to, chunks.iter().map(|chunk| chunk.columns()));
+            let passed = write(to, chunks.iter().map(Chunk::columns));
             let again = read(to, &passed).unwrap();
-            let names = |chunks: &[verne_rows::Chunk]| -> Vec<String> {
+            let names = |chunks: &[Chunk]| -> Vec<String> {
                 chunks[0].columns().iter().map(|column| column.name().to_owned()).collect()
             };
             assert_eq!(names(&again), ["id", "y", "word", "flag", "line", "x"]);
             assert_eq!(bits(numbers(&again, "x")), expected_x(), "{from:?} {to:?}");
         }
-        let passed = write(from, chunks.iter().map(|chunk| chunk.columns()));
+        let passed = write(from, chunks.iter().map(Chunk::columns));
         let is_text = from != Format::Arrow;
         assert!(!is_text || passed == direct(from), "{from:?}");
     }
     let csv = |from: Format| {
         let chunks = read(from, &direct(from)).unwrap();
-        write(Format::Csv, chunks.iter().map(|chunk| chunk.columns()))
+        write(Format::Csv, chunks.iter().map(Chunk::columns))
     };
     assert!(csv(Format::Arrow) == direct(Format::Csv) && csv(Format::Ndjson) == direct(Format::Csv));
 }
@@ -76,12 +76,12 @@ fn columns_may_have_any_order() {
 
 #[test]
 fn many_rows_come_in_chunks() {
-    let count = 3 * CHUNK_ROWS + 5;
-    let columns = [Column::numbers("x", (0..count).map(|i| Some(i as f64)))];
+    let count = u32::try_from(3 * CHUNK_ROWS + 5).unwrap();
+    let columns = [Column::numbers("x", (0..count).map(|i| Some(f64::from(i))))];
     for format in Format::ALL {
         let chunks = read(format, &write(format, [&columns[..]])).unwrap();
         assert!(chunks.iter().all(|chunk| chunk.rows() <= CHUNK_ROWS));
-        let expected: Vec<_> = (0..count).map(|i| Some(i as f64)).collect();
+        let expected: Vec<_> = (0..count).map(|i| Some(f64::from(i))).collect();
         assert!(numbers(&chunks, "x") == expected, "{format:?}");
     }
 }

@@ -12,9 +12,9 @@ use crate::process::service::Service;
 use crate::test_service::{send, service};
 
 /// The poses of the tests: reachable, infeasible, unreachable.
-pub(super) fn poses(count: usize) -> Vec<[f64; 5]> {
-    let pose = |i: usize| {
-        let t = i as f64;
+pub(super) fn poses(count: u32) -> Vec<[f64; 5]> {
+    let pose = |i: u32| {
+        let t = f64::from(i);
         let z = if i % 7 == 3 { 2000.0 } else { 250.0 + (t * 0.37) % 90.0 };
         [
             (t * 7.3) % 300.0 - 150.0,
@@ -87,7 +87,7 @@ fn assert_column(rows: &[Map<String, Value>], name: &str, expected: impl Fn(usiz
         let equal = match &expected {
             Value::Number(_) => number(found) == expected.as_f64(),
             Value::Null => found.is_null() || found == "",
-            Value::Bool(flag) => found == flag || *found == flag.to_string(),
+            Value::Bool(flag) => found == flag || found == if *flag { "true" } else { "false" },
             other => found == other,
         };
         assert!(equal, "{context}, row {i}, {name}: {found} instead of {expected}");
@@ -150,9 +150,10 @@ async fn forward_rows_and_points_are_the_same_as_in_json() {
     let points: Vec<_> = poses(50).into_iter().map(|[x, y, z, ..]| [x, y, z]).collect();
     let body = json!({"kind": "part", "tool_length": 50, "points": points});
     let expected = post_json(&service, "/workspace/contains", body).await;
-    let csv: String = points.iter().map(|[x, y, z]| format!("{z},{x},{y}\n")).collect();
+    let points: Vec<_> = points.iter().map(|[x, y, z]| format!("{z},{x},{y}")).collect();
+    let csv = format!("z,x,y\n{}\n", points.join("\n"));
     let path = "/workspace/contains?kind=part&tool_length=50";
-    let (status, _, answer) = post(&service, path, "text/csv", format!("z,x,y\n{csv}")).await;
+    let (status, _, answer) = post(&service, path, "text/csv", csv).await;
     assert_eq!(status, StatusCode::OK);
     let rows = objects(Format::Csv, &answer);
     for name in ["inside", "margin", "unit", "constraint", "element"] {
