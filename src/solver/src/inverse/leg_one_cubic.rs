@@ -15,8 +15,11 @@
 
 use arrayvec::ArrayVec;
 
-use super::leg_one_height::{is_nearly_level, square_at_pi, square_at_zero};
+use super::leg_one_height::{is_nearly_level, rounded_square_at_zero, square_at_pi, square_at_zero};
+use crate::fast_math::greater;
 use crate::mechanism::Mechanism;
+use crate::pose::Point;
+use crate::registers::ROWS;
 use crate::residual::RESIDUAL_TOLERANCE;
 
 /// Newton steps. Near a double root convergence is linear, with one bit a step.
@@ -45,6 +48,14 @@ pub(crate) struct LegOneAngle {
 #[derive(Clone, Copy, Debug)]
 struct Cubic([f64; 4]);
 
+/// A step of Newton's method on the cubic.
+struct NewtonStep {
+    t: f64,
+    /// Whether g rises at the start.
+    is_before_maximum: bool,
+    has_converged: bool,
+}
+
 /// Leg I at given x and y of P.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LegOneCubic<'a> {
@@ -59,6 +70,12 @@ impl<'a> LegOneCubic<'a> {
     #[inline]
     pub(crate) fn new(mechanism: &'a Mechanism, x: f64, y: f64) -> Self {
         Self { mechanism, x, y, at_zero: square_at_zero(mechanism, x) }
+    }
+
+    /// The same where leg I is not nearly level.
+    #[inline(always)]
+    fn rounded(mechanism: &'a Mechanism, x: f64, y: f64) -> Self {
+        Self { mechanism, x, y, at_zero: rounded_square_at_zero(mechanism, x) }
     }
 
     /// The angle nearest to zero, where the working mode usually is.
@@ -138,12 +155,12 @@ impl<'a> LegOneCubic<'a> {
     }
 
     /// w1² + y² at c = `sign`.
-    #[inline]
+    #[inline(always)]
     fn square_at(&self, sign: f64) -> f64 {
         if sign > 0.0 { self.at_zero } else { square_at_pi(self.mechanism, self.x, self.at_zero) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn cubic(&self, sign: f64) -> Cubic {
         let d = self.mechanism;
         let k = sign * d.k;
@@ -154,17 +171,17 @@ impl<'a> LegOneCubic<'a> {
     }
 
     /// The angle of c = `sign` (1 - t).
-    #[inline]
+    #[inline(always)]
     fn angle(&self, sign: f64, t: f64, merged: bool) -> LegOneAngle {
         let g = &self.mechanism.geometry;
         let c = sign * (1.0 - t);
-        let sine = (t * (2.0 - t)).max(0.0).sqrt();
+        let sine = greater(t * (2.0 - t), 0.0).sqrt();
         let u = g.R1 * c - g.r1;
         let s = -sine.copysign(self.y * u);
         let square = self.square_at(sign) - sign * self.mechanism.k * t - self.y * self.y;
         let v = g.R1 * sine;
-        let w1 = if square > LARGE * g.L1 * g.L1 || v == 0.0 {
-            square.max(0.0).sqrt()
+        let w1 = if (square > LARGE * g.L1 * g.L1) | (v == 0.0) {
+            greater(square, 0.0).sqrt()
         } else {
             (self.y * u / v).abs()
         };
@@ -173,7 +190,7 @@ impl<'a> LegOneCubic<'a> {
 }
 
 impl Cubic {
-    #[inline]
+    #[inline(always)]
     fn value(&self, t: f64) -> f64 {
         let [a0, a1, a2, a3] = self.0;
         a0 + t * (a1 + t * (a2 + t * a3))
@@ -186,11 +203,11 @@ impl Cubic {
     }
 
     /// The zero without the cubic term, which is small: where Newton's method begins.
-    #[inline]
+    #[inline(always)]
     fn start(&self) -> f64 {
         let [a0, a1, a2, _] = self.0;
         let disc = a1 * a1 - 4.0 * a0 * a2;
-        if disc > 0.0 && a1 > 0.0 { -2.0 * a0 / (a1 + disc.sqrt()) } else { 0.0 }
+        if (disc > 0.0) & (a1 > 0.0) { -2.0 * a0 / (a1 + disc.sqrt()) } else { 0.0 }
     }
 
     /// The least zero, if there is one up to 2.
@@ -209,7 +226,7 @@ impl Cubic {
         2.0 * constant / (linear + (linear * linear - 4.0 * a3 * constant).max(0.0).sqrt())
     }
 
-    #[inline]
+    #[inline(always)]
     fn slope(&self, t: f64) -> f64 {
         let [_, a1, a2, a3] = self.0;
         a1 + t * (2.0 * a2 + t * (3.0 * a3))
@@ -217,23 +234,34 @@ impl Cubic {
 
     #[inline]
     fn newton(&self, start: f64) -> Option<f64> {
-        let [_, _, a2, a3] = self.0;
         let mut t = start;
         for _ in 0..STEPS {
-            let slope = self.slope(t);
+            let step = self.step(t);
             // Behind the maximum: g has no root between.
-            if !(slope > 0.0 && t <= 2.0) {
+            if !step.is_before_maximum {
                 return None;
             }
-            let step = self.value(t) / slope;
-            t -= step;
-            // The size of the next step, if convergence is quadratic.
-            let next = step * step * (a2 + 3.0 * a3 * t).abs();
-            if next <= CONVERGED * t * slope {
+            t = step.t;
+            if step.has_converged {
                 break;
             }
         }
         (0.0..=2.0).contains(&t).then_some(t)
+    }
+
+    #[inline(always)]
+    fn step(&self, before: f64) -> NewtonStep {
+        let [_, _, a2, a3] = self.0;
+        let slope = self.slope(before);
+        let step = self.value(before) / slope;
+        let t = before - step;
+        // The size of the next step, if convergence is quadratic.
+        let next = step * step * (a2 + 3.0 * a3 * t).abs();
+        NewtonStep {
+            t,
+            is_before_maximum: (slope > 0.0) & (before <= 2.0),
+            has_converged: next <= CONVERGED * t * slope,
+        }
     }
 
     /// The local maximum: the lesser zero of the slope in t = 1 - c.
@@ -241,5 +269,67 @@ impl Cubic {
         let [_, a1, a2, a3] = self.0;
         let disc = a2 * a2 - 3.0 * a3 * a1;
         (disc >= 0.0).then(|| a1 / (-a2 + disc.sqrt()))
+    }
+}
+
+/// The cubics of many rows, by coefficient, and their nearest zeros.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CubicRows {
+    a: [[f64; ROWS]; 3],
+    t: [f64; ROWS],
+    /// 1 for a row in which the iteration has not ended.
+    open: [u64; ROWS],
+    /// 1 for a row in which the iteration has converged.
+    found: [u64; ROWS],
+}
+
+impl CubicRows {
+    pub(super) fn new() -> Self {
+        Self { a: [[0.0; ROWS]; 3], t: [0.0; ROWS], open: [0; ROWS], found: [0; ROWS] }
+    }
+
+    /// Does what [`LegOneCubic::nearest`] does where leg I is not nearly level.
+    #[inline(always)]
+    pub(super) fn find_nearest(&mut self, mechanism: &Mechanism, x: &[f64; ROWS], y: &[f64; ROWS]) {
+        for i in 0..ROWS {
+            let leg = LegOneCubic::rounded(mechanism, x[i], y[i]);
+            let cubic = leg.cubic(1.0);
+            for (row, number) in self.a.iter_mut().zip(cubic.0) {
+                row[i] = number;
+            }
+            self.t[i] = cubic.start();
+            self.open[i] = u64::from(!is_nearly_level(mechanism, leg.at_zero));
+            self.found[i] = 0;
+        }
+        for _ in 0..STEPS {
+            let mut open = 0;
+            for i in 0..ROWS {
+                open |= self.step(mechanism, i);
+            }
+            if open == 0 {
+                break;
+            }
+        }
+    }
+
+    /// One step of a row that is open. Returns 1 if it stays open.
+    #[inline(always)]
+    fn step(&mut self, mechanism: &Mechanism, i: usize) -> u64 {
+        let [a0, a1, a2] = self.a.each_ref().map(|row| row[i]);
+        let step = Cubic([a0, a1, a2, mechanism.k]).step(self.t[i]);
+        let goes_on = (self.open[i] == 1) & step.is_before_maximum;
+        self.t[i] = if goes_on { step.t } else { self.t[i] };
+        let found = goes_on & step.has_converged;
+        self.found[i] |= u64::from(found);
+        self.open[i] = u64::from(goes_on & !found);
+        self.open[i]
+    }
+
+    /// The angle of a row with P at `p`, and whether it is that of [`LegOneCubic::nearest`].
+    #[inline(always)]
+    pub(super) fn angle(&self, mechanism: &Mechanism, [x, y, _]: Point, i: usize) -> (LegOneAngle, bool) {
+        let t = self.t[i];
+        let angle = LegOneCubic::rounded(mechanism, x, y).angle(1.0, t, false);
+        (angle, (self.found[i] == 1) & (t >= 0.0) & (t <= 2.0))
     }
 }
