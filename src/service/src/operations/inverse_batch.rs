@@ -3,13 +3,13 @@
 use rayon::prelude::*;
 use serde_json::value::RawValue;
 use verne_solver::{
-    Clearance, KinematicsError, Machine, PartPose, Point, Posture, Postures, forward_working,
-    part_every_working, part_working, platform_working, tool_every_working, tool_working,
+    KinematicsError, Machine, PartPose, Point, Posture, Postures, Registers, forward_working, margin_rows,
+    part_every_working, part_working_rows, platform_working_rows, tool_every_working, tool_working_rows,
 };
 
 use crate::operations::batch_rows::{
-    BatchRow, MIN_CHUNK, ROW_BYTES, ROW_WITH_AXIS, RowFormat, RowOutcome, check_batch, outcome_of_refusal,
-    outcome_of_solution, row_report,
+    BatchRow, MIN_CHUNK, ROW_BYTES, ROW_WITH_AXIS, RowFormat, RowOutcome, check_batch, outcome_of_margins,
+    outcome_of_refusal, outcome_of_solution, row_report,
 };
 use crate::operations::continuation::{Setting, Standing};
 use crate::operations::continuous_rows::answer_continuous;
@@ -73,8 +73,8 @@ fn answer<R: BatchRow>(
         answer.jump = Some(jumps);
         (answer.joints, outcomes) = answered.into_iter().map(|row| (row.joints, row.outcome)).unzip();
     } else {
-        let answered = rows.par_iter().with_min_len(MIN_CHUNK);
-        (answer.joints, outcomes) = answered.map(|row| answer_row(setting, frame, row)).unzip();
+        let answered = rows.par_chunks(MIN_CHUNK).flat_map_iter(|rows| answer_rows(setting, frame, rows));
+        (answer.joints, outcomes) = answered.unzip();
     }
     answer.report = row_report(outcomes.into_iter(), clearance.is_some());
     write_json(&answer, ROW_BYTES * answer.joints.len())
@@ -110,28 +110,58 @@ fn standing_at(
     Ok(Standing::at(setting.machine, &posture, table, setting.tool_length))
 }
 
-fn answer_row(setting: Setting<'_>, frame: Frame, row: &impl BatchRow) -> (Option<Row>, RowOutcome) {
-    let row = match row.numbers(if frame == Frame::Part { PART_POSE } else { POSITION }) {
-        Ok(row) => row,
-        Err(detail) => return (None, RowOutcome::Invalid(detail)),
-    };
+/// Answers rows: first it reads all of them, then it solves them, then it computes the margins.
+fn answer_rows(setting: Setting<'_>, frame: Frame, rows: &[impl BatchRow]) -> Vec<(Option<Row>, RowOutcome)> {
+    let machine = setting.machine;
+    let read: Vec<_> = rows.iter().map(|row| read_row(setting, frame, row)).collect();
+    let targets: Vec<Target> = read.iter().filter_map(|row| row.as_ref().ok().copied()).collect();
+    let solved = solved(setting, frame, &targets);
+    let postures: Vec<_> = targets
+        .iter()
+        .zip(&solved)
+        .filter_map(|(target, answer)| {
+            let posture = answer.ok()?;
+            Some((posture, target.table(machine, posture.pose.alpha).map(|table| table.angles)))
+        })
+        .collect();
+    let mut outcomes = Vec::with_capacity(postures.len());
+    margin_rows(machine, &postures, setting.clearance, Registers::Widest, |_, margins| {
+        outcomes.push(outcome_of_margins(machine, &margins));
+    });
+    let (mut solved, mut outcomes) = (solved.into_iter(), outcomes.into_iter());
+    let answered = read.into_iter().map(|row| {
+        let target = match row {
+            Ok(target) => target,
+            Err(answered) => return Some(answered),
+        };
+        Some(match solved.next()? {
+            Ok(posture) => target.preferred(setting, &posture, outcomes.next()?),
+            Err(refusal) => (None, outcome_of_refusal(machine, refusal)),
+        })
+    });
+    answered.flatten().collect()
+}
+
+/// The target of a row; or the row's answer, if it has none or a tool axis.
+fn read_row(
+    setting: Setting<'_>,
+    frame: Frame,
+    row: &impl BatchRow,
+) -> Result<Target, (Option<Row>, RowOutcome)> {
+    let row = row.numbers(if frame == Frame::Part { PART_POSE } else { POSITION });
+    let row = row.map_err(|detail| (None, RowOutcome::Invalid(detail)))?;
     if row.len() == ROW_WITH_AXIS {
-        return answer_axis(setting, &row);
+        return Err(answer_axis(setting, &row));
     }
-    let Setting { machine, tool_length, clearance } = setting;
     let point = [row[0], row[1], row[2]];
-    let target = match frame {
+    Ok(match frame {
         Frame::Platform => Target::Platform(point),
-        Frame::Tool => Target::Tool(point, tool_length),
+        Frame::Tool => Target::Tool(point),
         Frame::Part => {
             let orientation = ToolOrientation::of_degrees([row[3], row[4]]);
-            Target::Part(orientation.at(point), orientation, tool_length)
+            Target::Part(orientation.at(point), orientation)
         }
-    };
-    match target.working(machine) {
-        Ok(first) => target.preferred(machine, clearance, &first),
-        Err(refusal) => (None, outcome_of_refusal(machine, refusal)),
-    }
+    })
 }
 
 /// Answers a row with a tool axis as if it were the first row of a continuous batch.
@@ -145,59 +175,82 @@ fn answer_axis(setting: Setting<'_>, row: &Row) -> (Option<Row>, RowOutcome) {
 }
 
 /// The pose of a row.
+#[derive(Clone, Copy, Debug)]
 enum Target {
     Platform(Point),
-    Tool(Point, f64),
-    Part(PartPose, ToolOrientation, f64),
+    Tool(Point),
+    Part(PartPose, ToolOrientation),
+}
+
+/// The first working posture of each target.
+fn solved(
+    Setting { machine, tool_length, .. }: Setting<'_>,
+    frame: Frame,
+    targets: &[Target],
+) -> Vec<Result<Posture, KinematicsError>> {
+    let mut solved = Vec::with_capacity(targets.len());
+    let found = |_, answer| solved.push(answer);
+    let points = || -> Vec<Point> { targets.iter().map(Target::point).collect() };
+    match frame {
+        Frame::Platform => platform_working_rows(machine, &points(), Registers::Widest, found),
+        Frame::Tool => tool_working_rows(machine, &points(), tool_length, Registers::Widest, found),
+        Frame::Part => {
+            let poses: Vec<_> = targets.iter().filter_map(Target::part_pose).collect();
+            part_working_rows(machine, &poses, tool_length, Registers::Widest, found);
+        }
+    }
+    solved
 }
 
 impl Target {
-    fn working(&self, machine: &Machine) -> Result<Posture, KinematicsError> {
+    fn point(&self) -> Point {
         match self {
-            Self::Platform(point) => platform_working(machine, *point),
-            Self::Tool(point, length) => tool_working(machine, *point, *length),
-            Self::Part(pose, _, length) => part_working(machine, pose, *length),
+            Self::Platform(point) | Self::Tool(point) => *point,
+            Self::Part(pose, _) => [pose.x, pose.y, pose.z],
         }
+    }
+
+    fn part_pose(&self) -> Option<PartPose> {
+        if let Self::Part(pose, _) = self { Some(*pose) } else { None }
     }
 
     /// Joints and outcome of the first working posture if it is feasible, or if no other is; otherwise of the feasible
     /// one with the least alpha.
     fn preferred(
         &self,
-        machine: &Machine,
-        clearance: Option<&Clearance>,
+        setting: Setting<'_>,
         first: &Posture,
+        outcome: RowOutcome,
     ) -> (Option<Row>, RowOutcome) {
-        let answered = |posture: &Posture| {
-            let table = self.table(machine, posture.pose.alpha);
-            let outcome = outcome_of_solution(machine, posture, table.map(|table| table.angles), clearance);
-            (Some(joints(posture, table)), outcome)
-        };
-        let answer = answered(first);
-        if !matches!(answer.1, RowOutcome::Infeasible(_)) {
-            return answer;
+        let Setting { machine, tool_length, clearance } = setting;
+        let joints = |posture: &Posture| Some(joints(posture, self.table(machine, posture.pose.alpha)));
+        if !matches!(outcome, RowOutcome::Infeasible(_)) {
+            return (joints(first), outcome);
         }
-        let mut others = self.every_working(machine);
+        let mut others = self.every_working(machine, tool_length);
         others.sort_by(|a, b| a.pose.alpha.total_cmp(&b.pose.alpha));
         others
             .iter()
-            .map(answered)
+            .map(|posture| {
+                let table = self.table(machine, posture.pose.alpha).map(|table| table.angles);
+                (joints(posture), outcome_of_solution(machine, posture, table, clearance))
+            })
             .find(|(_, outcome)| matches!(outcome, RowOutcome::Ok(_)))
-            .unwrap_or(answer)
+            .unwrap_or_else(|| (joints(first), outcome))
     }
 
-    fn every_working(&self, machine: &Machine) -> Postures {
+    fn every_working(&self, machine: &Machine, tool_length: f64) -> Postures {
         let found = match self {
             Self::Platform(_) => return Postures::new(),
-            Self::Tool(point, length) => tool_every_working(machine, *point, *length),
-            Self::Part(pose, _, length) => part_every_working(machine, pose, *length),
+            Self::Tool(point) => tool_every_working(machine, *point, tool_length),
+            Self::Part(pose, _) => part_every_working(machine, pose, tool_length),
         };
         found.unwrap_or_default()
     }
 
     fn table(&self, machine: &Machine, alpha: f64) -> Option<TablePosition> {
         match self {
-            Self::Part(_, orientation, _) => Some(orientation.table(machine, alpha, None)),
+            Self::Part(_, orientation) => Some(orientation.table(machine, alpha, None)),
             _ => None,
         }
     }

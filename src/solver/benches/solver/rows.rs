@@ -50,7 +50,7 @@ pub(crate) fn print(machine: &Machine, inputs: &Inputs, rounds: usize) {
         });
     };
     let margins = |rows: &[(Posture, Option<TableAngles>)], registers| {
-        margin_rows(machine, rows, registers, |_, margins| {
+        margin_rows(machine, rows, None, registers, |_, margins| {
             black_box(&margins);
         });
     };

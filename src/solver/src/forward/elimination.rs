@@ -1,6 +1,6 @@
 //! The loop closure of the forward problem in (a, λ), its polynomial of degree four, and the postures of its roots.
 
-use crate::fast_math::wrapped;
+use crate::fast_math::{greater, lesser, wrapped};
 use crate::loop_closure::{CONVERGED_STEP, Equations, LoopClosure, Root};
 use crate::mechanism::Mechanism;
 use crate::pose::PlatformPose;
@@ -225,8 +225,8 @@ impl LoopClosure<5> for AssemblyClosure {
             let root = disc.sqrt();
             // The larger root first, the other by Vieta: no cancellation.
             let far = -(a1 + root.copysign(a1));
-            let [x, y] = if far == 0.0 { [0.0, 0.0] } else { [far / a2, a0 / far] };
-            if x > y { [x, y] } else { [y, x] }
+            let (x, y) = if far == 0.0 { (0.0, 0.0) } else { (far / a2, a0 / far) };
+            [greater(x, y), lesser(x, y)]
         })
     }
 

@@ -13,24 +13,22 @@
 //! cancellation. There E + k, the square of the height at a = 0 and y = 0, is computed with twice
 //! the digits, for a rounding of L1² would decide whether the leg reaches.
 
+mod cubic;
+mod rows;
+
 use arrayvec::ArrayVec;
 
 use super::leg_one_height::{is_nearly_level, rounded_square_at_zero, square_at_pi, square_at_zero};
 use crate::fast_math::greater;
 use crate::mechanism::Mechanism;
-use crate::pose::Point;
-use crate::registers::ROWS;
 use crate::residual::RESIDUAL_TOLERANCE;
+use cubic::Cubic;
 
-/// Newton steps. Near a double root convergence is linear, with one bit a step.
-const STEPS: usize = 60;
-/// Relative size of the next step at which the iteration has converged.
-const CONVERGED: f64 = 1e-16;
+pub(super) use rows::CubicRows;
+
 /// Distance below which two roots are one: the square root of the rounding error. It is relative to the roots if both
 /// are near c = 1.
 const RESOLUTION: f64 = 4e-8;
-/// Constant terms of the cubic below this have lost digits to underflow: y is zero.
-const UNDERFLOW: f64 = 1e-280;
 /// Fraction of L1² above which the root of w1² is the better formula for w1. Below it y u / v is.
 const LARGE: f64 = 0.01;
 
@@ -42,18 +40,6 @@ pub(crate) struct LegOneAngle {
     pub(crate) s: f64,
     pub(crate) w1: f64,
     pub(crate) merged: bool,
-}
-
-/// g/R1² as a cubic in t, t = 1 - c (`k` positive) or t = 1 + c (`k` negative).
-#[derive(Clone, Copy, Debug)]
-struct Cubic([f64; 4]);
-
-/// A step of Newton's method on the cubic.
-struct NewtonStep {
-    t: f64,
-    /// Whether g rises at the start.
-    is_before_maximum: bool,
-    has_converged: bool,
 }
 
 /// Leg I at given x and y of P.
@@ -186,150 +172,5 @@ impl<'a> LegOneCubic<'a> {
             (self.y * u / v).abs()
         };
         LegOneAngle { c, s, w1, merged }
-    }
-}
-
-impl Cubic {
-    #[inline(always)]
-    fn value(&self, t: f64) -> f64 {
-        let [a0, a1, a2, a3] = self.0;
-        a0 + t * (a1 + t * (a2 + t * a3))
-    }
-
-    /// The sum of the terms' magnitudes.
-    fn magnitude(&self, t: f64) -> f64 {
-        let [a0, a1, a2, a3] = self.0.map(f64::abs);
-        a0 + t * (a1 + t * (a2 + t * a3))
-    }
-
-    /// The zero without the cubic term, which is small: where Newton's method begins.
-    #[inline(always)]
-    fn start(&self) -> f64 {
-        let [a0, a1, a2, _] = self.0;
-        let disc = a1 * a1 - 4.0 * a0 * a2;
-        if (disc > 0.0) & (a1 > 0.0) { -2.0 * a0 / (a1 + disc.sqrt()) } else { 0.0 }
-    }
-
-    /// The least zero, if there is one up to 2.
-    #[inline]
-    fn nearest(&self) -> Option<f64> {
-        self.newton(self.start()).or_else(|| self.newton(0.0))
-    }
-
-    /// The second zero from the first, t, and the quadratic that is left. Its terms all have one
-    /// sign but for the constant, so that nothing cancels unless the zeros are about to merge.
-    #[inline]
-    fn other(&self, t: f64) -> f64 {
-        let [a0, a1, a2, a3] = self.0;
-        let constant = if a0 < -UNDERFLOW { -a0 / t } else { a1 + t * (a2 + t * a3) };
-        let linear = -(a2 + a3 * t);
-        2.0 * constant / (linear + (linear * linear - 4.0 * a3 * constant).max(0.0).sqrt())
-    }
-
-    #[inline(always)]
-    fn slope(&self, t: f64) -> f64 {
-        let [_, a1, a2, a3] = self.0;
-        a1 + t * (2.0 * a2 + t * (3.0 * a3))
-    }
-
-    #[inline]
-    fn newton(&self, start: f64) -> Option<f64> {
-        let mut t = start;
-        for _ in 0..STEPS {
-            let step = self.step(t);
-            // Behind the maximum: g has no root between.
-            if !step.is_before_maximum {
-                return None;
-            }
-            t = step.t;
-            if step.has_converged {
-                break;
-            }
-        }
-        (0.0..=2.0).contains(&t).then_some(t)
-    }
-
-    #[inline(always)]
-    fn step(&self, before: f64) -> NewtonStep {
-        let [_, _, a2, a3] = self.0;
-        let slope = self.slope(before);
-        let step = self.value(before) / slope;
-        let t = before - step;
-        // The size of the next step, if convergence is quadratic.
-        let next = step * step * (a2 + 3.0 * a3 * t).abs();
-        NewtonStep {
-            t,
-            is_before_maximum: (slope > 0.0) & (before <= 2.0),
-            has_converged: next <= CONVERGED * t * slope,
-        }
-    }
-
-    /// The local maximum: the lesser zero of the slope in t = 1 - c.
-    fn maximum(&self) -> Option<f64> {
-        let [_, a1, a2, a3] = self.0;
-        let disc = a2 * a2 - 3.0 * a3 * a1;
-        (disc >= 0.0).then(|| a1 / (-a2 + disc.sqrt()))
-    }
-}
-
-/// The cubics of many rows, by coefficient, and their nearest zeros.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CubicRows {
-    a: [[f64; ROWS]; 3],
-    t: [f64; ROWS],
-    /// 1 for a row in which the iteration has not ended.
-    open: [u64; ROWS],
-    /// 1 for a row in which the iteration has converged.
-    found: [u64; ROWS],
-}
-
-impl CubicRows {
-    pub(super) fn new() -> Self {
-        Self { a: [[0.0; ROWS]; 3], t: [0.0; ROWS], open: [0; ROWS], found: [0; ROWS] }
-    }
-
-    /// Does what [`LegOneCubic::nearest`] does where leg I is not nearly level.
-    #[inline(always)]
-    pub(super) fn find_nearest(&mut self, mechanism: &Mechanism, x: &[f64; ROWS], y: &[f64; ROWS]) {
-        for i in 0..ROWS {
-            let leg = LegOneCubic::rounded(mechanism, x[i], y[i]);
-            let cubic = leg.cubic(1.0);
-            for (row, number) in self.a.iter_mut().zip(cubic.0) {
-                row[i] = number;
-            }
-            self.t[i] = cubic.start();
-            self.open[i] = u64::from(!is_nearly_level(mechanism, leg.at_zero));
-            self.found[i] = 0;
-        }
-        for _ in 0..STEPS {
-            let mut open = 0;
-            for i in 0..ROWS {
-                open |= self.step(mechanism, i);
-            }
-            if open == 0 {
-                break;
-            }
-        }
-    }
-
-    /// One step of a row that is open. Returns 1 if it stays open.
-    #[inline(always)]
-    fn step(&mut self, mechanism: &Mechanism, i: usize) -> u64 {
-        let [a0, a1, a2] = self.a.each_ref().map(|row| row[i]);
-        let step = Cubic([a0, a1, a2, mechanism.k]).step(self.t[i]);
-        let goes_on = (self.open[i] == 1) & step.is_before_maximum;
-        self.t[i] = if goes_on { step.t } else { self.t[i] };
-        let found = goes_on & step.has_converged;
-        self.found[i] |= u64::from(found);
-        self.open[i] = u64::from(goes_on & !found);
-        self.open[i]
-    }
-
-    /// The angle of a row with P at `p`, and whether it is that of [`LegOneCubic::nearest`].
-    #[inline(always)]
-    pub(super) fn angle(&self, mechanism: &Mechanism, [x, y, _]: Point, i: usize) -> (LegOneAngle, bool) {
-        let t = self.t[i];
-        let angle = LegOneCubic::rounded(mechanism, x, y).angle(1.0, t, false);
-        (angle, (self.found[i] == 1) & (t >= 0.0) & (t <= 2.0))
     }
 }

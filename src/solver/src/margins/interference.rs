@@ -35,7 +35,10 @@ pub(crate) fn least_distance(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     // further apart.
     let (square, first_rod) = of_one_leg(g, &ends, rods);
     let mut nearest = NearestPair { square, rods: rods_of_leg(first_rod) };
-    compare_between_legs(&mut nearest, g, &ends, rods);
+    // Nearly always all are farther.
+    if !others_are_farther(square, g, &ends, rods) {
+        BETWEEN_LEGS.into_iter().for_each(|pair| compare_pair(&mut nearest, &ends, rods, pair));
+    }
     (nearest.square.sqrt(), nearest.rods)
 }
 
@@ -52,8 +55,8 @@ pub(super) struct NearestWithinLegs {
 pub(super) fn nearest_within_legs(g: &Geometry, rods: &Rods) -> NearestWithinLegs {
     let ends = rods.platform_ends(g);
     let (square, first_rod) = of_one_leg(g, &ends, rods);
-    let [a, b, c, d, e] = are_farther(square, g, &ends, rods);
-    NearestWithinLegs { distance: square.sqrt(), first_rod, others_are_farther: a & b & c & d & e }
+    let others_are_farther = others_are_farther(square, g, &ends, rods);
+    NearestWithinLegs { distance: square.sqrt(), first_rod, others_are_farther }
 }
 
 /// The numbers of a leg's two rods, from the index of the first.
@@ -84,7 +87,7 @@ pub(crate) fn least_distances_by_legs(g: &Geometry, rods: &Rods) -> [f64; 3] {
     let first = square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1]);
     let [second, third] = squares_of_parallelograms(g, rods);
     let mut between = NearestPair { square: f64::INFINITY, rods: [11, 12] };
-    compare_between_legs(&mut between, g, &ends, rods);
+    BETWEEN_LEGS.into_iter().for_each(|pair| compare_pair(&mut between, &ends, rods, pair));
     [first, lesser(second, third), between.square].map(f64::sqrt)
 }
 
@@ -122,40 +125,24 @@ fn squares_of_parallelograms(g: &Geometry, rods: &Rods) -> [f64; 2] {
     [square_parallel(width, g.L2, second), square_parallel(width, g.L3, third)]
 }
 
-/// Pairs of rods of different legs: of leg I and a parallelogram, and of the two parallelograms.
-const BETWEEN_LEGS: [[usize; 2]; 5] = [[0, 2], [0, 4], [1, 2], [1, 4], [2, 4]];
-
-/// Whether each of these pairs, with any rods of its parallelograms, is at least as far apart as the nearest pair, whose
-/// distance's square is given.
+/// Whether all rods of different legs are at least as far apart as the nearest pair, whose distance's square is given.
 #[inline(always)]
-fn are_farther(nearest: f64, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> [bool; 5] {
+fn others_are_farther(nearest: f64, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> bool {
     let half = g.parallelogram_half_width;
     let from_leg_one =
-        |pair: [usize; 2]| is_farther(nearest, &to_middle(ends, pair[0], pair[1], half), rods, pair, half);
-    let [a, b, c, d, between_parallelograms] = BETWEEN_LEGS;
+        |i: usize, j: usize| is_farther(nearest, &to_middle(ends, i, j, half), rods, [i, j], half);
     let gap = difference(ends[2], ends[4]);
-    let last = is_farther(nearest, &gap, rods, between_parallelograms, 2.0 * half);
-    [from_leg_one(a), from_leg_one(b), from_leg_one(c), from_leg_one(d), last]
+    let parallelograms = is_farther(nearest, &gap, rods, [2, 4], 2.0 * half);
+    from_leg_one(0, 2) & from_leg_one(0, 4) & from_leg_one(1, 2) & from_leg_one(1, 4) & parallelograms
 }
 
-/// The pairs of rods of different legs. Rods 22 and 32 are at the same distance as 21 and 31.
-#[inline(always)]
-fn compare_between_legs(nearest: &mut NearestPair, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
-    // All at once, because nearly always all are farther.
-    let are_farther = are_farther(nearest.square, g, ends, rods);
-    let near = BETWEEN_LEGS.into_iter().zip(are_farther).filter(|(_, is_farther)| !is_farther);
-    for ([i, j], _) in near {
-        compare_pair(nearest, ends, rods, [i, j]);
-        compare_pair(nearest, ends, rods, [i, j + 1]);
-        if i == 2 {
-            compare_pair(nearest, ends, rods, [i + 1, j]);
-        }
-    }
-}
+/// Pairs of rods of different legs. Rods 22 and 32 are at the same distance as 21 and 31.
+const BETWEEN_LEGS: [[usize; 2]; 11] =
+    [[0, 2], [0, 3], [0, 4], [0, 5], [1, 2], [1, 3], [1, 4], [1, 5], [2, 4], [2, 5], [3, 4]];
 
-/// Whether two rods are at least as far apart as the nearest pair, whose distance's square is given, decided without their nearest points, if one of
-/// them is shifted along x by up to `shift` either way: the segments' projections on the gap's direction are at least
-/// so far apart, times |gap|.
+/// Whether two rods are at least as far apart as the nearest pair, whose distance's square is given, decided without
+/// their nearest points, if one of them is shifted along x by up to `shift` either way: the segments' projections on
+/// the gap's direction are at least so far apart, times |gap|.
 #[inline(always)]
 fn is_farther(nearest: f64, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
     let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);

@@ -1,13 +1,17 @@
 //! All margins of many postures.
 
 use super::interference::{nearest_within_legs, rods_of_leg};
-use super::posture_margins::Margins;
+use super::posture_margins::{Margins, range_margins};
+use crate::clearance::Clearance;
 use crate::fast_math::{MAX_ANGLE, sin_cos_of_turn};
 use crate::machine::Machine;
 use crate::pose::{PlatformPose, TableAngles};
 use crate::posture::Posture;
 use crate::registers::{Kernel, ROWS, Registers, set_columns};
 use crate::rods::Rods;
+
+/// A posture, and the table's angles if the table takes part.
+type Row = (Posture, Option<TableAngles>);
 
 /// Postures and their margins by coordinate.
 struct MarginRows {
@@ -56,8 +60,8 @@ impl MarginRows {
     }
 
     /// Computes the margins of at most [`ROWS`] postures.
-    fn solve(&mut self, machine: &Machine, rows: &[(Posture, Option<TableAngles>)], registers: Registers) {
-        let numbers = |(posture, _): &(Posture, Option<TableAngles>)| {
+    fn solve(&mut self, machine: &Machine, rows: &[Row], registers: Registers) {
+        let numbers = |(posture, _): &Row| {
             let (PlatformPose { x, y, z, alpha }, [rho1, rho2, rho3]) = (posture.pose, posture.rho);
             [x, y, z, alpha, rho1, rho2, rho3]
         };
@@ -65,27 +69,30 @@ impl MarginRows {
         registers.run(self, machine);
     }
 
-    /// The margins of a usual row.
+    /// The margins of a row, as [`Margins::above_table`] computes them. All fields are written once: moving them costs as
+    /// much as computing them.
     #[inline]
-    fn margins(&self, i: usize, machine: &Machine, table: Option<TableAngles>) -> Option<Margins> {
-        let [.., rho1, rho2, rho3] = self.postures.each_ref().map(|row| row[i]);
-        (self.usual[i] == 1).then(|| {
-            Margins {
-                stroke: Margins::of_strokes(machine, [rho1, rho2, rho3]),
-                leg_length: self.leg_length.each_ref().map(|row| row[i]),
-                serial_singularity: self.serial_singularity.each_ref().map(|row| row[i]),
-                parallel_singularity: self.parallel_singularity[i],
-                slider_joint: self.slider_joint.each_ref().map(|row| row[i]),
-                platform_joint: self.platform_joint.each_ref().map(|row| row[i]),
-                rod_crossing: self.rod_crossing[i],
-                rod_interference: self.rod_interference[i],
-                nearest_rods: rods_of_leg(self.first_rod[i]),
-                tilt: None,
-                rotary: None,
-                table_clearance: None,
-            }
-            .with_table(machine, table)
-        })
+    fn margins(&self, i: usize, machine: &Machine, row: &Row, clearance: Option<&Clearance>) -> Margins {
+        let (posture, table) = row;
+        if self.usual[i] == 0 {
+            return Margins::above_table(machine, posture, *table, clearance);
+        }
+        let limits = machine.limits();
+        let above = table.zip(clearance);
+        Margins {
+            stroke: Margins::of_strokes(machine, posture.rho),
+            leg_length: self.leg_length.each_ref().map(|row| row[i]),
+            serial_singularity: self.serial_singularity.each_ref().map(|row| row[i]),
+            parallel_singularity: self.parallel_singularity[i],
+            slider_joint: self.slider_joint.each_ref().map(|row| row[i]),
+            platform_joint: self.platform_joint.each_ref().map(|row| row[i]),
+            rod_crossing: self.rod_crossing[i],
+            rod_interference: self.rod_interference[i],
+            nearest_rods: rods_of_leg(self.first_rod[i]),
+            tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
+            rotary: table.map(|table| range_margins(limits.rotary, table.theta2)),
+            table_clearance: above.map(|(table, clearance)| clearance.margin(machine, &posture.pose, table)),
+        }
     }
 }
 
@@ -97,7 +104,8 @@ fn set<const N: usize>(columns: &mut [[f64; ROWS]; N], i: usize, row: [f64; N]) 
     }
 }
 
-/// Calls `found` for each posture in turn with its index and the answer of [`Margins::of`], the same to the last bit.
+/// Calls `found` for each posture in turn with its index and the answer of [`Margins::above_table`], the same to the
+/// last bit.
 ///
 /// # Units
 ///
@@ -115,22 +123,22 @@ fn set<const N: usize>(columns: &mut [[f64; ROWS]; N], i: usize, row: [f64; N]) 
 /// let machine = Machine::verne();
 /// let rows = [(platform_working(&machine, [0.0, 0.0, 1200.0])?, None)];
 /// let mut all = Vec::new();
-/// margin_rows(&machine, &rows, Registers::Widest, |_, margins| all.push(margins));
+/// margin_rows(&machine, &rows, None, Registers::Widest, |_, margins| all.push(margins));
 /// assert_eq!(all, [Margins::of(&machine, &rows[0].0, None)]);
 /// # Ok::<(), KinematicsError>(())
 /// ```
 pub fn margin_rows(
     machine: &Machine,
     rows: &[(Posture, Option<TableAngles>)],
+    clearance: Option<&Clearance>,
     registers: Registers,
     mut found: impl FnMut(usize, Margins),
 ) {
     let mut kernel = new();
     for (first, block) in (0..).step_by(ROWS).zip(rows.chunks(ROWS)) {
         kernel.solve(machine, block, registers);
-        for (i, (posture, table)) in block.iter().enumerate() {
-            let margins = kernel.margins(i, machine, *table);
-            found(first + i, margins.unwrap_or_else(|| Margins::of(machine, posture, *table)));
+        for (i, row) in block.iter().enumerate() {
+            found(first + i, kernel.margins(i, machine, row, clearance));
         }
     }
 }

@@ -89,17 +89,11 @@ impl Margins {
         table: Option<TableAngles>,
     ) -> Self {
         let nearest = interference::least_distance(machine.geometry(), rods);
-        Self::of_parallel_module(machine, pose, rho, rods, nearest).with_table(machine, table)
-    }
-
-    /// The same margins with those of the table's ranges.
-    #[inline]
-    pub(super) fn with_table(self, machine: &Machine, table: Option<TableAngles>) -> Self {
         let limits = machine.limits();
         Self {
             tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
             rotary: table.map(|table| range_margins(limits.rotary, table.theta2)),
-            ..self
+            ..Self::of_parallel_module(machine, pose, rho, rods, nearest)
         }
     }
 

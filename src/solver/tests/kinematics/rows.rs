@@ -3,14 +3,15 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use verne_solver::{
-    KinematicsError, Machine, Margins, PartPose, Point, Posture, Registers, TableAngles, forward_working,
-    forward_working_rows, margin_rows, part_working, part_working_rows, platform_working,
+    Clearance, KinematicsError, Machine, Margins, PartPose, Point, Posture, Registers, TableAngles,
+    forward_working, forward_working_rows, margin_rows, part_working, part_working_rows, platform_working,
     platform_working_rows, table_angles, tool_working, tool_working_rows,
 };
 
 use crate::random::Random;
 
 const REGISTERS: [Registers; 3] = [Registers::Widest, Registers::Avx2, Registers::Baseline];
+const CLEARANCE: Clearance = Clearance { least: 2.0, tool_length: 120.0, tool_radius: 5.0 };
 /// More rows than two blocks have.
 const MOST_ROWS: usize = 70;
 
@@ -78,8 +79,8 @@ fn compare_margins(machine: &Machine, rows: &[(Posture, Option<TableAngles>)]) {
     compare(
         machine,
         rows,
-        |(posture, table)| Margins::of(machine, posture, *table),
-        |registers, found| margin_rows(machine, rows, registers, found),
+        |(posture, table)| Margins::above_table(machine, posture, *table, Some(&CLEARANCE)),
+        |registers, found| margin_rows(machine, rows, Some(&CLEARANCE), registers, found),
     );
 }
 
