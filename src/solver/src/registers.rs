@@ -63,7 +63,7 @@ pub(crate) fn set_columns<const N: usize>(
     columns: &mut [[f64; ROWS]; N],
     rows: impl Iterator<Item = [f64; N]>,
 ) {
-    for (i, row) in rows.take(ROWS).enumerate() {
+    for (i, row) in (0..ROWS).zip(rows) {
         for (column, number) in columns.iter_mut().zip(row) {
             column[i] = number;
         }

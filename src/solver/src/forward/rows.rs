@@ -74,7 +74,7 @@ pub fn forward_working_rows(
     for (first, block) in (0..).step_by(ROWS).zip(rho.chunks(ROWS)) {
         set_columns(&mut kernel.rho, block.iter().copied());
         registers.run(&mut kernel, machine);
-        for (i, &rho) in block.iter().enumerate() {
+        for (i, &rho) in (0..ROWS).zip(block) {
             let posture = kernel.postures.posture(i);
             found(first + i, posture.map_or_else(|| forward_working(machine, rho), Ok));
         }

@@ -74,7 +74,7 @@ pub fn part_working_rows(
         let numbers = |&PartPose { x, y, z, phi1, phi2 }: &PartPose| [x, y, z, phi1, phi2];
         set_columns(&mut kernel.targets, block.iter().map(numbers));
         registers.run(&mut kernel, machine);
-        for (i, target) in block.iter().enumerate() {
+        for (i, target) in (0..ROWS).zip(block) {
             let posture = kernel.loci.postures.posture(i);
             found(first + i, posture.map_or_else(|| part_working(machine, target, tool_length), Ok));
         }

@@ -67,7 +67,7 @@ pub fn platform_working_rows(
     for (first, block) in (0..).step_by(ROWS).zip(points.chunks(ROWS)) {
         set_columns(&mut kernel.points, block.iter().copied());
         registers.run(&mut kernel, machine);
-        for (i, &point) in block.iter().enumerate() {
+        for (i, &point) in (0..ROWS).zip(block) {
             let posture = kernel.postures.posture(i);
             found(first + i, posture.map_or_else(|| platform_working(machine, point), Ok));
         }

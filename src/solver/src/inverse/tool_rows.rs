@@ -63,7 +63,7 @@ pub fn tool_working_rows(
     for (first, block) in (0..).step_by(ROWS).zip(points.chunks(ROWS)) {
         set_columns(&mut kernel.points, block.iter().copied());
         registers.run(&mut kernel, machine);
-        for (i, &point) in block.iter().enumerate() {
+        for (i, &point) in (0..ROWS).zip(block) {
             let posture = kernel.loci.postures.posture(i);
             found(first + i, posture.map_or_else(|| tool_working(machine, point, tool_length), Ok));
         }

@@ -33,8 +33,8 @@ pub(crate) fn least_distance(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     let ends = rods.platform_ends(g);
     // Leg I's own rods come first: they are usually the nearest, and the other pairs are then quickly seen to be
     // further apart.
-    let (square, first_rod) = of_one_leg(g, &ends, rods);
-    let mut nearest = NearestPair { square, rods: rods_of_leg(first_rod) };
+    let (square, leg) = of_one_leg(g, &ends, rods);
+    let mut nearest = NearestPair { square, rods: rods_of_leg(leg) };
     // Nearly always all are farther.
     if !others_are_farther(square, g, &ends, rods) {
         BETWEEN_LEGS.into_iter().for_each(|pair| compare_pair(&mut nearest, &ends, rods, pair));
@@ -42,10 +42,10 @@ pub(crate) fn least_distance(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     (nearest.square.sqrt(), nearest.rods)
 }
 
-/// The least distance between the two rods of a leg, and the rods as indices of the six.
+/// The least distance between the two rods of a leg, and the leg: 0, 1 or 2.
 pub(super) struct NearestWithinLegs {
     pub(super) distance: f64,
-    pub(super) first_rod: u64,
+    pub(super) leg: u64,
     /// Whether rods of different legs are certainly not nearer.
     pub(super) others_are_farther: bool,
 }
@@ -54,28 +54,27 @@ pub(super) struct NearestWithinLegs {
 #[inline(always)]
 pub(super) fn nearest_within_legs(g: &Geometry, rods: &Rods) -> NearestWithinLegs {
     let ends = rods.platform_ends(g);
-    let (square, first_rod) = of_one_leg(g, &ends, rods);
+    let (square, leg) = of_one_leg(g, &ends, rods);
     let others_are_farther = others_are_farther(square, g, &ends, rods);
-    NearestWithinLegs { distance: square.sqrt(), first_rod, others_are_farther }
+    NearestWithinLegs { distance: square.sqrt(), leg, others_are_farther }
 }
 
-/// The numbers of a leg's two rods, from the index of the first.
+/// The numbers of a leg's two rods, from 0, 1 or 2 for the leg.
 #[inline]
-pub(super) fn rods_of_leg(first_rod: u64) -> [u8; 2] {
-    match first_rod {
-        0 => [11, 12],
-        2 => [21, 22],
-        _ => [31, 32],
-    }
+pub(super) fn rods_of_leg(leg: u64) -> [u8; 2] {
+    // Without branches: which leg's rods are nearest is unpredictable.
+    let of = |leg: [u8; 2], chosen: bool| leg.map(|rod| rod * u8::from(chosen));
+    let [first, second, third] = [of([11, 12], leg == 0), of([21, 22], leg == 1), of([31, 32], leg == 2)];
+    [first[0] + second[0] + third[0], first[1] + second[1] + third[1]]
 }
 
-/// The square of the least distance between the two rods of a leg, and the index of the first rod.
+/// The square of the least distance between the two rods of a leg, and 0, 1 or 2 for the leg.
 #[inline(always)]
 fn of_one_leg(g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> (f64, u64) {
     let first = square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1]);
     let [second, third] = squares_of_parallelograms(g, rods);
-    let (square, rod) = if second < first { (second, 2) } else { (first, 0) };
-    if third < square { (third, 4) } else { (square, rod) }
+    let (square, leg) = if second < first { (second, 1) } else { (first, 0) };
+    if third < square { (third, 2) } else { (square, leg) }
 }
 
 /// The least distances between two rods' axes, mm: of leg I's, of a parallelogram's, and of rods of

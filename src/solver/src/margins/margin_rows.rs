@@ -24,8 +24,8 @@ struct MarginRows {
     platform_joint: [[f64; ROWS]; 4],
     rod_crossing: [f64; ROWS],
     rod_interference: [f64; ROWS],
-    /// Index of the first rod of the leg whose two rods are the nearest.
-    first_rod: [u64; ROWS],
+    /// 0, 1 or 2 for the leg whose two rods are the nearest.
+    nearest_leg: [u64; ROWS],
     /// 1 for a row whose nearest rods are certainly those of one leg.
     usual: [u64; ROWS],
 }
@@ -41,7 +41,7 @@ impl Kernel for MarginRows {
             let margins =
                 Margins::of_parallel_module(machine, &pose, rho, &rods, (nearest.distance, rods_of_leg(0)));
             self.set(i, &margins);
-            self.first_rod[i] = nearest.first_rod;
+            self.nearest_leg[i] = nearest.leg;
             self.usual[i] = u64::from(nearest.others_are_farther & (alpha.abs() < MAX_ANGLE));
         }
     }
@@ -88,7 +88,7 @@ impl MarginRows {
             platform_joint: self.platform_joint.each_ref().map(|row| row[i]),
             rod_crossing: self.rod_crossing[i],
             rod_interference: self.rod_interference[i],
-            nearest_rods: rods_of_leg(self.first_rod[i]),
+            nearest_rods: rods_of_leg(self.nearest_leg[i]),
             tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
             rotary: table.map(|table| range_margins(limits.rotary, table.theta2)),
             table_clearance: above.map(|(table, clearance)| clearance.margin(machine, &posture.pose, table)),
@@ -137,7 +137,7 @@ pub fn margin_rows(
     let mut kernel = new();
     for (first, block) in (0..).step_by(ROWS).zip(rows.chunks(ROWS)) {
         kernel.solve(machine, block, registers);
-        for (i, row) in block.iter().enumerate() {
+        for (i, row) in (0..ROWS).zip(block) {
             found(first + i, kernel.margins(i, machine, row, clearance));
         }
     }
@@ -154,7 +154,7 @@ fn new() -> MarginRows {
         platform_joint: [zero; 4],
         rod_crossing: zero,
         rod_interference: zero,
-        first_rod: [0; ROWS],
+        nearest_leg: [0; ROWS],
         usual: [0; ROWS],
     }
 }
