@@ -1,6 +1,6 @@
 //! All margins of many postures.
 
-use super::interference::{nearest_within_legs, rods_of_leg};
+use super::interference::{least_distance, nearest_within_legs, rods_of_leg};
 use super::posture_margins::{Margins, range_margins};
 use crate::clearance::Clearance;
 use crate::fast_math::{MAX_ANGLE, sin_cos_of_turn};
@@ -27,7 +27,7 @@ struct MarginRows {
     /// 0, 1 or 2 for the leg whose two rods are the nearest.
     nearest_leg: [u64; ROWS],
     /// 1 for a row whose nearest rods are certainly those of one leg.
-    usual: [u64; ROWS],
+    others_are_farther: [u64; ROWS],
 }
 
 impl Kernel for MarginRows {
@@ -42,7 +42,7 @@ impl Kernel for MarginRows {
                 Margins::of_parallel_module(machine, &pose, rho, &rods, (nearest.distance, rods_of_leg(0)));
             self.set(i, &margins);
             self.nearest_leg[i] = nearest.leg;
-            self.usual[i] = u64::from(nearest.others_are_farther & (alpha.abs() < MAX_ANGLE));
+            self.others_are_farther[i] = u64::from(nearest.others_are_farther);
         }
     }
 }
@@ -74,9 +74,14 @@ impl MarginRows {
     #[inline]
     fn margins(&self, i: usize, machine: &Machine, row: &Row, clearance: Option<&Clearance>) -> Margins {
         let (posture, table) = row;
-        if self.usual[i] == 0 {
+        if posture.pose.alpha.abs() >= MAX_ANGLE {
             return Margins::above_table(machine, posture, *table, clearance);
         }
+        let (rod_interference, nearest_rods) = if self.others_are_farther[i] == 1 {
+            (self.rod_interference[i], rods_of_leg(self.nearest_leg[i]))
+        } else {
+            interference_of(machine, posture)
+        };
         let limits = machine.limits();
         let above = table.zip(clearance);
         Margins {
@@ -87,13 +92,21 @@ impl MarginRows {
             slider_joint: self.slider_joint.each_ref().map(|row| row[i]),
             platform_joint: self.platform_joint.each_ref().map(|row| row[i]),
             rod_crossing: self.rod_crossing[i],
-            rod_interference: self.rod_interference[i],
-            nearest_rods: rods_of_leg(self.nearest_leg[i]),
+            rod_interference,
+            nearest_rods,
             tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
             rotary: table.map(|table| range_margins(limits.rotary, table.theta2)),
             table_clearance: above.map(|(table, clearance)| clearance.margin(machine, &posture.pose, table)),
         }
     }
+}
+
+/// The margin of rod interference and the nearest rods of a posture, of which rods of different legs may be nearest.
+fn interference_of(machine: &Machine, posture: &Posture) -> (f64, [u8; 2]) {
+    let g = machine.geometry();
+    let rods = Rods::of(&machine.mechanism, &posture.pose, posture.rho);
+    let (distance, nearest_rods) = least_distance(g, &rods);
+    (distance - 2.0 * g.rod_radius, nearest_rods)
 }
 
 /// Writes a row.
@@ -155,6 +168,6 @@ fn new() -> MarginRows {
         rod_crossing: zero,
         rod_interference: zero,
         nearest_leg: [0; ROWS],
-        usual: [0; ROWS],
+        others_are_farther: [0; ROWS],
     }
 }
