@@ -102,6 +102,12 @@
 //! it. That search reuses a posture that is already known, so a posture is the same to the last bit whichever
 //! function returns it.
 //!
+//! # Many rows
+//!
+//! [`part_working_rows`], [`tool_working_rows`], [`platform_working_rows`], [`forward_working_rows`] and
+//! [`margin_rows`] answer many requests at once, with the vector registers that the processor has ([`Registers`]). The
+//! answers are those of one request to the last bit, on every processor.
+//!
 //! # Singularities
 //!
 //! Differentiating (3)-(6) gives, for a rod B - A = b, the row (b, ± R cos a · bz ∓ R sin a · by) against (x, y, z,

@@ -33,6 +33,8 @@ pub enum Registers {
 }
 
 impl Registers {
+    /// Runs a kernel. Not inline: every caller would contain the kernel for each kind of registers.
+    #[inline(never)]
     pub(crate) fn run<K: Kernel>(self, kernel: &mut K, machine: &Machine) {
         match self {
             Self::Widest => run_widest(kernel, machine),

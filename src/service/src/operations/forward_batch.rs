@@ -105,7 +105,8 @@ fn answer_rows(
     rows: &[impl BatchRow],
 ) -> Vec<AnsweredRow> {
     let format = if tool.table_clearance.is_none() { JOINTS } else { JOINTS_WITH_TABLE };
-    let read: Vec<Result<Joints, String>> = rows.iter().map(|row| row.numbers(format).map(joints)).collect();
+    let read: Vec<Result<Joints, String>> =
+        rows.iter().map(|row| row.numbers(format).map(|row| joints(&row))).collect();
     let joints = || read.iter().filter_map(|row| row.as_ref().ok());
     let sliders: Vec<_> = joints().map(|(rho, _)| *rho).collect();
     let mut solved = Vec::with_capacity(sliders.len());
@@ -137,7 +138,7 @@ fn answer_rows(
     answered.flatten().collect()
 }
 
-fn joints(row: Row) -> Joints {
+fn joints(row: &Row) -> Joints {
     let table =
         (row.len() == 5).then(|| TableAngles { theta1: from_degrees(row[3]), theta2: from_degrees(row[4]) });
     ([row[0], row[1], row[2]], table)

@@ -37,7 +37,9 @@ pub(crate) fn least_distance(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     let mut nearest = NearestPair { square, rods: rods_of_leg(leg) };
     // Nearly always all are farther.
     if !others_are_farther(square, g, &ends, rods) {
-        BETWEEN_LEGS.into_iter().for_each(|pair| compare_pair(&mut nearest, &ends, rods, pair));
+        for pair in BETWEEN_LEGS {
+            compare_pair(&mut nearest, &ends, rods, pair);
+        }
     }
     (nearest.square.sqrt(), nearest.rods)
 }
@@ -86,7 +88,9 @@ pub(crate) fn least_distances_by_legs(g: &Geometry, rods: &Rods) -> [f64; 3] {
     let first = square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1]);
     let [second, third] = squares_of_parallelograms(g, rods);
     let mut between = NearestPair { square: f64::INFINITY, rods: [11, 12] };
-    BETWEEN_LEGS.into_iter().for_each(|pair| compare_pair(&mut between, &ends, rods, pair));
+    for pair in BETWEEN_LEGS {
+        compare_pair(&mut between, &ends, rods, pair);
+    }
     [first, lesser(second, third), between.square].map(f64::sqrt)
 }
 

@@ -69,8 +69,8 @@ impl MarginRows {
         registers.run(self, machine);
     }
 
-    /// The margins of a row, as [`Margins::above_table`] computes them. All fields are written once: moving them costs as
-    /// much as computing them.
+    /// The margins of a row, as [`Margins::above_table`] computes them. All fields are written once, for moving them
+    /// takes time.
     #[inline]
     fn margins(&self, i: usize, machine: &Machine, row: &Row, clearance: Option<&Clearance>) -> Margins {
         let (posture, table) = row;

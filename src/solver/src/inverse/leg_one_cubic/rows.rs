@@ -75,6 +75,6 @@ impl CubicRows {
     ) -> (LegOneAngle, bool) {
         let t = self.t[i];
         let angle = LegOneCubic::rounded(mechanism, x, y).angle(1.0, t, false);
-        (angle, (self.found[i] == 1) & (t >= 0.0) & (t <= 2.0))
+        (angle, (self.found[i] == 1) & (0.0..=2.0).contains(&t))
     }
 }
