@@ -17,7 +17,8 @@ def main() -> None:
         for table in (tables.get("workspace", {}), tables):
             for kind in ("dependencies", "dev-dependencies", "build-dependencies"):
                 named |= set(table.get(kind, {}))
-    for manifest in [ROOT / "src/viewer/package.json", *ROOT.glob("tests/*/package.json")]:
+    packages = [ROOT / "src/viewer/package.json", ROOT / "clients/typescript/package.json"]
+    for manifest in [*packages, *ROOT.glob("tests/*/package.json")]:
         package = json.loads(manifest.read_text())
         named |= set(package.get("dependencies", {})) | set(package.get("devDependencies", {}))
     told = set(re.findall(r"[@\w/.-]+", (ROOT / "docs/dependencies.md").read_text()))

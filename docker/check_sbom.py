@@ -44,11 +44,16 @@ def binary(target: str) -> set[tuple[str, str]]:
     return {("verne" if name == "verne-service" else name, version) for name, version in found}
 
 
+def packages(directory: str) -> set[tuple[str, str]]:
+    """What an npm package names itself."""
+    package = json.loads((ROOT / directory / "package.json").read_text())
+    return {(name, "") for kind in ("dependencies", "devDependencies") for name in package.get(kind, {})}
+
+
 def main() -> None:
     target = sys.argv[1] if len(sys.argv) > 1 else "x86_64-unknown-linux-gnu"
-    package = json.loads((ROOT / "src/viewer/package.json").read_text())
-    page = {(name, "") for kind in ("dependencies", "devDependencies") for name in package.get(kind, {})}
-    for name, direct in (("verne.json", binary(target)), ("viewer.json", page)):
+    page, client = packages("src/viewer"), packages("clients/typescript")
+    for name, direct in (("verne.json", binary(target)), ("viewer.json", page), ("client.json", client)):
         versions = bill(name)
         missing = {
             dependency

@@ -1,7 +1,7 @@
 //! Builds the viewer with npm into `OUT_DIR`. The crate embeds it from there.
 //!
-//! Without Node the build succeeds, and the service explains at `/` how to get the viewer. Cargo does not run this script
-//! again when Node is installed later: a script that runs at every build would link the binary at every build.
+//! Without Node the build succeeds, and the service explains at `/` how to get the viewer. Cargo does not run this
+//! script again when Node is installed later: a script that runs at every build would link the binary at every build.
 //! With `VERNE_VIEWER=require` a viewer that cannot be built is an error; with `VERNE_VIEWER=skip` the script does not
 //! build it.
 
@@ -9,18 +9,29 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-/// The sources of the viewer in its directory, without `generated` and `node_modules`, which the build writes.
-const SOURCES: [&str; 6] =
-    ["src", "index.html", "package.json", "package-lock.json", "tsconfig.json", "vite.config.ts"];
+/// The sources of the viewer, and of the client that it uses. The build writes `node_modules`, `generated` and `dist`
+/// beside them.
+const SOURCES: [&str; 10] = [
+    "viewer/src",
+    "viewer/index.html",
+    "viewer/package.json",
+    "viewer/package-lock.json",
+    "viewer/tsconfig.json",
+    "viewer/vite.config.ts",
+    "../clients/typescript/src",
+    "../clients/typescript/package.json",
+    "../clients/typescript/package-lock.json",
+    "../clients/typescript/tsconfig.json",
+];
 
 fn main() -> Result<(), String> {
     // Read when the script runs: the checkout may have moved since the script was compiled.
     let crate_directory = env::var("CARGO_MANIFEST_DIR").map_err(|error| error.to_string())?;
-    let viewer = Path::new(&crate_directory).join("../viewer");
+    let crates = Path::new(&crate_directory).join("..");
     for source in SOURCES {
-        println!("cargo::rerun-if-changed={}", viewer.join(source).display());
+        println!("cargo::rerun-if-changed={}", crates.join(source).display());
     }
-    println!("cargo::rerun-if-changed={}", viewer.join("../../openapi/openapi.json").display());
+    println!("cargo::rerun-if-changed={}", crates.join("../openapi/openapi.json").display());
     println!("cargo::rerun-if-env-changed=VERNE_VIEWER");
 
     let out = PathBuf::from(env::var("OUT_DIR").map_err(|error| error.to_string())?).join("viewer");
@@ -29,7 +40,7 @@ fn main() -> Result<(), String> {
     if mode == "skip" {
         return Ok(());
     }
-    match build(&viewer, &out) {
+    match build(&crates, &out) {
         Err(error) if mode == "require" => Err(format!("the viewer cannot be built: {error}")),
         Err(error) => {
             empty(&out)?;
@@ -46,28 +57,31 @@ fn empty(directory: &Path) -> Result<(), String> {
     fs::create_dir_all(directory).map_err(|error| format!("{}: {error}", directory.display()))
 }
 
-fn build(viewer: &Path, out: &Path) -> Result<(), String> {
-    if !installed(viewer) {
-        npm(viewer, &["ci", "--no-audit", "--no-fund"])?;
+fn build(crates: &Path, out: &Path) -> Result<(), String> {
+    let viewer = crates.join("viewer");
+    for package in [&crates.join("../clients/typescript"), &viewer] {
+        if !installed(package) {
+            npm(package, &["ci", "--no-audit", "--no-fund"])?;
+        }
     }
     let out = out.to_string_lossy();
-    npm(viewer, &["run", "build", "--", "--outDir", &out, "--emptyOutDir"])
+    npm(&viewer, &["run", "build", "--", "--outDir", &out, "--emptyOutDir"])
 }
 
 /// Whether `node_modules` is as new as the lock file.
-fn installed(viewer: &Path) -> bool {
-    let time = |path: &str| fs::metadata(viewer.join(path)).and_then(|file| file.modified());
+fn installed(package: &Path) -> bool {
+    let time = |path: &str| fs::metadata(package.join(path)).and_then(|file| file.modified());
     match (time("node_modules/.package-lock.json"), time("package-lock.json")) {
         (Ok(installed), Ok(locked)) => installed >= locked,
         _ => false,
     }
 }
 
-fn npm(viewer: &Path, arguments: &[&str]) -> Result<(), String> {
+fn npm(package: &Path, arguments: &[&str]) -> Result<(), String> {
     let program = if cfg!(windows) { "npm.cmd" } else { "npm" };
     let output = Command::new(program)
         .args(arguments)
-        .current_dir(viewer)
+        .current_dir(package)
         .output()
         .map_err(|error| format!("npm does not start ({error})"))?;
     if output.status.success() {

@@ -3,6 +3,10 @@ import { defineConfig } from "vitest/config";
 export default defineConfig({
   // Relative: the page also works behind a prefix.
   base: "./",
+  resolve: {
+    // The package of this repository; it brings its own dependencies.
+    alias: { "verne-client": new URL("../../clients/typescript/dist/index.js", import.meta.url).pathname },
+  },
   build: {
     target: "es2022",
     // Every file under its own name: the page needs no data: addresses.
@@ -11,6 +15,7 @@ export default defineConfig({
     chunkSizeWarningLimit: 1200,
   },
   server: {
+    fs: { allow: ["../.."] },
     // `npm run dev` beside a running service.
     proxy: Object.fromEntries(
       ["/fk", "/ik", "/machines", "/workspace", "/jobs", "/docs", "/openapi.json"].map((path) => [

@@ -1,5 +1,8 @@
 //! The command line, as its users type it.
 
+mod batch;
+mod commands;
+
 use std::ffi::OsString;
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener};
@@ -17,6 +20,27 @@ pub(crate) fn verne(line: &str) -> Result<String, String> {
     let mut out = Vec::new();
     Cli::read(words).map_err(|error| error.to_string())?.run(&mut out, &mut std::io::sink(), false)?;
     Ok(String::from_utf8(out).unwrap())
+}
+
+/// A command that has ended.
+struct Ran {
+    /// The exit status, or the message of the error.
+    status: Result<u8, String>,
+    out: String,
+    err: String,
+}
+
+fn run(line: &str) -> Ran {
+    let words = std::iter::once("verne").chain(line.split_whitespace()).map(OsString::from);
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let status = match Cli::read(words) {
+        Ok(cli) => cli.run(&mut out, &mut err, false).map(|status| {
+            let known = (0..=u8::MAX).find(|code| ExitCode::from(*code) == status);
+            known.unwrap()
+        }),
+        Err(error) => Err(error.to_string()),
+    };
+    Ran { status, out: String::from_utf8(out).unwrap(), err: String::from_utf8(err).unwrap() }
 }
 
 fn json(line: &str) -> Value {
@@ -111,13 +135,19 @@ fn errors_of_a_tool_path_name_the_flag_or_the_line() {
     for (text, options, expected) in [
         (LINE, "--tool-length -1", "--tool-length: "),
         (LINE, "--tool-length 1 --tip-tolerance 0", "--tip-tolerance: "),
-        (LINE, "--tool-length 1 -o DIR/rows.txt", "must end in .csv"),
+        (LINE, "--tool-length 1 -o DIR/rows.txt", "must end in .arrow, .csv"),
         (LINE, "--tool-length 1 -o - --report -", "cannot both"),
         (LINE, "--tool-length 1 --report DIR/./part.cls", "would overwrite the program"),
         (LINE, "--tool-length 1 -o DIR/x.csv --report DIR/x.csv", "would overwrite --output"),
         (LINE, "--tool-length 1 -o DIR/x.ngc --axes X,Y,Z,A,A", "\n  --axes: "),
         ("UNITS/MM\nGOTO/1\n", "--tool-length 1", "line 2, column 1, \"GOTO\""),
         (LINE, "--tool-length 1 --format heidenhain", "Heidenhain"),
+        (LINE, "--tool-length 1 --tcp --rotary-sense table", "\n  --tcp: is for the format gcode"),
+        (
+            LINE,
+            "--tool-length 1 -o DIR/x.ngc --rapid-word g1",
+            "\n  --rapid-word: g1 needs the duration of rapids",
+        ),
     ] {
         let (status, out, _) = toolpath(text, options);
         assert!(status.contains(expected) && out.is_empty(), "{options}: {status}");

@@ -1,5 +1,7 @@
 //! The OpenAPI document: the committed one is the generated one, and its examples are true.
 
+use std::collections::HashSet;
+
 use axum::Router;
 use axum::body::Body;
 use axum::http::header::CONTENT_TYPE;
@@ -63,7 +65,7 @@ async fn every_example_has_its_documented_answer() {
             sent += 1;
         }
     }
-    assert_eq!(sent, 31);
+    assert_eq!(sent, 39);
 }
 
 async fn send_example(service: &Router, path: &str, method: &str, operation: &Value) -> Reply {
@@ -85,7 +87,7 @@ async fn send_example(service: &Router, path: &str, method: &str, operation: &Va
         }
     }
     let method = Method::from_bytes(method.to_ascii_uppercase().as_bytes()).unwrap();
-    let file = bodies["text/plain"]["example"].as_str().unwrap_or_default().to_owned();
+    let file = bodies["application/octet-stream"]["example"].as_str().unwrap_or_default().to_owned();
     send_to(service.clone(), Request::builder().method(method).uri(uri).body(Body::from(file)).unwrap()).await
 }
 
@@ -104,6 +106,48 @@ fn difference(at: &str, a: &Value, b: &Value) -> Option<String> {
         }
         _ => (a != b).then(|| format!("{at}: {a} and {b}")),
     }
+}
+
+/// Generators name the parameters and the answer of an operation after it.
+#[tokio::test]
+async fn no_operation_is_named_like_a_schema() {
+    let document = get("/openapi.json").await.json;
+    let squeezed = |name: &str| name.replace('_', "").to_lowercase();
+    let schemas = document["components"]["schemas"].as_object().unwrap().keys();
+    let schemas: HashSet<_> = schemas.map(|name| squeezed(name)).collect();
+    for operation in operations(&document) {
+        let id = operation["operationId"].as_str().unwrap();
+        for suffix in ["", "request", "response"] {
+            assert!(!schemas.contains(&format!("{}{suffix}", squeezed(id))), "{id}{suffix}");
+        }
+    }
+}
+
+#[tokio::test]
+async fn each_operation_has_one_media_type_and_says_whether_it_needs_a_key() {
+    let document = get("/openapi.json").await.json;
+    for operation in operations(&document) {
+        let id = &operation["operationId"];
+        let statuses = operation["responses"].as_object().unwrap().iter();
+        let answers = statuses.filter(|(status, _)| status.starts_with('2')).map(|(_, answer)| answer);
+        for body in answers.chain(operation.get("requestBody")) {
+            let content = body["content"].as_object();
+            assert!(content.is_none_or(|content| content.len() == 1), "{id}: {content:?}");
+        }
+        assert!(operation["security"].is_array(), "{id}");
+    }
+}
+
+#[tokio::test]
+async fn the_document_is_also_there_in_version_3_0() {
+    let document = get("/openapi.json?v=3.0").await.json;
+    assert_eq!(document["openapi"], "3.0.3");
+    assert_eq!(get("/openapi.json?v=3.1").await.json["openapi"], "3.1.0");
+    get("/openapi.json?v=2.0").await.assert_bad_field("/query/v");
+}
+
+fn operations(document: &Value) -> impl Iterator<Item = &Value> {
+    document["paths"].as_object().unwrap().values().flat_map(|item| item.as_object().unwrap().values())
 }
 
 /// Two types of one name would be one schema, the last one's.
@@ -128,9 +172,7 @@ fn codes(operation: &Value) -> Vec<&str> {
 #[tokio::test]
 async fn operations_that_wait_for_jobs_document_their_failures() {
     let document = get("/openapi.json").await.json;
-    let operations =
-        document["paths"].as_object().unwrap().values().flat_map(|item| item.as_object().unwrap().values());
-    for operation in operations {
+    for operation in operations(&document) {
         let waits = operation["responses"].get("202").is_some();
         let codes = codes(operation);
         for code in
@@ -145,7 +187,8 @@ async fn operations_that_wait_for_jobs_document_their_failures() {
     let has = |path: &str, method: &str, code| codes(&document["paths"][path][method]).contains(&code);
     assert!(has("/workspace", "post", "no_mesh") && !has("/workspace/dexterity", "post", "no_mesh"));
     assert!(
-        has("/workspace/{id}/slice", "get", "no_slice") && !has("/workspace/{id}/mesh", "get", "no_slice")
+        has("/workspace/{id}/slice.svg", "get", "no_slice")
+            && !has("/workspace/{id}/mesh.glb", "get", "no_slice")
     );
     assert!(has("/jobs", "get", "jobs_unavailable") && !has("/machines", "get", "jobs_unavailable"));
 }

@@ -5,8 +5,7 @@ cores or more.
 
 - A dexterity map on two workers of one thread each against one.
 - Jobs of about a second through broker and store against the same in one process.
-- How long after DELETE a running job has ended and its worker is free.
-- Memory of an API node with 10,000 streams of events."""
+- How long after DELETE a running job has ended and its worker is free."""
 
 import argparse
 import os
@@ -19,9 +18,7 @@ from concurrent_clients import LONG
 from cluster import Cluster
 from verne_process import Client, Service
 
-STREAMS = 10_000
 ROUNDS = 8
-MEBI = 1 << 20
 
 
 def dexterity(tool_length, cell):
@@ -93,29 +90,6 @@ def cancelling(one):
     print(f"DELETE to ended and free: median {times[5]:.3f} s, longest {times[-1]:.3f} s", flush=True)
 
 
-def watchers(verne):
-    with tempfile.TemporaryDirectory() as place:
-        node = Service(verne, os.path.join(place, "node"), "--max-connections", str(STREAMS + 100)).start()
-        client = Client(node.port)
-        path = client.ask("POST", "/workspace", LONG, Prefer="respond-async").headers["Location"]
-        before, streams = node.rss(), []
-        for _ in range(STREAMS):
-            stream = socket.create_connection(("127.0.0.1", node.port))
-            stream.sendall(f"GET {path}/events HTTP/1.1\r\nHost: x\r\n\r\n".encode())
-            streams.append(stream)
-        for stream in streams:
-            assert stream.recv(15) == b"HTTP/1.1 200 OK"
-        open_ones = node.rss()
-        Client(node.port).ask("DELETE", path)  # The other connection was closed: nothing was asked for long.
-        for stream in streams:
-            while stream.recv(65536):
-                pass
-            stream.close()
-        print(f"{STREAMS} streams: resident {before / MEBI:.0f} MiB before, {open_ones / MEBI:.0f} with them "
-              f"({(open_ones - before) / STREAMS / 1024:.1f} KiB each), all ended by DELETE", flush=True)
-        node.kill()
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("verne")
@@ -127,7 +101,6 @@ def main():
     overhead(verne, one)
     cancelling(one)
     one.end()
-    watchers(verne)
 
 
 main()

@@ -1,4 +1,5 @@
-"""Looks for known faults in what Cargo.lock and the viewer's package-lock.json name: python check_advisories.py CARGO_DENY
+"""Looks for known faults in what Cargo.lock and the package-lock.json of the viewer and its client name:
+python check_advisories.py CARGO_DENY
 
 A fault ends it with 1, as does anything else that is wrong, but for one thing: a database that is not reached is said, and
 is no fault."""
@@ -27,9 +28,9 @@ def crates(cargo_deny):
     return (None if "failed to fetch advisory database" in told and not checked else False), told
 
 
-def packages():
-    """The same of npm."""
-    options = ["--json", "--package-lock-only", "--fetch-retries=0", "--prefix=src/viewer"]
+def packages(directory):
+    """The same of an npm package."""
+    options = ["--json", "--package-lock-only", "--fetch-retries=0", f"--prefix={directory}"]
     ran = run("npm", "audit", *options)
     told = ran.stdout + ran.stderr
     if ran.returncode == 0:
@@ -49,7 +50,9 @@ def main():
     parser.add_argument("cargo_deny")
     options = parser.parse_args()
     sound = True
-    for name, (none_found, told) in (("crates", crates(options.cargo_deny)), ("npm packages", packages())):
+    checks = [("crates", crates(options.cargo_deny))]
+    checks += [(f"packages of {directory}", packages(directory)) for directory in ("src/viewer", "clients/typescript")]
+    for name, (none_found, told) in checks:
         if none_found:
             print(f"{name}: no known faults")
         elif none_found is None:

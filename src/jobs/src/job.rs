@@ -166,6 +166,12 @@ impl Job {
     }
 }
 
+/// The cost of a job that has cost more than its estimate in the express slot. It is above that of small jobs, which
+/// this slot runs: there the job would exceed its estimate again.
+pub(crate) fn cost_after_overrun(estimate: f64, shown: f64, small: f64) -> f64 {
+    clamp_cost(shown.max(estimate).max(small.next_up()))
+}
+
 /// A cost whose sums are finite. NaN becomes the greatest cost.
 pub(crate) fn clamp_cost(cost: f64) -> f64 {
     if cost.is_nan() { MAX_COST } else { cost.clamp(1e-3, MAX_COST) }

@@ -49,7 +49,7 @@
 //! slots pause, so the number of busy cores stays the same.
 //!
 //! A job that occupies the express slot for five times its estimated time, and for at least a second, is stopped. It is
-//! queued again with the cost that it has shown.
+//! queued again with the cost that it has shown, and as one that is not small: so this happens to a job once at most.
 //!
 //! Subtasks of a large job run in the main slots only. Otherwise a large job that is cut into small ones would fill the
 //! slot in which small jobs pass it. A thread pauses in [`RunControl::cancelled`], and at most as long as it has worked

@@ -74,7 +74,7 @@ pub struct PathBuilder {
     points: Vec<[f64; 3]>,
     values: Vec<f64>,
     strokes: Vec<Stroke>,
-    /// What the points since the last kept one have: the last of them, the least value, and the strongest stroke.
+    /// A summary of the points since the last kept one: the last of them, the least value, and the strongest stroke.
     pending: Option<([f64; 3], f64, Stroke)>,
 }
 

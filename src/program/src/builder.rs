@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 use crate::arc::{Arc, Sweep};
 use crate::diagnostics::Diagnostics;
 use crate::error::{ProgramError, ProgramErrors, Warnings};
-use crate::event::{Event, EventKind};
-use crate::moves::{Feed, Move, MoveKind};
+use crate::event::{Event, EventKind, Rotation, Spindle};
+use crate::moves::{Feed, FeedUnit, Move, MoveKind};
 use crate::options::{ReadOptions, Units};
 use crate::orientation::Orientation;
 use crate::program::{LengthSource, Program};
@@ -57,6 +57,8 @@ pub(crate) struct Builder {
     /// Whether the last move is where the tool is.
     known: bool,
     event_bytes: usize,
+    /// The spindle as the program has stated it last.
+    spindle: Spindle,
 }
 
 impl Builder {
@@ -69,8 +71,9 @@ impl Builder {
             events: Vec::new(),
             warnings: Warnings::default(),
         };
+        let spindle = Spindle { speed: None, rotation: None };
         let (diagnostics, known, event_bytes) = (Diagnostics::default(), false, 0);
-        Self { diagnostics, options: options.clone(), program, known, event_bytes }
+        Self { diagnostics, options: options.clone(), program, known, event_bytes, spindle }
     }
 
     pub(crate) fn set_units(&mut self, units: Units) {
@@ -150,6 +153,10 @@ impl Builder {
         if kind.hides_start() {
             self.known = false;
         }
+        if let EventKind::Spindle(Spindle { speed, rotation }) = kind {
+            let before = self.spindle;
+            self.spindle = Spindle { speed: speed.or(before.speed), rotation: rotation.or(before.rotation) };
+        }
         self.program.events.push(Event { line, before, kind, text: text.into() });
         Ok(())
     }
@@ -167,6 +174,12 @@ impl Builder {
         program.arcs.shrink_to_fit();
         program.events.shrink_to_fit();
         Ok(program)
+    }
+
+    /// Whether the spindle turns at a known speed.
+    fn turns(&self) -> bool {
+        let Spindle { speed, rotation } = self.spindle;
+        rotation != Some(Rotation::Off) && speed.is_some_and(|speed| speed > 0.0)
     }
 
     /// The checks of every move.
@@ -195,6 +208,11 @@ impl Builder {
         if chosen.is_none() && (feed.travel.is_some() || feed.turn.is_some()) {
             let detail = "the feed does not fit the move: mm/min and mm/rev need a way of the tip, deg/min a move of \
                           the axis alone; the drives decide";
+            self.diagnostics.warn(line, "", detail);
+        }
+        if chosen.is_some_and(|feed| feed.unit == FeedUnit::MillimetresPerRevolution) && !self.turns() {
+            let detail = "a feed per turn of the spindle, which does not turn or has no speed (S, SPINDL): the drives \
+                          decide";
             self.diagnostics.warn(line, "", detail);
         }
         Ok(Move::new(line, kind, tip, orientation, chosen))

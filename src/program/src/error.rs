@@ -1,4 +1,4 @@
-//! What a reader reports: faults that refuse a program, and warnings that do not.
+//! The reports of a reader: faults that refuse a program, and warnings that do not.
 
 use std::fmt;
 use std::io;
@@ -14,7 +14,7 @@ pub struct ProgramError {
     pub column: u32,
     /// The word that is at fault, at most 64 characters of it.
     pub word: String,
-    /// What is wrong, and what would be accepted.
+    /// The fault, and what would be accepted.
     pub detail: String,
 }
 

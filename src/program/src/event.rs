@@ -1,4 +1,4 @@
-//! What a program states beside its moves.
+//! The statements of a program beside its moves.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,13 +11,13 @@ pub struct Event {
     pub line: u32,
     /// The index of the move that follows; the number of moves if none does.
     pub before: u32,
-    /// What happens.
+    /// The kind of the event.
     pub kind: EventKind,
     /// The statement, or the text of a comment.
     pub text: Box<str>,
 }
 
-/// What an event is.
+/// The kinds of events.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum EventKind {
     /// Another tool is loaded. Whether its length counts from here is what
@@ -77,7 +77,7 @@ pub enum EventKind {
     },
 }
 
-/// What the spindle does.
+/// A statement about the spindle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spindle {
     /// Revolutions per minute, if the program states them here.

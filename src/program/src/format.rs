@@ -10,10 +10,12 @@ pub enum Format {
     Apt,
     /// G-code: RS-274/NGC and Fanuc.
     Gcode,
-    /// Rows with comma-separated columns and a first row of names.
+    /// Rows below a row of names; commas, semicolons or tabs separate the columns.
     Csv,
     /// Rows as one JSON object or array per line.
     Ndjson,
+    /// A stream of Apache Arrow: a row is a row of its record batches.
+    Arrow,
 }
 
 /// The reason why a format cannot be read.
@@ -23,8 +25,6 @@ pub enum FormatError {
     Undetermined,
     /// No format has this name.
     Unknown(String),
-    /// The format is known and cannot be read yet.
-    Unsupported(&'static str),
     /// Programs of this controller are not read.
     Refused(&'static str),
 }
@@ -36,18 +36,17 @@ impl fmt::Display for FormatError {
                 write!(f, "neither file name nor media type tells the format; state format=")?;
             }
             Self::Unknown(name) => write!(f, "there is no format \"{name}\"")?,
-            Self::Unsupported(name) => write!(f, "{name} programs are not supported yet")?,
             Self::Refused(controller) => {
                 write!(f, "{controller} programs are not read; post the tool path as CL text")?;
             }
         }
-        f.write_str("; accepted are apt, gcode, csv and ndjson")
+        f.write_str("; accepted are apt, gcode, csv, ndjson and arrow")
     }
 }
 
 impl std::error::Error for FormatError {}
 
-/// What a name stands for.
+/// The format of a name, or why it cannot be read.
 type Known = Result<Format, FormatError>;
 
 impl Format {
@@ -58,6 +57,7 @@ impl Format {
             Self::Gcode => "gcode",
             Self::Csv => "csv",
             Self::Ndjson => "ndjson",
+            Self::Arrow => "arrow",
         }
     }
 
@@ -66,7 +66,6 @@ impl Format {
     /// # Errors
     ///
     /// - [`FormatError::Unknown`]: no format has the stated name.
-    /// - [`FormatError::Unsupported`]: the format cannot be read yet: `arrow`.
     /// - [`FormatError::Refused`]: the program is one of Heidenhain (`.h`) or Siemens (`.mpf`).
     /// - [`FormatError::Undetermined`]: nothing is stated, and neither extension nor media type is known.
     ///
@@ -111,7 +110,7 @@ fn by_name(name: &str) -> Option<Known> {
         "gcode" => Ok(Format::Gcode),
         "csv" => Ok(Format::Csv),
         "ndjson" => Ok(Format::Ndjson),
-        "arrow" => Err(FormatError::Unsupported("arrow")),
+        "arrow" => Ok(Format::Arrow),
         "heidenhain" => Err(FormatError::Refused("Heidenhain")),
         "siemens" => Err(FormatError::Refused("Siemens")),
         _ => return None,
@@ -145,7 +144,7 @@ fn by_media_type(media_type: &str) -> Option<Known> {
     match essence.as_str() {
         "text/csv" => by_name("csv"),
         "application/x-ndjson" | "application/ndjson" | "application/jsonl" => by_name("ndjson"),
-        "application/vnd.apache.arrow.stream" | "application/vnd.apache.arrow.file" => by_name("arrow"),
+        "application/vnd.apache.arrow.stream" => by_name("arrow"),
         "text/x-gcode" | "text/x.gcode" => by_name("gcode"),
         _ => None,
     }

@@ -43,13 +43,13 @@ pub struct JointRow {
     pub duration: Option<f64>,
 }
 
-/// What was written.
+/// The size of a written program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct JointProgramSummary {
     /// Number of G0 and G1 blocks.
     pub blocks: u64,
     /// Number of rows without a block, since all their words equal the last ones.
     pub merged: u64,
-    /// Number of blocks whose F is the greatest one that is allowed, and not the one that the duration asks for.
+    /// Number of blocks whose duration needs a greater F than is allowed; they take longer. A comment counts them.
     pub limited: u64,
 }

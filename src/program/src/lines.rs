@@ -102,24 +102,41 @@ fn stopped(reader: &mut dyn LineReader, line: u32, detail: String) -> ControlFlo
 fn not_text(number: u32, line: &[u8]) -> Option<&'static str> {
     let blank = |byte: u8| matches!(byte, b'\t' | b'\r' | 0x0B | 0x0C | 0x1A);
     let known = |mark: &[u8]| number == 1 && line.starts_with(mark);
+    if known(b"\xFF\xFE\0\0") || known(b"\0\0\xFE\xFF") {
+        return Some(UTF_32);
+    }
     if known(b"\xFF\xFE") || known(b"\xFE\xFF") {
-        return Some("the file is UTF-16; save it as UTF-8");
+        return Some(UTF_16);
     }
     if known(b"\x1F\x8B") || known(b"PK\x03\x04") {
         return Some("the file is compressed; send the program itself");
     }
-    let wide = |pair: &[u8]| matches!(pair, [0, byte] | [byte, 0] if (b' '..0x7F).contains(byte));
-    if line.iter().any(|byte| *byte < b' ' && !blank(*byte)) {
-        let pairs = line.chunks_exact(2);
-        return Some(
-            if line.len() > 3 && pairs.clone().filter(|pair| wide(pair)).count() * 2 > pairs.len() {
-                "the file is UTF-16; save it as UTF-8"
-            } else {
-                "the file is binary; accepted is text in ASCII or UTF-8"
-            },
-        );
+    if line.iter().all(|byte| *byte >= b' ' || blank(*byte)) {
+        return None;
     }
-    None
+    Some(if is_wide::<4>(line) {
+        UTF_32
+    } else if is_wide::<2>(line) {
+        UTF_16
+    } else {
+        "the file is binary; accepted is text in ASCII or UTF-8"
+    })
+}
+
+const UTF_16: &str = "the file is UTF-16; save it as UTF-8";
+const UTF_32: &str = "the file is UTF-32; save it as UTF-8";
+
+/// Whether most groups of `WIDTH` bytes are a printable ASCII character beside zeros.
+fn is_wide<const WIDTH: usize>(line: &[u8]) -> bool {
+    let printable = |byte: u8| (b' '..0x7F).contains(&byte);
+    let zero = |bytes: &[u8]| bytes.iter().all(|byte| *byte == 0);
+    let wide = |group: &&[u8]| match group {
+        [byte, rest @ ..] if *byte != 0 => printable(*byte) && zero(rest),
+        [rest @ .., byte] => printable(*byte) && zero(rest),
+        [] => false,
+    };
+    let groups = line.chunks_exact(WIDTH);
+    line.len() > 3 && groups.clone().filter(wide).count() * 2 > groups.len()
 }
 
 /// The texts of some lines of a source, for a report: `numbers` are the lines from 1, in ascending order. A line that

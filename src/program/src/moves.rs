@@ -34,7 +34,7 @@ pub enum FeedUnit {
 pub struct Feed {
     /// Positive.
     pub value: f64,
-    /// What the value means.
+    /// The meaning of the value.
     pub unit: FeedUnit,
 }
 

@@ -1,4 +1,4 @@
-//! What a request says about reading.
+//! The options of a request for reading.
 
 use std::fmt;
 use std::str::FromStr;
@@ -65,7 +65,7 @@ impl FromStr for Units {
     }
 }
 
-/// What to do with cutter radius compensation (CUTCOM). The points of a program are the tool's path either way.
+/// The treatment of cutter radius compensation (CUTCOM). The points of a program are the tool's path either way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Compensation {
@@ -106,7 +106,7 @@ pub struct ReadOptions {
     /// The unit of lengths if the program states none. CL text without either is refused; G-code and rows are then
     /// millimetres.
     pub units: Option<Units>,
-    /// What to do with cutter radius compensation.
+    /// The treatment of cutter radius compensation.
     pub compensation: Compensation,
     /// G-code: the tool centre point is controlled throughout, whatever the program states.
     pub tcp: bool,

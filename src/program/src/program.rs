@@ -20,7 +20,7 @@ pub struct Program {
     pub(crate) warnings: Warnings,
 }
 
-/// What decides the length of the tool.
+/// The statement that decides the length of the tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LengthSource {
     /// The tool that is loaded: [`EventKind::Tool`] names the entry of the table of lengths. CL text and rows.
@@ -102,7 +102,7 @@ impl Program {
         &self.events
     }
 
-    /// What the author of the program should know.
+    /// Messages for the author of the program.
     pub fn warnings(&self) -> &Warnings {
         &self.warnings
     }

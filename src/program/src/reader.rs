@@ -4,6 +4,7 @@ use std::io::BufRead;
 use std::ops::ControlFlow;
 
 use crate::apt::AptReader;
+use crate::builder::Builder;
 use crate::error::{ProgramErrors, ReadError};
 use crate::format::Format;
 use crate::gcode::GcodeReader;
@@ -12,6 +13,7 @@ use crate::options::ReadOptions;
 use crate::program::Program;
 use crate::rows::csv::CsvReader;
 use crate::rows::ndjson::NdjsonReader;
+use crate::rows::table::TableReader;
 
 /// Reads a program whose bytes arrive in chunks.
 ///
@@ -28,9 +30,14 @@ use crate::rows::ndjson::NdjsonReader;
 /// # Ok::<(), verne_program::ProgramErrors>(())
 /// ```
 #[derive(Debug)]
-pub struct Reader {
-    lines: LineSplitter,
-    format: Box<dyn LineReader>,
+pub struct Reader(Input);
+
+#[derive(Debug)]
+enum Input {
+    /// Text, line by line.
+    Lines(LineSplitter, Box<dyn LineReader>),
+    /// A table in binary form.
+    Table(Box<TableReader>),
 }
 
 impl Reader {
@@ -41,17 +48,21 @@ impl Reader {
             Format::Gcode => Box::new(GcodeReader::new(options)),
             Format::Csv => Box::new(CsvReader::new(options)),
             Format::Ndjson => Box::new(NdjsonReader::new(options)),
+            Format::Arrow => return Self(Input::Table(Box::new(TableReader::new(options)))),
         };
-        Self { lines: LineSplitter::default(), format }
+        Self(Input::Lines(LineSplitter::default(), format))
     }
 
     /// Reads the next bytes. `Break` says that the program is refused and no more bytes are needed;
     /// [`finish`](Self::finish) then returns the faults.
     pub fn push(&mut self, chunk: &[u8]) -> ControlFlow<()> {
-        if self.format.builder().diagnostics.is_stopped() {
+        if self.builder().diagnostics.is_stopped() {
             return ControlFlow::Break(());
         }
-        self.lines.push(chunk, self.format.as_mut())
+        match &mut self.0 {
+            Input::Lines(lines, format) => lines.push(chunk, format.as_mut()),
+            Input::Table(table) => table.push(chunk),
+        }
     }
 
     /// About the bytes of memory that the program takes so far.
@@ -64,7 +75,7 @@ impl Reader {
     /// assert_eq!(reader.memory(), 72);
     /// ```
     pub fn memory(&mut self) -> usize {
-        self.format.builder().memory()
+        self.builder().memory()
     }
 
     /// The program, after its last byte.
@@ -73,10 +84,24 @@ impl Reader {
     ///
     /// The faults of the program.
     pub fn finish(mut self) -> Result<Program, ProgramErrors> {
-        if !self.format.builder().diagnostics.is_stopped() {
-            self.lines.finish(self.format.as_mut());
+        let is_stopped = self.builder().diagnostics.is_stopped();
+        let builder = match self.0 {
+            Input::Lines(mut lines, mut format) => {
+                if !is_stopped {
+                    lines.finish(format.as_mut());
+                }
+                format.into_builder()
+            }
+            Input::Table(table) => table.into_builder(),
+        };
+        builder.finish()
+    }
+
+    fn builder(&mut self) -> &mut Builder {
+        match &mut self.0 {
+            Input::Lines(_, format) => format.builder(),
+            Input::Table(table) => table.builder(),
         }
-        self.format.into_builder().finish()
     }
 }
 

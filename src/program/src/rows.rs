@@ -5,3 +5,4 @@ pub(crate) mod ndjson;
 pub(crate) mod points;
 pub(crate) mod row;
 mod row_builder;
+pub(crate) mod table;

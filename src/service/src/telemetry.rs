@@ -21,6 +21,7 @@ use tracing_subscriber::{EnvFilter, Layer};
 
 /// The settings of the log and the traces.
 #[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Log and traces")]
 pub struct TelemetryConfig {
     /// Format of the log on standard error. `RUST_LOG` sets its level.
     #[arg(long, env = "VERNE_LOG_FORMAT", value_enum, default_value_t)]

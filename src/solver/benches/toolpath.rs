@@ -1,6 +1,7 @@
 //! What a planned row costs in working inverse problems of the part frame: `cargo bench --bench toolpath`.
 //!
-//! Both are timed in the same run. The target is at most six.
+//! Both are timed in turns of about the same length, so that other load on the machine slows both down. The target is at
+//! most six.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -9,7 +10,9 @@ use verne_solver::axis::{Preimages, preimages};
 use verne_solver::toolpath::{Curve, Motion, MotionKind, PlanOptions, ToolPosition, Turning, plan};
 use verne_solver::{Machine, PartPose, part_working};
 
-const ROUNDS: usize = 9;
+const ROUNDS: usize = 21;
+/// Inverse problems for each row, which is the target.
+const SOLUTIONS: usize = 6;
 
 /// A dome finished in a raster: `lines` lines of `points` points.
 fn dome(lines: u32, points: u32) -> Vec<Motion> {
@@ -57,12 +60,8 @@ fn main() {
             .collect();
         let mut ratios = Vec::new();
         let mut rows = 0_u64;
+        let mut best = [f64::INFINITY; 2];
         for _ in 0..ROUNDS {
-            let start = Instant::now();
-            for target in &targets {
-                let _ = black_box(part_working(&machine, black_box(target), 100.0));
-            }
-            let solve = start.elapsed().as_secs_f64() / number(targets.len());
             let start = Instant::now();
             let options = PlanOptions::default();
             let report = plan(
@@ -77,10 +76,22 @@ fn main() {
             let Ok(report) = report else { continue };
             rows = report.rows;
             let row = start.elapsed().as_secs_f64() / number(usize::try_from(rows).unwrap_or_default());
+            let passes = SOLUTIONS * usize::try_from(rows).unwrap_or_default() / targets.len();
+            let start = Instant::now();
+            for target in (0..passes).flat_map(|_| &targets) {
+                let _ = black_box(part_working(&machine, black_box(target), 100.0));
+            }
+            let solve = start.elapsed().as_secs_f64() / number(passes * targets.len());
             println!("{} ns a solution, {} ns a row", solve * 1e9, row * 1e9);
             ratios.push(row / solve);
+            best = [best[0].min(row), best[1].min(solve)];
         }
         ratios.sort_by(f64::total_cmp);
-        println!("{} motions, {rows} rows: {:.2} solutions a row", program.len(), ratios[ratios.len() / 2]);
+        println!(
+            "{} motions, {rows} rows: {:.2} solutions a row, {:.2} in the best rounds",
+            program.len(),
+            ratios[ratios.len() / 2],
+            best[0] / best[1]
+        );
     }
 }

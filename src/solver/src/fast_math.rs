@@ -66,6 +66,12 @@ pub(crate) fn sin_cos_of_turn(angle: f64) -> (f64, f64) {
     (signed(s, count), signed(c, count.wrapping_add(1)))
 }
 
+/// Whether the nearest integer is odd; the number's magnitude is below 2^51.
+#[inline]
+pub(crate) fn is_odd(number: f64) -> bool {
+    (number + ROUND).to_bits() & 1 == 1
+}
+
 /// asin x for x² <= 1/2, to two units in the last place; `square` is x².
 #[inline(always)]
 pub(crate) fn asin(x: f64, square: f64) -> f64 {

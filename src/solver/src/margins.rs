@@ -2,6 +2,7 @@
 
 pub(crate) mod cone;
 pub(crate) mod interference;
+pub(crate) mod lesser_margins;
 pub(crate) mod margin_batch;
 mod margin_rows;
 pub(crate) mod normalization;

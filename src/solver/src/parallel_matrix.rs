@@ -36,9 +36,10 @@ where
         + upper(2, 3) * lower(0, 1)
 }
 
-/// The inverse, from the minors of the upper and the lower two rows. `None` if a number of it is not finite.
+/// The determinant and the inverse, from the minors of the upper and the lower two rows. `None` if a number of the
+/// inverse is not finite.
 #[inline]
-pub(crate) fn inverse(m: &ParallelMatrix) -> Option<ParallelMatrix> {
+pub(crate) fn inverse(m: &ParallelMatrix) -> Option<(f64, ParallelMatrix)> {
     let minors = |a: &[f64; 4], b: &[f64; 4]| {
         let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
         [minor(0, 1), minor(0, 2), minor(0, 3), minor(1, 2), minor(1, 3), minor(2, 3)]
@@ -58,5 +59,5 @@ pub(crate) fn inverse(m: &ParallelMatrix) -> Option<ParallelMatrix> {
     let columns = [first(&m[1], &c), first(&m[0], &c), first(&m[3], &s), first(&m[2], &s)];
     let signs = [scale, -scale, scale, -scale];
     let found = std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i] * signs[j]));
-    scale.is_finite().then_some(found)
+    scale.is_finite().then_some((det, found))
 }

@@ -139,10 +139,12 @@ pub struct Winding {
 /// ```
 pub fn table_windings(machine: &Machine, given: [SplitAngle; 2], near: [Option<f64>; 2]) -> [Winding; 2] {
     let limits = machine.limits();
-    [winding(limits.tilt, given[0], near[0]), winding(limits.rotary, given[1], near[1])]
+    let rotary = limits.rotary.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    [winding(limits.tilt, given[0], near[0]), winding(rotary, given[1], near[1])]
 }
 
-/// Counts the values of theta2, by whole turns apart, that are within the machine's range.
+/// Counts the values of theta2, by whole turns apart, that are within the machine's range. `None`: the range has no
+/// limit.
 ///
 /// # Units
 ///
@@ -159,12 +161,12 @@ pub fn table_windings(machine: &Machine, given: [SplitAngle; 2], near: [Option<f
 /// use verne_solver::{Machine, rotary_windings};
 ///
 /// // The range is ±2π: 1 and 1 - 2π are in it, and of 0 also ±2π.
-/// assert_eq!(rotary_windings(&Machine::verne(), 1.0), 2);
-/// assert_eq!(rotary_windings(&Machine::verne(), 0.0), 3);
+/// assert_eq!(rotary_windings(&Machine::verne(), 1.0), Some(2));
+/// assert_eq!(rotary_windings(&Machine::verne(), 0.0), Some(3));
 /// ```
-pub fn rotary_windings(machine: &Machine, theta2: f64) -> u32 {
-    let (first, last) = admissible_turns(machine.limits().rotary, theta2);
-    if first <= last { count(last - first) } else { 0 }
+pub fn rotary_windings(machine: &Machine, theta2: f64) -> Option<u32> {
+    let (first, last) = admissible_turns(machine.limits().rotary?, theta2);
+    Some(if first <= last { count(last - first) } else { 0 })
 }
 
 #[allow(

@@ -20,6 +20,7 @@ mod node;
 mod path;
 mod report;
 mod rows;
+mod start;
 mod stretches;
 mod timing;
 mod tool_motion;
@@ -34,16 +35,18 @@ pub use joint_segment::Deviation;
 pub use motion::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
 pub use report::{Departure, Failure, LeastMargin, MOST_DEPARTURES, MOST_FAILURES, Report};
 pub use rows::{Row, RowKind, Way};
+pub use start::Start;
 pub use timing::{Feed, Governor, Pace, TimedRow, Timer, Times};
 
 use crate::machine::Machine;
-use crate::pose::TableAngles;
 use cap::Cap;
 use choice::Chooser;
 use meridian::Meridian;
+use motion::Standstill;
 use node::Setting;
 use path::Path;
 use rows::{Retraction, RowSettings, Rower};
+use start::Started;
 use stretches::stretches;
 
 /// Share of the progress that the choice of states is counted as.
@@ -72,14 +75,16 @@ pub struct PlanOptions {
     pub tolerance: Deviation,
     /// Greatest deviation of the tool's end in rapids.
     pub rapid_tolerance: f64,
-    /// Half-angle of the cap around the pole in which theta2 is free; part of the axis tolerance.
+    /// Half-angle of the cap around the pole in which theta2 is free; part of the axis tolerance. Less than 1e-9 counts
+    /// as 1e-9.
     pub pole: f64,
     /// Radius of the tool's end, for the height over the table.
     pub tool_radius: f64,
     /// Least height over the table; `None`: the machine's.
     pub table_clearance: Option<f64>,
-    /// Where the table stands before the program; `None`: where the first position has it.
-    pub start: Option<TableAngles>,
+    /// Where the machine stands before the program: it moves to the first position as in a rapid, after a row at the
+    /// start. `None`: it stands at the first position.
+    pub start: Option<Start>,
     /// Whether the joints move straight in all rapids.
     pub joint_rapids: bool,
     /// What happens where no winding serves a whole cut.
@@ -171,33 +176,47 @@ pub fn plan<M: Motions + ?Sized>(
     motions: &M,
     options: &PlanOptions,
     mut progress: impl FnMut(f64) -> bool,
-    emit: impl FnMut(&Row),
+    mut emit: impl FnMut(&Row),
+) -> Result<Report, PlanError> {
+    planned(machine, &motions, options, &mut progress, &mut emit)
+}
+
+fn planned(
+    machine: &Machine,
+    motions: &dyn Motions,
+    options: &PlanOptions,
+    progress: &mut dyn FnMut(f64) -> bool,
+    emit: &mut dyn FnMut(&Row),
 ) -> Result<Report, PlanError> {
     let cap = Cap::new(options.pole, machine.longest());
-    let start = options.start.map(|table| [table.theta1, table.theta2]);
-    let stretches = stretches(motions, &cap, start.map_or(0.0, |[_, theta2]| -theta2));
+    let retraction = retraction(motions, options.on_limit);
+    let motions = &Started::new(motions, options.start);
+    let standstill = motions.standstill(machine);
+    let stretches = stretches(motions, &cap, standstill);
     let setting = Setting {
         machine,
         stretches: &stretches,
         table_clearance: options.table_clearance,
         tool_radius: options.tool_radius,
-        pole: options.pole,
     };
     let part = |index: usize| fraction(index, motions.count());
     let weights = machine.data().drives.map_or([1.0; 2], |drives| drives.turning_weights());
-    let chooser = Chooser::new(setting, weights, start, options.on_limit != OnLimit::Fail);
-    let choice = chooser.choose(motions, cap, |index| progress(CHOICE_SHARE * part(index)));
+    let chooser = Chooser::new(setting, weights, options.start, options.on_limit != OnLimit::Fail);
+    let choice = chooser.choose(motions, Meridian::new(cap, &stretches, standstill), |index| {
+        progress(CHOICE_SHARE * part(index))
+    });
     let choice = choice.ok_or(PlanError::Cancelled)?;
     let settings = RowSettings {
         feed: options.tolerance,
         rapid: Deviation { tip: options.rapid_tolerance, axis: f64::INFINITY },
         joint_rapids: options.joint_rapids,
-        retraction: retraction(motions, options.on_limit),
+        start: options.start,
+        retraction,
     };
     let mut is_full = false;
     let report = Rower::new(setting, &settings, &choice, emit).run(
         motions,
-        Meridian::new(cap, &stretches),
+        Meridian::new(cap, &stretches, standstill),
         |index, rows| {
             is_full = rows > options.most_rows;
             !is_full && progress(CHOICE_SHARE + (1.0 - CHOICE_SHARE) * part(index))
@@ -206,7 +225,7 @@ pub fn plan<M: Motions + ?Sized>(
     report.ok_or(if is_full { PlanError::TooManyRows } else { PlanError::Cancelled })
 }
 
-fn retraction<M: Motions + ?Sized>(motions: &M, on_limit: OnLimit) -> Option<Retraction> {
+fn retraction(motions: &dyn Motions, on_limit: OnLimit) -> Option<Retraction> {
     let OnLimit::Retract { clearance, height } = on_limit else { return None };
     let top = highest(motions);
     let height = height.unwrap_or(top + clearance).max(top);
@@ -214,14 +233,13 @@ fn retraction<M: Motions + ?Sized>(motions: &M, on_limit: OnLimit) -> Option<Ret
 }
 
 /// Height of the program's highest point.
-fn highest<M: Motions + ?Sized>(motions: &M) -> f64 {
-    let mut before: Option<ToolPosition> = None;
+fn highest(motions: &dyn Motions) -> f64 {
+    let mut standstill = Standstill::default();
     let mut highest = f64::NEG_INFINITY;
     for index in 0..motions.count() {
         let motion = motions.motion(index);
-        let start = before.replace(motion.end).unwrap_or(motion.end);
-        let is_path = motion.kind != MotionKind::Arrive;
-        highest = highest.max(if is_path { Path::new(start, &motion).highest() } else { motion.end.tip[2] });
+        let path = standstill.advance(&motion).map(|start| Path::new(start, &motion));
+        highest = highest.max(path.map_or(motion.end.tip[2], |path| path.highest()));
     }
     highest
 }

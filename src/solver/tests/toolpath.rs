@@ -5,6 +5,10 @@
 //! - `drives`: velocities that are refused, and what drives change in a plan.
 //! - `pole`: paths along, through and to the pole.
 //! - `machines`: programs on machines unlike the reference machine, arcs, and rapids.
+//! - `starts`: programs that begin where the machine stands.
+//! - `tool_changes`: motions that begin with another tool in the same joints.
+//! - `held`: programs whose phi2 is kept at the pole.
+//! - `unlimited`: programs on a machine whose table turns without a limit.
 //! - `limits`: what happens at limits: retracting, and changes that heal.
 //! - `least_margins`: least margins between rows.
 //! - `timing`: times of rows.
@@ -25,6 +29,8 @@
 mod choices;
 #[path = "toolpath/drives.rs"]
 mod drives;
+#[path = "toolpath/held.rs"]
+mod held;
 #[path = "toolpath/least_margins.rs"]
 mod least_margins;
 #[path = "toolpath/limits.rs"]
@@ -41,7 +47,13 @@ mod random;
 mod random_programs;
 #[path = "toolpath/single_slider.rs"]
 mod single_slider;
+#[path = "toolpath/starts.rs"]
+mod starts;
 #[path = "toolpath/support.rs"]
 mod support;
 #[path = "toolpath/timing.rs"]
 mod timing;
+#[path = "toolpath/tool_changes.rs"]
+mod tool_changes;
+#[path = "toolpath/unlimited.rs"]
+mod unlimited;

@@ -1,4 +1,5 @@
-//! The guarantees of the store: one buffer and one computation per content, only intact contents, limits, and durability.
+//! The guarantees of the store: one buffer and one computation per content, only intact contents, limits, and
+//! durability.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 

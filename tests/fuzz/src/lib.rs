@@ -9,8 +9,8 @@
 //! VERNE_FUZZ=1000000 cargo test --release -p verne-fuzz solver -- --nocapture
 //! ```
 //!
-//! `corpus/` contains few inputs: each reaches code that the others do not, or once made a target panic. They were chosen
-//! greedily by the source coverage (`-C instrument-coverage`) of the product.
+//! `corpus/` contains few inputs: each reaches code that the others do not, or once made a target panic. They were
+//! chosen greedily by the source coverage (`-C instrument-coverage`) of the product.
 
 #![allow(
     clippy::unwrap_used,
@@ -31,6 +31,7 @@ mod machines;
 mod mesh;
 mod programs;
 mod requests;
+mod rows;
 mod settings;
 mod solver;
 mod store;
@@ -48,7 +49,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 15] = [
+pub const TARGETS: [Target; 18] = [
     Target { name: "apt", run: programs::apt, default_inputs: 5_000 },
     Target { name: "body", run: requests::body, default_inputs: 500 },
     Target { name: "csv", run: programs::csv, default_inputs: 5_000 },
@@ -63,6 +64,9 @@ pub const TARGETS: [Target; 15] = [
     Target { name: "settings", run: settings::settings, default_inputs: 100 },
     Target { name: "solver", run: solver::solver, default_inputs: 20_000 },
     Target { name: "store", run: store::store, default_inputs: 200 },
+    Target { name: "table_arrow", run: rows::arrow, default_inputs: 5_000 },
+    Target { name: "table_csv", run: rows::csv, default_inputs: 5_000 },
+    Target { name: "table_ndjson", run: rows::ndjson, default_inputs: 5_000 },
     Target { name: "workspaces", run: workspaces::workspaces, default_inputs: 50 },
 ];
 

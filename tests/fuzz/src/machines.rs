@@ -59,8 +59,8 @@ fn all_lengths<'a>(geometry: &'a mut Geometry, table: &'a mut Table) -> impl Ite
     lengths(geometry).into_iter().chain([&mut table.da, &mut table.dt])
 }
 
-fn small(limits: &mut Limits) -> [&mut f64; 8] {
+fn small(limits: &mut Limits) -> impl Iterator<Item = &mut f64> {
     let Limits { slider_cone, platform_cone, serial_margin, parallel_margin, tilt, rotary, .. } = limits;
-    let ([low, high], [least, greatest]) = (tilt, rotary);
-    [slider_cone, platform_cone, serial_margin, parallel_margin, low, high, least, greatest]
+    let plain = [slider_cone, platform_cone, serial_margin, parallel_margin];
+    plain.into_iter().chain(tilt).chain(rotary.iter_mut().flatten())
 }

@@ -65,7 +65,8 @@ static BODIES: LazyLock<[(&str, Value); 7]> = LazyLock::new(|| {
         ),
         (
             "/ik/batch",
-            json!({"frame": "part", "tool_length": 50, "continuous": true, "start": [400, 500, 500, 10, -350],
+            json!({"frame": "part", "tool_length": 50, "continuous": true,
+            "start": {"rho": [400, 500, 500], "theta1": 10, "theta2": -350},
             "poses": [[100, 50, 150, 0, 0], [1, 2], [100, 50, 150, 0.1, -0.3, 1], [5000, 0, 0, 0, 0]]}),
         ),
         (

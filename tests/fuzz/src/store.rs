@@ -14,7 +14,8 @@ use verne_store::{Key, Store};
 use crate::draw::Draw;
 
 thread_local! {
-    static RUNTIME: RefCell<Runtime> = RefCell::new(tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap());
+    static RUNTIME: RefCell<Runtime> =
+        RefCell::new(tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap());
 }
 
 /// Bytes of the memory cache: none, so that each request reads the object.

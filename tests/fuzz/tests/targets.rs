@@ -14,5 +14,6 @@ macro_rules! campaigns {
 }
 
 campaigns! {
-    apt body csv gcode headers keys machine mesh ndjson packed_program query settings solver store workspaces
+    apt body csv gcode headers keys machine mesh ndjson packed_program query settings solver store table_arrow table_csv
+    table_ndjson workspaces
 }

@@ -7,8 +7,8 @@ use tokio::io::AsyncWriteExt;
 use super::http2::{http2, http2_with_window, liveness_probe};
 use super::{in_time, probe, rest, serve};
 
-/// First bytes of clients that then send nothing more: none, a part of a first line and of the headers of HTTP/1, a part of
-/// the preface of HTTP/2, and all of it.
+/// First bytes of clients that then send nothing more: none, a part of a first line and of the headers of HTTP/1, a part
+/// of the preface of HTTP/2, and all of it.
 const BEGINNINGS: [&[u8]; 5] = [
     b"",
     b"GET /liv",
@@ -77,10 +77,15 @@ async fn idle_http2_connections_are_closed() {
 async fn requests_without_their_bodies_time_out() {
     let served = serve("--timeout 1").await;
     let mut stream = served.connect().await;
-    let head = "POST /fk HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n{";
+    let head = "POST /fk HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n\
+                Content-Length: 1000\r\n\r\n{";
     stream.write_all(head.as_bytes()).await.unwrap();
     let answer = rest(&mut stream).await;
     assert!(answer.starts_with("HTTP/1.1 503 ") && answer.contains("timed_out"), "{answer}");
+    assert!(
+        answer.contains("did not arrive within 1 s") && answer.contains("Content-Encoding: gzip"),
+        "{answer}"
+    );
     served.stop().await;
 }
 

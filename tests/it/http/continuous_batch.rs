@@ -12,6 +12,10 @@ async fn answered(request: Value) -> Value {
     reply.json
 }
 
+fn start_of(row: &Value) -> Value {
+    json!({"rho": [row[0], row[1], row[2]], "theta1": row[3], "theta2": row[4]})
+}
+
 fn row_of(joints: &Value) -> Value {
     let rho = &joints["rho"];
     json!([rho[0], rho[1], rho[2], joints["theta1"], joints["theta2"]])
@@ -34,7 +38,7 @@ async fn a_program_that_crosses_half_a_turn_is_continuous() {
     assert!(by_row.get("jump").is_none() && by_row.get("jumps").is_none(), "only if asked");
     let mut request = request;
     request["continuous"] = json!(true);
-    for start in [Value::Null, by_row["joints"][0].clone()] {
+    for start in [Value::Null, start_of(&by_row["joints"][0])] {
         request["start"] = start;
         let answer = answered(request.clone()).await;
         assert_eq!(answer["counts"]["ok"], 10);
@@ -53,12 +57,13 @@ async fn a_row_continues_in_its_own_working_solution() {
     let working = post("/ik", single).await.solutions().clone();
     assert_eq!(working.len(), 3);
     for solution in &working {
-        let start = row_of(&solution["joints"]);
+        // The joints of an answer are a start as they are.
+        let (start, row) = (&solution["joints"], row_of(&solution["joints"]));
         let near = [pose.clone(), json!([-16.3, 0.13, -789.001, 0, 0]), pose.clone()];
         let request = json!({"machine": machine, "poses": near, "continuous": true, "start": start});
         let answer = answered(request).await;
         assert_eq!(answer["jump"], json!([false, false, false]), "{answer}");
-        for (found, wanted) in answer["joints"][2].as_array().unwrap().iter().zip(start.as_array().unwrap()) {
+        for (found, wanted) in answer["joints"][2].as_array().unwrap().iter().zip(row.as_array().unwrap()) {
             assert!((found.as_f64().unwrap() - wanted.as_f64().unwrap()).abs() < 1e-6, "{answer}");
         }
     }
@@ -79,6 +84,13 @@ async fn a_solution_states_its_windings() {
     let pose = json!({"x": 60, "y": 20, "z": 300, "phi1": 20, "phi2": 30});
     let reply = post("/ik", json!({"machine": machine, "pose": pose, "tool_length": 100})).await;
     assert_eq!(reply.solutions()[0]["windings"], 0);
+    machine["limits"]["rotary"] = json!(null);
+    let pose = json!({"x": 60, "y": 20, "z": 300, "phi1": 20, "phi2": -4000});
+    let reply = post("/ik", json!({"machine": machine, "pose": pose, "tool_length": 100})).await;
+    let solution = &reply.solutions()[0];
+    assert_eq!(solution.get("windings"), Some(&json!(null)), "there is no limit");
+    assert_eq!(solution["joints"]["theta2"], 4000.0);
+    assert!(solution["margins"].get("rotary").is_none());
     let base = get("/ik?frame=platform&x=0&y=0&z=1200").await;
     assert!(base.solutions()[0].get("windings").is_none());
     let forward = get("/fk?rho=674,685,250&theta1=0&theta2=0").await;
@@ -109,10 +121,14 @@ async fn a_wrong_start_is_refused() {
         post("/ik/batch", request).await
     };
     ask(json!({"frame": "tool"})).await.assert_bad_field("/continuous");
-    ask(json!({"continuous": false, "start": [400, 500, 500, 0, 0]})).await.assert_bad_field("/start");
-    ask(json!({"start": [400, 500, 500]})).await.assert_bad_field("/start");
-    ask(json!({"start": [400, 1e9, 500, 0, 0]})).await.assert_bad_field("/start/1");
-    ask(json!({"start": [400, 500, 500, 0, 40_000]})).await.assert_bad_field("/start/4");
-    ask(json!({"start": [400, 5000, 500, 0, 0]})).await.assert_bad_field("/start");
-    assert_eq!(ask(json!({"start": [400, 500, 500, 0, 0]})).await.json["jump"], json!([]));
+    let start = |row: [f64; 5]| json!({"start": start_of(&json!(row))});
+    let standing = start([400.0, 500.0, 500.0, 0.0, 0.0]);
+    ask(json!({"continuous": false, "start": standing["start"]})).await.assert_bad_field("/start");
+    ask(json!({"start": [400, 500, 500, 0, 0]})).await.assert_bad_field("/start");
+    ask(json!({"start": {"theta1": 0, "theta2": 0}})).await.assert_bad_field("/start/rho");
+    ask(json!({"start": {"rho": [400, 500, 500], "theta2": 0}})).await.assert_bad_field("/start/theta1");
+    ask(start([400.0, 1e9, 500.0, 0.0, 0.0])).await.assert_bad_field("/start/rho/1");
+    ask(start([400.0, 500.0, 500.0, 0.0, 40_000.0])).await.assert_bad_field("/start/theta2");
+    ask(start([400.0, 5000.0, 500.0, 0.0, 0.0])).await.assert_bad_field("/start/rho");
+    assert_eq!(ask(standing).await.json["jump"], json!([]));
 }

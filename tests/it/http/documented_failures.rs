@@ -29,8 +29,13 @@ pub(super) fn assert_documented(method: &Method, path: &str, reply: &Reply) {
     }
 }
 
-/// The document's entry for a path: the literal one before one with parameters.
+/// The document's entry for a path. Of a file, the document lists the paths of its formats only.
 fn item(path: &str) -> Option<&'static Value> {
+    listed(path).or_else(|| listed(&format!("{path}.json")))
+}
+
+/// The entry that fits a path: the literal one before one with parameters.
+fn listed(path: &str) -> Option<&'static Value> {
     let paths = DOCUMENT["paths"].as_object().unwrap();
     let fits = |template: &str| {
         let (mut parts, mut wanted) = (path.split('/'), template.split('/'));

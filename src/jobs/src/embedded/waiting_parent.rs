@@ -3,7 +3,7 @@
 use super::queue::{DequeuedJob, Tag};
 use crate::subtasks::Subtasks;
 
-/// What the scheduler knows of a job's subtasks.
+/// The scheduler's knowledge of a job's subtasks.
 pub(super) enum SubtaskState {
     /// The job has not been asked for subtasks.
     Unknown,

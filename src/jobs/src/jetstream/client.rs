@@ -1,4 +1,4 @@
-//! What every process does: it knows the jobs and changes their records.
+//! The part of every process: it knows the jobs and changes their records.
 
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};

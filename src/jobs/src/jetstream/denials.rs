@@ -1,5 +1,5 @@
-//! What the broker has forbidden to this process. The broker does not answer a request with a forbidden subject; it
-//! sends a denial beside the answers.
+//! The subjects that the broker has forbidden to this process. The broker does not answer a request with a forbidden
+//! subject; it sends a denial beside the answers.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};

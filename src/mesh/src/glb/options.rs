@@ -1,4 +1,4 @@
-//! What a GLB contains besides the mesh or the path.
+//! The content of a GLB besides the mesh or the path.
 
 use serde_json::Value;
 

@@ -18,7 +18,7 @@ pub(crate) struct Assembler {
     after: After,
 }
 
-/// What the next line may continue.
+/// The statement that the next line may continue.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum After {
     /// Nothing.
@@ -30,7 +30,7 @@ enum After {
     ContinuedComment,
 }
 
-/// What a line completes.
+/// The statement that a line completes.
 #[derive(Debug)]
 pub(crate) enum Item<'a> {
     /// A statement.
@@ -133,7 +133,7 @@ impl Assembler {
 /// How a line ends.
 enum LineEnd<'a> {
     Plain,
-    /// With a single `$`. What follows it is ignored.
+    /// With a single `$`. The reader ignores the rest of the line.
     Continued,
     /// With `$$` and a comment.
     Comment(&'a str),

@@ -37,7 +37,7 @@ pub(crate) enum CycleKind {
     Peck(PeckKind),
 }
 
-/// What a CYCLE statement does.
+/// The effect of a CYCLE statement.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Switch {
     /// The points that follow are holes.
@@ -113,7 +113,7 @@ const WORDS: [(&str, Meaning); 39] = [
 const ACCEPTED: &str = "CYCLE/OFF, or DRILL, DEEP, BRKCHP, FACE, REAM, BORE or TAP with the depth (FEDTO or DEPTH), \
                         and RAPTO or CLEAR, RTRCTO or RETURN, STEP or INCR, DWELL, and a feed as in MMPM,200";
 
-/// What was found so far.
+/// The values that were found so far.
 #[derive(Default)]
 struct Found {
     kind: Option<CycleKind>,

@@ -13,7 +13,7 @@ pub(crate) struct Rate {
     millimetres: Option<f64>,
 }
 
-/// What FEDRAT accepts.
+/// The forms of FEDRAT that are accepted.
 pub(crate) const ACCEPTED: &str = "FEDRAT/value,unit or FEDRAT/unit,value with the unit MMPM, IPM, FPM, MMPR, IPR, \
                                    FPR, INVERS, DPM, PERMIN or PERREV";
 

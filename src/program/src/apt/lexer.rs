@@ -3,7 +3,7 @@
 /// One token of a statement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Token<'a> {
-    /// What it is.
+    /// The kind of the token.
     pub(crate) kind: TokenKind,
     /// Its characters, in capitals; the content of quotes.
     pub(crate) text: &'a str,

@@ -1,4 +1,4 @@
-//! What a CL reader remembers between statements.
+//! The state that a CL reader keeps between statements.
 
 use nalgebra::Vector3;
 
@@ -63,7 +63,7 @@ pub(crate) struct Frames {
     pub(crate) machine: Option<[f64; 9]>,
 }
 
-/// What guides a motion along a circle (TLON).
+/// The guides of a motion along a circle (TLON).
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Guides {
     /// The direction at the start.

@@ -54,7 +54,7 @@ impl<'a> Statement<'a> {
         self.head().first().map_or("", |token| token.text)
     }
 
-    /// What follows the slash.
+    /// The tokens after the slash.
     pub(crate) fn arguments(&self) -> &[Token<'a>] {
         let slash = self.tokens.get(self.head).is_some_and(|token| token.is("/"));
         &self.tokens[self.head + usize::from(slash)..]

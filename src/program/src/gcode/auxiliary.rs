@@ -63,7 +63,8 @@ pub(crate) fn dwell(state: &mut State, block: &Block<'_>, codes: &Codes<'_, '_>)
     }
     let text = block.text_of(b"GPXU");
     let Some(word) = block.take(b'P').or_else(|| block.take(b'X')).or_else(|| block.take(b'U')) else {
-        return Err(block.fault("the wait has no time; accepted is G4 P, or G4 X in seconds".to_owned()));
+        let detail = "the wait has no time; accepted is G4 P, or G4 X in seconds";
+        return Err(codes.fault(block, Group::Once, detail.to_owned()));
     };
     let seconds = seconds(state, block, word)?;
     add(state, block, EventKind::Dwell(Dwell::Seconds(seconds)), &text)

@@ -7,7 +7,8 @@ use arrayvec::ArrayVec;
 use crate::diagnostics::shortened;
 use crate::error::ProgramError;
 use crate::gcode::lexer::{MOST_WORDS, Word};
-use crate::numerals::whole;
+use crate::gcode::vocabulary::{Group, general};
+use crate::numerals::{tenths, whole};
 
 /// A block.
 #[derive(Debug)]
@@ -75,9 +76,10 @@ impl<'a> Block<'a> {
         words.join(" ")
     }
 
-    /// A fault of the block as a whole.
+    /// A fault of the block as a whole: at the code of its motion or cycle, otherwise at its first word.
     pub(crate) fn fault(&self, detail: String) -> ProgramError {
-        match self.words.iter().find(|word| word.letter != b'N').or(self.words.first()) {
+        let motion = self.words.iter().find(|word| is_motion(word));
+        match motion.or_else(|| self.words.iter().find(|word| word.letter != b'N')).or(self.words.first()) {
             Some(word) => self.fault_at(word, detail),
             None => ProgramError { line: self.line, column: 1, word: String::new(), detail },
         }
@@ -88,6 +90,12 @@ impl<'a> Block<'a> {
         let column = u32::try_from(word.column + 1).unwrap_or(u32::MAX);
         ProgramError { line: self.line, column, word: shortened(word.text), detail }
     }
+}
+
+/// Whether a word is one of G0 to G3 or a cycle.
+fn is_motion(word: &Word<'_>) -> bool {
+    let meaning = tenths(word.digits).filter(|_| word.letter == b'G').map(general);
+    matches!(meaning, Some(Ok(meaning)) if meaning.group() == Group::Motion)
 }
 
 fn bit(letter: u8) -> u32 {

@@ -20,7 +20,7 @@ pub(crate) struct Codes<'b, 'a> {
     pub(crate) switch: Option<(Switch, &'b Word<'a>)>,
 }
 
-/// What a code of the request does.
+/// The effect of a code of the request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Switch {
     On,
@@ -56,6 +56,14 @@ impl<'b, 'a> Codes<'b, 'a> {
     /// The word of the code of a group.
     pub(crate) fn word(&self, group: Group) -> Option<&'b Word<'a>> {
         self.general[group as usize].map(|(_, word)| word)
+    }
+
+    /// A fault at the code of a group.
+    pub(crate) fn fault(&self, block: &Block<'_>, group: Group, detail: String) -> ProgramError {
+        match self.word(group) {
+            Some(word) => block.fault_at(word, detail),
+            None => block.fault(detail),
+        }
     }
 
     fn add_general(

@@ -31,10 +31,7 @@ pub(crate) fn machine_coordinates(
     }
     if state.motion != Some(Motion::Rapid) {
         let detail = "machine coordinates in a cut are not read; accepted is G53 with G0".to_owned();
-        return Err(match codes.word(Group::Once) {
-            Some(word) => block.fault_at(word, detail),
-            None => block.fault(detail),
-        });
+        return Err(codes.fault(block, Group::Once, detail));
     }
     let incremental = state.modes.incremental;
     leave(state, block, codes, |angle| angle.filter(|_| !incremental))

@@ -52,7 +52,7 @@ const PARAMETER: &str =
 const SUBPROGRAM: &str = "subprograms are not read; accepted is O with digits alone in the first block. Post one \
                           program without calls";
 
-/// What is said about words of several letters.
+/// The details of faults of words of several letters.
 const NAMES: [(&str, &str); 9] = [
     (
         "CYCLE",
@@ -181,7 +181,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// What to say about a letter without a number.
+    /// The slip of a letter without a number.
     fn no_number(&self, begin: usize, letter: u8) -> Slip<'a> {
         let run = self.bytes[begin..].iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
         let name = ascii(&self.bytes[begin..begin + run]);

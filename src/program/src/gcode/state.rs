@@ -1,4 +1,4 @@
-//! What a reader of G-code remembers between blocks.
+//! The state that a reader of G-code keeps between blocks.
 
 use crate::builder::{Builder, ProgrammedFeed};
 use crate::gcode::cycle::Cycle;
@@ -34,7 +34,7 @@ pub(crate) struct State {
     pub(crate) axis: ToolAxis,
 }
 
-/// What coordinates mean.
+/// The meaning of coordinates.
 #[derive(Debug)]
 pub(crate) struct Modes {
     pub(crate) plane: Plane,

@@ -18,20 +18,21 @@ use crate::orientation::{Orientation, unit};
 /// Does what G68.2, G69 and G53.1 of a block say.
 pub(crate) fn apply(state: &mut State, block: &Block<'_>, codes: &Codes<'_, '_>) -> Result<(), ProgramError> {
     match codes.get(Group::Tilt) {
-        Some(Meaning::Tilt) => begin(state, block)?,
+        Some(Meaning::Tilt) => begin(state, block, codes)?,
         Some(_) if state.tilt.is_some() => switch(state, block, None, "G69")?,
         _ => {}
     }
     if codes.get(Group::Once) == Some(Meaning::Align) {
-        align(state, block)?;
+        align(state, block, codes)?;
     }
     Ok(())
 }
 
 /// G68.2: the plane's origin X, Y, Z in the program's frame and its Euler angles I, J, K about z, x and z.
-fn begin(state: &mut State, block: &Block<'_>) -> Result<(), ProgramError> {
+fn begin(state: &mut State, block: &Block<'_>, codes: &Codes<'_, '_>) -> Result<(), ProgramError> {
     if state.cycle.is_some() {
-        return Err(block.fault("a tilted plane cannot begin within a cycle; write G80 before it".to_owned()));
+        let detail = "a tilted plane cannot begin within a cycle; write G80 before it";
+        return Err(codes.fault(block, Group::Tilt, detail.to_owned()));
     }
     for letter in [b'P', b'Q', b'R'] {
         if let Some(word) = block.take(letter)
@@ -76,9 +77,10 @@ fn switch(
 }
 
 /// G53.1: the tool's axis turns to the normal of the plane.
-fn align(state: &mut State, block: &Block<'_>) -> Result<(), ProgramError> {
+fn align(state: &mut State, block: &Block<'_>, codes: &Codes<'_, '_>) -> Result<(), ProgramError> {
     let Some(tilt) = &mut state.tilt else {
-        return Err(block.fault("G53.1 needs a tilted plane; accepted is G68.2 before it".to_owned()));
+        let detail = "G53.1 needs a tilted plane; accepted is G68.2 before it";
+        return Err(codes.fault(block, Group::Once, detail.to_owned()));
     };
     tilt.aligned = true;
     let normal = unit(tilt.direction_to_program([0.0, 0.0, 1.0])).unwrap_or([0.0, 0.0, 1.0]);

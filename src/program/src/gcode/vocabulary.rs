@@ -5,7 +5,7 @@ use crate::event::{Coolant, Rotation};
 use crate::options::Units;
 use crate::work_offset::WorkOffset;
 
-/// What a G code does.
+/// The effect of a G code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Meaning {
     Motion(Motion),
@@ -128,7 +128,7 @@ impl Meaning {
     }
 }
 
-/// What is said of a code that no table knows.
+/// The detail of the fault of a code that no table knows.
 const UNKNOWN: &str = "the G code is not known; accepted are G0 to G4, G17 to G21, G28, G30, G40 to G43, G43.4, G43.5, \
                        G49, G53, G53.1, G54 to G59.3, G61, G64, G68.2, G69, G73, G80 to G83, G85, G89, G90, G91, \
                        G90.1, G91.1, G93 to G95, G98 and G99";
@@ -188,7 +188,10 @@ fn offset(tenths: u32) -> Option<WorkOffset> {
 /// Why a G code is refused.
 fn refused(tenths: u32) -> &'static str {
     match tenths {
-        50..=53 | 62 => "G5 and G6.2 are splines, which are not read; post lines and arcs",
+        50..=53 | 62 => {
+            "G5 to G5.3 and G6.2 are splines, which are not read, or for Fanuc a mode such as G5.1 Q1; post lines and \
+             arcs without the mode"
+        }
         100..=109 => {
             "G10 changes the controller's tables, which are data of the request: setup, offsets and tool_length"
         }
@@ -210,11 +213,14 @@ fn refused(tenths: u32) -> &'static str {
         920..=929 => {
             "G92 shifts the origin, which is not read; state the origin with setup or offsets in the request"
         }
+        2340 => {
+            "G234 of Haas begins control of the tool centre point; state G234 in tcp_on, and G49 in tcp_off"
+        }
         _ => UNKNOWN,
     }
 }
 
-/// What an M code does.
+/// The effect of an M code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Miscellaneous {
     Stop,

@@ -8,7 +8,7 @@ use std::io;
 pub struct OptionsError {
     /// The field of [`JointProgramOptions`](super::JointProgramOptions).
     pub option: &'static str,
-    /// What would be accepted.
+    /// The values that would be accepted.
     pub detail: String,
 }
 

@@ -14,7 +14,7 @@ pub(super) enum EventLine {
     Comment(String),
 }
 
-/// What an event says to the controller. The text of a statement that it has no word for is a comment.
+/// The line that states an event to the controller. The text of a statement that it has no word for is a comment.
 ///
 /// The end of a program is stated by its foot. A move home is only named, since the program does not state where the
 /// joints are then. `speed` is the spindle's, in revolutions per minute: a dwell in revolutions is written in seconds.

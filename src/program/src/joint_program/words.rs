@@ -24,7 +24,7 @@ pub(super) fn words(options: &JointProgramOptions, row: &JointRow) -> Result<[Fi
     Ok(words)
 }
 
-/// What the words mean: one line for the head of the program.
+/// The meaning of the words: one line for the head of the program.
 pub(super) fn legend(options: &JointProgramOptions) -> String {
     let word = |index: usize, axis: &JointAxis| {
         let mut text = format!("{} = ", axis.letter);

@@ -36,8 +36,8 @@ const STANDSTILL: f64 = 1e-6;
 /// let (out, _) = writer.finish()?;
 ///
 /// let lines: Vec<_> = out.split(|byte| *byte == b'\n').map(String::from_utf8_lossy).collect();
-/// assert_eq!(lines[2..5], ["G21 G90 G40 G49 G80 G93", "G0 X600.0 Y600.0 Z600.0 A0.0 C0.5", "M8"]);
-/// assert_eq!(lines[5..7], ["G1 X620.0 Y620.0 Z620.0 A0.0 C0.5 F60.0", "M30"]);
+/// assert_eq!(lines[3..6], ["G21 G90 G40 G49 G80 G93", "G0 X600.0 Y600.0 Z600.0 A0.0 C0.5", "M8"]);
+/// assert_eq!(lines[6..8], ["G1 X620.0 Y620.0 Z620.0 A0.0 C0.5 F60.0", "M30"]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -50,7 +50,7 @@ pub struct JointProgramWriter<W> {
     last: Option<JointRow>,
     /// Where the axes stand; unknown after an insert.
     position: Option<[Fixed; 5]>,
-    /// What the controller remembers; nothing after an event.
+    /// The words that the controller remembers; none after an event.
     modal: Modal,
     /// Time of the rows without a block since the last block, s.
     carried: f64,
@@ -58,6 +58,8 @@ pub struct JointProgramWriter<W> {
     source_line: u32,
     speed: Option<f64>,
     summary: JointProgramSummary,
+    /// The source line of the first block whose F is limited.
+    first_limited: Option<u32>,
     text: String,
 }
 
@@ -89,6 +91,7 @@ impl<W: Write> JointProgramWriter<W> {
             source_line: 0,
             speed: None,
             summary: JointProgramSummary::default(),
+            first_limited: None,
             text: String::new(),
         };
         writer.head()?;
@@ -129,6 +132,13 @@ impl<W: Write> JointProgramWriter<W> {
     /// [`JointProgramError::Write`]: the error of `out`.
     pub fn finish(mut self) -> Result<(W, JointProgramSummary), JointProgramError> {
         self.events_before(usize::MAX)?;
+        if let Some(line) = self.first_limited {
+            let [limit, count] = [significant(self.options.greatest_feed), self.summary.limited.to_string()];
+            let text = format!(
+                "blocks that need more than F{limit} and take longer than planned: {count}, the first of line {line}"
+            );
+            writeln!(self.out, "{}", comment(&text))?;
+        }
         for line in &self.options.foot {
             writeln!(self.out, "{line}")?;
         }
@@ -148,6 +158,9 @@ impl<W: Write> JointProgramWriter<W> {
             .map(|decimals| format!("{:.*}", usize::from(decimals) + 1, 0.5 / 10_f64.powi(decimals.into())));
         let rounding = format!("words differ from joints by at most {length} mm and {angle} degrees");
         writeln!(self.out, "{}", comment(&rounding))?;
+        let limit = significant(self.options.greatest_feed);
+        let limit = format!("F is at most {limit}; if a block needs more, a comment at the end says so");
+        writeln!(self.out, "{}", comment(&limit))?;
         let feed = match self.options.feed {
             FeedWord::InverseTime => "G93",
             FeedWord::PerMinute => "G94",
@@ -187,15 +200,13 @@ impl<W: Write> JointProgramWriter<W> {
             FeedWord::PerMinute => self.last.map_or(0.0, |last| way(&last, row)),
         };
         let feed = way / minutes;
-        // A row without duration, or without a way beside the rounding of its words, is as fast as any may be.
         let greatest = self.options.greatest_feed;
-        let feed = if feed > 0.0 && feed <= greatest {
-            feed
-        } else {
+        if feed > greatest {
             self.summary.limited += 1;
-            greatest
-        };
-        Ok(significant(feed))
+            self.first_limited.get_or_insert(row.line);
+        }
+        // A row without a way beside the rounding of its words is as fast as any may be.
+        Ok(significant(if feed > 0.0 { feed.min(greatest) } else { greatest }))
     }
 
     fn block(

@@ -1,6 +1,6 @@
-//! Comma-separated rows below a row of names.
+//! Rows below a row of names. The row of names tells whether commas, semicolons or tabs separate the columns.
 
-use csv_core::{ReadRecordResult, Reader};
+use csv_core::{ReadRecordResult, Reader, ReaderBuilder};
 
 use crate::builder::Builder;
 use crate::diagnostics::shortened;
@@ -13,6 +13,9 @@ use crate::rows::row_builder::{At, RowBuilder};
 
 /// The most columns of a file.
 const MOST_COLUMNS: usize = 256;
+
+/// The separators of columns. If a row of names has as many of one as of another, the first of them counts.
+const SEPARATORS: [u8; 3] = *b",;\t";
 
 /// The columns that are read.
 const KNOWN: [&str; 11] = ["x", "y", "z", "i", "j", "k", "phi1", "phi2", "feed", "kind", "line"];
@@ -128,7 +131,14 @@ fn set(named: &mut Named, known: usize, text: &str) -> Result<(), String> {
     };
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => *place = Some(value),
-        _ => return Err(format!("{name} must be a finite number with a decimal point")),
+        _ => {
+            let point = text.replacen(',', ".", 1);
+            return Err(if text.contains(',') && point.parse::<f64>().is_ok() {
+                format!("{name} has a decimal comma; write {point}")
+            } else {
+                format!("{name} must be a finite number with a decimal point")
+            });
+        }
     }
     Ok(())
 }
@@ -137,6 +147,9 @@ impl LineReader for CsvReader {
     fn line(&mut self, number: u32, line: &[u8]) {
         if line.trim_ascii().is_empty() {
             return;
+        }
+        if self.columns.is_none() {
+            self.fields.separate_as(line);
         }
         let outcome = if !self.fields.split(line) {
             let detail = format!("a row has at most {MOST_COLUMNS} values, and quotes end in their row");
@@ -151,7 +164,7 @@ impl LineReader for CsvReader {
         let Err(BadValue { field, detail }) = outcome else { return };
         let error = ProgramError {
             line: number,
-            column: Fields::column(field, line),
+            column: self.fields.column(field, line),
             word: shortened(self.fields.get(field)),
             detail,
         };
@@ -177,6 +190,7 @@ impl LineReader for CsvReader {
 /// The fields of one line.
 #[derive(Debug)]
 struct Fields {
+    separator: u8,
     parser: Reader,
     input: Vec<u8>,
     output: Vec<u8>,
@@ -187,12 +201,22 @@ struct Fields {
 impl Fields {
     fn new() -> Self {
         Self {
+            separator: SEPARATORS[0],
             parser: Reader::new(),
             input: Vec::new(),
             output: Vec::new(),
             ends: [0; MOST_COLUMNS],
             count: 0,
         }
+    }
+
+    /// Fields are separated by what separates those of this line: the most frequent separator outside quotes.
+    fn separate_as(&mut self, line: &[u8]) {
+        let counts = SEPARATORS.map(|separator| unquoted(line, separator).count());
+        let most = counts.iter().max();
+        let chosen = SEPARATORS.into_iter().zip(&counts).find(|(_, count)| Some(*count) == most);
+        self.separator = chosen.map_or(SEPARATORS[0], |(separator, _)| separator);
+        self.parser = ReaderBuilder::new().delimiter(self.separator).build();
     }
 
     /// Splits a line. False if it has too many fields or an open quote.
@@ -217,15 +241,21 @@ impl Fields {
     }
 
     /// The byte of the line where a field begins, from 1.
-    fn column(field: usize, line: &[u8]) -> u32 {
-        let mut quoted = false;
-        let mut delimiters = 0;
-        let at = line.iter().position(|byte| {
-            let here = delimiters == field;
-            quoted ^= *byte == b'"';
-            delimiters += usize::from(*byte == b',' && !quoted);
-            here
-        });
-        u32::try_from(at.unwrap_or(line.len()) + 1).unwrap_or(u32::MAX)
+    fn column(&self, field: usize, line: &[u8]) -> u32 {
+        let mut separators = unquoted(line, self.separator);
+        let at = match field.checked_sub(1) {
+            Some(before) => separators.nth(before).map_or(line.len(), |at| at + 1),
+            None => 0,
+        };
+        u32::try_from(at + 1).unwrap_or(u32::MAX)
     }
+}
+
+/// The places of a byte in a line outside quotes.
+fn unquoted(line: &[u8], byte: u8) -> impl Iterator<Item = usize> {
+    let mut quoted = false;
+    line.iter().enumerate().filter_map(move |(at, here)| {
+        quoted ^= *here == b'"';
+        (*here == byte && !quoted).then_some(at)
+    })
 }

@@ -65,7 +65,7 @@ pub(crate) struct Named {
     pub(crate) line: Option<u32>,
 }
 
-/// What a row has to have.
+/// The names that a row needs, and those that it may have.
 pub(crate) const NAMES: &str =
     "x, y, z; then i, j, k, or phi1, phi2, or no orientation; optionally feed, kind, line";
 

@@ -11,11 +11,11 @@ use crate::rows::row::{Row, RowOrientation};
 pub(crate) struct RowBuilder {
     pub(crate) builder: Builder,
     millimetres: f64,
-    /// The orientation of the first row; all rows state theirs in the same way.
-    first: Option<RowOrientation>,
+    /// Whether a row has stated an orientation.
+    is_oriented: bool,
 }
 
-/// What a fault of a row is about.
+/// The place of a fault in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum At {
     /// The row as a whole.
@@ -27,7 +27,7 @@ pub(crate) enum At {
 impl RowBuilder {
     pub(crate) fn new(options: &ReadOptions) -> Self {
         let millimetres = options.units.unwrap_or(Units::Millimetres).millimetres();
-        Self { builder: Builder::new(options), millimetres, first: None }
+        Self { builder: Builder::new(options), millimetres, is_oriented: false }
     }
 
     /// Adds the row of a line, or says what is wrong with it.
@@ -37,7 +37,7 @@ impl RowBuilder {
                 return Err((At::Name(name), format!("{name} must be a finite number")));
             }
         }
-        let orientation = self.orientation(row.orientation)?;
+        let orientation = self.orientation(row.line.unwrap_or(line), row.orientation)?;
         let target = Target {
             line: row.line.unwrap_or(line),
             kind: row.kind,
@@ -48,12 +48,12 @@ impl RowBuilder {
         self.builder.line(target).map_err(|detail| (At::Row, detail))
     }
 
-    fn orientation(&mut self, orientation: RowOrientation) -> Result<Orientation, (At, String)> {
-        let first = *self.first.get_or_insert(orientation);
-        if std::mem::discriminant(&first) != std::mem::discriminant(&orientation) {
-            let detail = "every row must state its orientation in the same way as the first: i, j, k, or phi1, phi2, \
-                          or none";
-            return Err((At::Row, detail.to_owned()));
+    fn orientation(&mut self, line: u32, orientation: RowOrientation) -> Result<Orientation, (At, String)> {
+        if orientation != RowOrientation::None {
+            self.is_oriented = true;
+        } else if self.is_oriented {
+            let detail = "a row without an orientation after one with an orientation: its axis is (0, 0, 1)";
+            self.builder.diagnostics.warn(line, "", detail);
         }
         match orientation {
             RowOrientation::None => Ok(Orientation::Vector([0.0, 0.0, 1.0])),

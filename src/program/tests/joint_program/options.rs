@@ -44,6 +44,7 @@ fn the_head_says_what_the_words_mean() {
         "(machine 0123abcd)",
         "(X = rho1, Y = rho2, Z = 1600.5 - rho3, A = -theta1, C = theta2)",
         "(words differ from joints by at most 0.00005 mm and 0.000005 degrees)",
+        "(F is at most 99999.0; if a block needs more, a comment at the end says so)",
         "G21 G90 G40 G49 G80 G93",
         "M2",
         "%",

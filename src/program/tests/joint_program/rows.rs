@@ -110,6 +110,21 @@ fn a_row_without_duration_or_motion_divides_by_nothing() {
 }
 
 #[test]
+fn the_program_says_that_the_greatest_f_limits_blocks() {
+    let at = |step, x| row(step, [x, 0.0, 0.0, 0.0, 0.0], Some(0.5));
+    let rows = [at(0, 1.0), at(1, 2.0), at(2, 3.0)];
+    let limited = |greatest_feed| {
+        let options = JointProgramOptions { greatest_feed, ..JointProgramOptions::default() };
+        let (text, summary) = write(&options, &[], &rows).unwrap();
+        let line = text.lines().rev().nth(1).unwrap_or_default().to_owned();
+        (summary.limited, line)
+    };
+    let comment = "(blocks that need more than F60.0 and take longer than planned: 2, the first of line 3)";
+    assert_eq!(limited(60.0), (2, comment.to_owned()));
+    assert_eq!(limited(120.0), (0, "X3.0 F120.0".to_owned()));
+}
+
+#[test]
 fn a_feed_without_duration_is_refused_with_its_line() {
     let rows = [row(0, [600.0; 5], None), row(1, [601.0; 5], None)];
     let outcome = write(&JointProgramOptions::default(), &[], &rows);

@@ -127,7 +127,7 @@ fn a_cycle_can_be_resumed_and_prepared() {
 
 #[test]
 fn a_tapping_cycle_says_what_it_leaves_out() {
-    let program = mm("CYCLE/TAP,DEPTH,8,MMPR,1.25,CLEAR,3\nGOTO/0,0,0");
+    let program = mm("SPINDL/300,CLW\nCYCLE/TAP,DEPTH,8,MMPR,1.25,CLEAR,3\nGOTO/0,0,0");
     assert_eq!(strokes(&program), "r3 f-8 f3");
     assert!(warnings(&program)[0].contains("reversal"));
 }

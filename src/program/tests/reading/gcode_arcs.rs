@@ -127,10 +127,11 @@ fn an_arc_that_is_none_is_refused() {
         ("G3 X0 Y10 I-10 K1 F9", "K1", "accepted are I and J"),
         ("G18 G3 X0 Z10 I-10 J2 F9", "J2", "accepted are K and I"),
         ("G3 X10 Y0 R5 F9", "R5", "full circle"),
-        ("G90.1 G3 X0 Y10 I0 F9", "G90.1", "both with G90.1"),
+        ("G90.1 G3 X0 Y10 I0 F9", "G3", "both with G90.1"),
         ("G3 X0 Y10 I-10 P0 F9", "P0", "from 1 to 1000"),
         ("G3 X0 Y10 I-10 P1.5 F9", "P1.5", "whole number"),
         ("G3 X0 Y10 I0 J0 F9", "G3", "begins at its centre"),
+        ("N20 G17 G90 G3 X0 Y11 I-10 F9", "G3", "misses the circle"),
     ] {
         let error = nc_fault(&format!("G0 X10 Y0 Z0\n{block}"));
         assert_eq!((error.line, error.word.as_str()), (3, word), "{error}");

@@ -1,4 +1,4 @@
-//! What a planner needs about lengths and origins.
+//! The lengths and origins that a planner needs.
 
 use verne_program::{EventKind, LengthSource, WorkOffset, packed};
 

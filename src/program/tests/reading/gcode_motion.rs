@@ -2,7 +2,7 @@
 
 use verne_program::{EventKind, Feed, FeedUnit, Format, MoveKind, ReadOptions, Units, read};
 
-use crate::{assert_near, evenly, gcode, nc, nc_fault, tips, warnings};
+use crate::{assert_near, evenly, gcode, mm, nc, nc_fault, tips, warnings};
 
 fn feeds(text: &str) -> Vec<Option<Feed>> {
     nc(text).moves().iter().map(verne_program::Move::feed).collect()
@@ -136,6 +136,28 @@ fn a_feed_is_per_minute_inverse_time_or_per_turn() {
     for (text, word) in [("G1 X1 F0", "F0"), ("G1 X1 F-5", "F-5"), ("G1 X1 F9999999999", "F9999999999")] {
         assert_eq!(nc_fault(&format!("G0 X0 Y0 Z0\n{text}")).word, word);
     }
+}
+
+#[test]
+fn a_feed_per_turn_without_a_speed_of_the_spindle_is_a_warning() {
+    let per_turn =
+        "a feed per turn of the spindle, which does not turn or has no speed (S, SPINDL): the drives decide";
+    for (text, warned) in [
+        ("G95 G1 X1 F.2", Some(3)),
+        ("M3\nG95 G1 X1 F.2\nX2", Some(4)),
+        ("S0 M3\nG95 G1 X1 F.2", Some(4)),
+        ("S900 M3\nG95 G1 X1 F.2\nM5\nX2", Some(6)),
+        ("S900 M3\nG95 G1 X1 F.2\nG94 M5\nX2 F9", None),
+        ("S900\nM3\nG95 G1 X1 F.2", None),
+        ("S900 M5\nM4\nG95 G1 X1 F.2", None),
+        ("G95 G0 X1", None),
+    ] {
+        let program = nc(&format!("G0 X0 Y0 Z0\n{text}"));
+        let found = program.warnings().list.iter().find(|warning| warning.detail == per_turn);
+        assert_eq!(found.map(|warning| warning.line), warned, "{text}");
+    }
+    assert_eq!(warnings(&mm("FEDRAT/0.2,MMPR\nGOTO/0,0,0")), [per_turn]);
+    assert!(warnings(&mm("SPINDL/900,RPM,CLW\nFEDRAT/0.2,MMPR\nGOTO/0,0,0")).is_empty());
 }
 
 #[test]

@@ -151,6 +151,8 @@ fn shifts_splines_and_unknown_codes_are_refused_by_name() {
         ("G92.1", "G92 shifts"),
         ("G10 L2 P1 X0", "G10 changes"),
         ("G5 X1 Y1 I0 J0 P1 Q1", "splines"),
+        ("G05.1 Q1", "a mode such as G5.1 Q1"),
+        ("G234 H1", "G234 in tcp_on"),
         ("G41.2 D1", "tool centre point"),
         ("G43.1 Z1", "with H"),
         ("G54.1 P3", "G54 to G59.3"),

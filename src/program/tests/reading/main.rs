@@ -1,4 +1,4 @@
-//! What the readers make of small programs, one peculiarity each.
+//! The readers and small programs, one peculiarity each.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
@@ -19,6 +19,7 @@ mod motion;
 mod packed;
 mod rows;
 mod sources;
+mod tables;
 mod texts;
 mod tools;
 

@@ -83,6 +83,26 @@ fn further_columns_are_left_out_with_a_warning() {
 }
 
 #[test]
+fn the_row_of_names_tells_what_separates_the_columns() {
+    let expected = csv("x,y,z,note\n1,2.5,3,a\n4,5,6,b\n");
+    for separator in [";", "\t", " ; "] {
+        let text = ["x,y,z,note", "1,2.5,3,\"a\"", "4,5,6,b\n"].join("\n").replace(',', separator);
+        assert_eq!(tips(&csv(&text)), tips(&expected), "{separator}");
+    }
+    assert_eq!(csv("x;y;z;\"a, b, c, d, e\"\n1;2;3;\"4;5\"\n").moves().len(), 1);
+    refused(Format::Csv, "x;y;z\n1;2\n", (2, 3, "2"), "2 values; accepted are 3");
+    refused(Format::Csv, "x\ty\tz\n1\tq\t3\n", (2, 3, "q"), "finite number");
+}
+
+#[test]
+fn a_decimal_comma_is_refused_by_name() {
+    let detail = "a decimal comma; write 1.5";
+    refused(Format::Csv, "x;y;z\n0;-1,5;3\n", (2, 3, "-1,5"), "a decimal comma; write -1.5");
+    refused(Format::Csv, "x\ty\tz\n1,5\t2\t3\n", (2, 1, "1,5"), detail);
+    refused(Format::Csv, "x,y,z\n\"1,5\",2,3\n", (2, 1, "1,5"), detail);
+}
+
+#[test]
 fn csv_that_is_not_understood_is_refused_at_its_value() {
     use Format::Csv;
     refused(Csv, "1,2,3\n4,5,6\n", (1, 1, "1"), "name the columns");
@@ -95,7 +115,7 @@ fn csv_that_is_not_understood_is_refused_at_its_value() {
     refused(Csv, "x,y,z\n1,NaN,3\n", (2, 3, "NaN"), "finite number");
     refused(Csv, "x,y,z\n1,2,inf\n", (2, 5, "inf"), "finite number");
     refused(Csv, "x,y,z\n1,2,1e999\n", (2, 5, "1e999"), "finite number");
-    refused(Csv, "x,y,z\n\"1,5\",2,3\n", (2, 1, "1,5"), "decimal point");
+    refused(Csv, "x,y,z\n1.5.2,2,3\n", (2, 1, "1.5.2"), "finite number");
     refused(Csv, "x,y,z\n1,,3\n", (2, 1, "1"), "x, y and z");
     refused(Csv, "x,y,z,kind\n1,2,3,retract\n", (2, 7, "retract"), "feed and rapid");
     refused(Csv, "x,y,z,feed\n1,2,3,0\n", (2, 7, "0"), "positive");
@@ -143,9 +163,27 @@ fn ndjson_that_is_not_understood_is_refused_at_its_column() {
 }
 
 #[test]
-fn all_rows_state_their_orientation_in_the_same_way() {
-    refused(Format::Ndjson, "[0,0,0]\n[1,0,0,0,0]\n", (2, 1, ""), "same way");
-    refused(Format::Ndjson, "[0,0,0,0,0,1]\n[1,0,0]\n", (2, 1, ""), "same way");
+fn each_row_states_its_orientation_in_its_own_way() {
+    let program =
+        ndjson("[0,0,0]\n[1,0,0,90,0]\n[2,0,0,0,-3,4]\n{\"x\":3,\"y\":0,\"z\":0,\"phi1\":0,\"phi2\":0}\n");
+    let orientations: Vec<_> = program.moves().iter().map(verne_program::Move::orientation).collect();
+    let rotary = |phi1| Orientation::Rotary { phi1, phi2: 0.0 };
+    let vector = Orientation::Vector;
+    assert_eq!(
+        orientations,
+        [vector([0.0, 0.0, 1.0]), rotary(FRAC_PI_2), vector([0.0, -0.6, 0.8]), rotary(0.0)]
+    );
+    assert_eq!(program.warnings().total, 0);
+    assert_eq!(csv("x,y,z,i,j,k\n0,0,0,0,-3,4\n1,0,0,,,\n").moves()[1].axis(), [0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn a_row_without_an_orientation_after_one_with_an_orientation_is_a_warning() {
+    let program = ndjson("[0,0,0]\n[0,0,1,0,-3,4]\n[1,0,0]\n");
+    assert_eq!(program.moves()[2].axis(), [0.0, 0.0, 1.0]);
+    let warning = &program.warnings().list[0];
+    assert_eq!(warning.line, 3);
+    assert!(warning.detail.contains("(0, 0, 1)"), "{warning:?}");
 }
 
 #[test]

@@ -91,6 +91,18 @@ fn utf_16_is_refused_by_name() {
 }
 
 #[test]
+fn utf_32_is_refused_by_name() {
+    for text in ["UNITS/MM\r\nGOTO/1,2,3\r\n", "%\nO1\n"] {
+        let little: Vec<u8> = text.chars().flat_map(|c| u32::from(c).to_le_bytes()).collect();
+        let big: Vec<u8> = text.chars().flat_map(|c| u32::from(c).to_be_bytes()).collect();
+        for bytes in [[b"\xFF\xFE\0\0", &*little].concat(), [b"\0\0\xFE\xFF", &*big].concat(), little, big] {
+            let refused = faults_of(Format::Apt, &bytes);
+            assert!(refused.to_string().contains("UTF-32; save it as UTF-8"), "{refused}");
+        }
+    }
+}
+
+#[test]
 fn chunks_of_any_size_give_the_same_program() {
     let text = "\u{FEFF}UNITS/MM\r\n$$ é ü\nGOTO/1,2,$\n3,0,0,1\nCIRCLE/0,0,0,0,0,1\nGOTO/-1,-2,3";
     let whole = read(Format::Apt, text.as_bytes(), &ReadOptions::default()).unwrap();

@@ -22,7 +22,7 @@ use crate::limits::admission::{Admission, RequestClass};
 use crate::limits::error::LimitError;
 use crate::limits::keys::Keys;
 use crate::limits::keys_file::KeysFileError;
-use crate::limits::rate::{AddressBuckets, Rate, TokenBucket};
+use crate::limits::rate::{AddressBuckets, Rate};
 use crate::wire::role::Role;
 
 /// Who may use a route of a service with keys, and how its requests are admitted.
@@ -112,13 +112,15 @@ impl AccessControl {
         let by_address = |has_rate| {
             let (name, has_quota) = peer(extensions);
             record_client(&name);
-            self.addresses.iter().filter(|_| has_rate).try_for_each(|addresses| addresses.take(&name))?;
-            Ok::<_, LimitError>((name, has_quota))
+            let bucket =
+                self.addresses.as_ref().filter(|_| has_rate).map(|addresses| addresses.bucket(&name));
+            bucket.iter().try_for_each(|bucket| bucket.take())?;
+            Ok::<_, LimitError>((name, has_quota, bucket))
         };
         let Some(keys) = self.keys.as_ref().filter(|_| role.is_some()) else {
-            let (name, has_quota) = by_address(has_rate)?;
+            let (name, has_quota, bucket) = by_address(has_rate)?;
             let role = if self.keys.is_some() { Role::Read } else { Role::Admin };
-            return Ok(Client { name, role, has_quota, is_cross_origin, key: None });
+            return Ok(Client { name, role, has_quota, is_cross_origin, bucket, key: None });
         };
         let sent = headers.typed_get::<Authorization<Bearer>>();
         let Some(key) = sent.and_then(|sent| keys.accept(sent.token())) else {
@@ -128,9 +130,10 @@ impl AccessControl {
         };
         let holder = &key.holder;
         record_client(&holder.name);
-        holder.bucket.iter().filter(|_| has_rate).try_for_each(TokenBucket::take)?;
+        let bucket = holder.bucket.clone().filter(|_| has_rate);
+        bucket.iter().try_for_each(|bucket| bucket.take())?;
         let (name, role) = (holder.name.clone(), holder.role);
-        Ok(Client { name, role, has_quota: true, is_cross_origin, key: Some(key) })
+        Ok(Client { name, role, has_quota: true, is_cross_origin, bucket, key: Some(key) })
     }
 }
 

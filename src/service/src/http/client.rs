@@ -1,6 +1,7 @@
 //! The client that sends a request.
 
 use std::net::SocketAddr;
+use std::sync::Arc;
 
 use axum::extract::{ConnectInfo, FromRequestParts};
 use axum::http::Extensions;
@@ -11,6 +12,7 @@ use crate::http::error::{AccessError, HttpError};
 use crate::http::state::SharedState;
 use crate::limits::client_address::client_name;
 use crate::limits::keys::AcceptedKey;
+use crate::limits::rate::TokenBucket;
 use crate::wire::error::OperationError;
 use crate::wire::role::Role;
 
@@ -25,6 +27,8 @@ pub(crate) struct Client {
     pub has_quota: bool,
     /// Whether a web page of another origin sends the request. Such a page may read, but not start anything.
     pub is_cross_origin: bool,
+    /// The rate of the client, if it has one.
+    pub bucket: Option<Arc<TokenBucket>>,
     /// The key that the client sent, if the route requires one.
     pub key: Option<AcceptedKey>,
 }

@@ -97,6 +97,15 @@ impl<W: Write> Decoder<W> {
         written.map_err(|error| explained(self.coding, error))
     }
 
+    /// The sink.
+    pub(crate) fn sink_mut(&mut self) -> &mut W {
+        match &mut self.stage {
+            Stage::Identity(sink) => sink,
+            Stage::Gzip(decoder) => decoder.get_mut(),
+            Stage::Brotli(decoder) => decoder.get_mut(),
+        }
+    }
+
     /// The sink, after the last byte.
     pub(crate) fn finish(self) -> Result<W, HttpError> {
         let sink = match self.stage {

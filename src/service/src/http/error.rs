@@ -90,6 +90,11 @@ pub(crate) enum RequestError {
     UnsupportedCoding(String),
     #[error("The decoded body is larger than the limit of {0} bytes.")]
     BodyTooLarge(usize),
+    #[error(
+        "The body did not arrive within {0} s. Send it compressed with Content-Encoding: gzip, or over a faster \
+         connection. The operator can allow more time with --timeout."
+    )]
+    SlowBody(u64),
     #[error("The service cannot read the body: {0}.")]
     UnreadableBody(String),
 }

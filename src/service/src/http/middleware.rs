@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use axum::Router;
 use axum::body::HttpBody;
+use axum::http::Response;
 use axum::http::header::ETAG;
-use axum::http::{Response, StatusCode};
 use axum::middleware::from_fn_with_state;
 use tower::ServiceBuilder;
 use tower_http::CompressionLevel;
@@ -14,13 +14,13 @@ use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
 use tower_http::compression::predicate::{DefaultPredicate, Predicate};
 use tower_http::request_id::{MakeRequestUuid, PropagateRequestIdLayer, SetRequestIdLayer};
-use tower_http::timeout::TimeoutLayer;
 
 use crate::http::forwarded_for::client_behind;
 use crate::http::problem::add_missing_problem;
 use crate::http::proxy::ProxyNetwork;
 use crate::http::request_log::{RequestObserver, observe, remove_long_id};
 use crate::http::security_headers::BrowserPolicy;
+use crate::http::time_limit::limit_time;
 use crate::telemetry::metrics::requests::RequestMetrics;
 
 /// Adds the layers to the routes. The first layer here is the outermost. They are one stack because each call of
@@ -43,7 +43,7 @@ pub(crate) fn wrap(
             .map_response(browsers.add_headers())
             .map_response(add_missing_problem)
             .layer(compression())
-            .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, time_limit))
+            .layer(from_fn_with_state(time_limit, limit_time))
             .layer(CatchPanicLayer::new()),
     )
 }

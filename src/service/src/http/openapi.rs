@@ -1,16 +1,28 @@
 //! The OpenAPI document: generated from the handlers, with examples whose answers the solver computes.
 
+mod bare_references;
 pub(crate) mod body_schemas;
 pub(crate) mod examples;
 pub(crate) mod machine_schema;
+mod one_media_type;
+mod operations;
+mod optional_fields;
 pub(crate) mod problem_responses;
 pub(crate) mod security;
+pub(crate) mod table_examples;
+mod version_3_0;
+pub(crate) mod versions;
 
 use serde_json::{Value, json};
 use utoipa::OpenApi;
 
+use crate::http::openapi::bare_references::bare_references;
 use crate::http::openapi::examples::examples;
 use crate::http::openapi::machine_schema::join_descriptions;
+use crate::http::openapi::one_media_type::keep_one_media_type;
+use crate::http::openapi::operations::drop_unused;
+use crate::http::openapi::optional_fields::describe_defaults;
+use crate::http::openapi::table_examples::write_table_examples;
 use crate::http::problem::Problem;
 use crate::wire::dexterity::DexteritySummary;
 use crate::wire::family::FamilySummary;
@@ -63,12 +75,18 @@ use crate::wire::workspace_summary::WorkspaceSummary;
 )]
 pub(crate) struct Document;
 
-/// The document as JSON, with an example of each request and its answer.
+/// The document as JSON, as generators of clients read it, with an example of each request and its answer.
 pub(crate) fn complete(api: &utoipa::openapi::OpenApi) -> Value {
     let mut document = json!(api);
+    keep_one_media_type(&mut document);
     for example in examples() {
         example.write_into(&mut document);
     }
+    write_table_examples(&mut document);
     join_descriptions(&mut document);
+    bare_references(&mut document);
+    describe_defaults(&mut document);
+    // No operation lists some codes, such as that of an unknown path.
+    drop_unused(&mut document, "examples");
     document
 }

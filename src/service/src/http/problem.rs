@@ -58,7 +58,6 @@ fn error_of_status(status: StatusCode) -> HttpError {
         StatusCode::METHOD_NOT_ALLOWED => HttpError::MethodNotAllowed,
         StatusCode::NOT_FOUND => HttpError::UnknownPath,
         StatusCode::NOT_ACCEPTABLE => HttpError::NoAcceptableCoding,
-        StatusCode::SERVICE_UNAVAILABLE => HttpError::TimedOut,
         StatusCode::INTERNAL_SERVER_ERROR => OperationError::Internal.into(),
         _ => RequestError::UnreadableBody(status.to_string()).into(),
     }
@@ -132,7 +131,7 @@ fn header_of(error: &HttpError) -> Option<(HeaderName, HeaderValue)> {
     }
 }
 
-/// Adds a problem document to an error response of axum or tower that has none: wrong method, time limit, panic, no
+/// Adds a problem document to an error response of axum or tower that has none: wrong method, panic, no
 /// acceptable coding. Headers such as Allow stay.
 pub(crate) fn add_missing_problem<B>(response: axum::http::Response<B>) -> Response
 where

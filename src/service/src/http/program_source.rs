@@ -67,6 +67,7 @@ fn media_type(format: Format) -> &'static str {
         Format::Apt | Format::Gcode => "text/plain",
         Format::Csv => "text/csv",
         Format::Ndjson => "application/x-ndjson",
+        Format::Arrow => "application/vnd.apache.arrow.stream",
     }
 }
 

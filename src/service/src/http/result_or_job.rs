@@ -103,13 +103,14 @@ impl AppState {
         let submission = question.submission(parameters, client.name.clone(), Some(self.limits.job))?;
         self.results.questions.insert(Arc::clone(question));
         let claim = self.jobs.submit(submission).await.map_err(JobError::from)?;
-        if wait_policy.wait.is_zero() {
+        let longest = wait_policy.wait();
+        if longest.is_zero() {
             return Ok(ResultOrJob::Job(detach(&claim)));
         }
         let wait = async {
             tokio::select! {
                 job = claim.finished() => Ok(Some(job)),
-                () = tokio::time::sleep(wait_policy.wait) => Ok(None),
+                () = tokio::time::sleep(longest) => Ok(None),
                 () = self.stopping.cancelled() => {
                     // The response says that the job continues after the next start.
                     claim.detach();

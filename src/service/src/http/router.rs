@@ -11,10 +11,12 @@ use axum::Router;
 use axum::routing::{any, get};
 use serde_json::Value;
 use utoipa::OpenApi;
+use utoipa::openapi::Paths;
 use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouter};
 use utoipa_axum::routes;
 
 use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
+use crate::http::format_paths;
 use crate::http::handlers::{
     batch, dexterity, jobs, joint_program, kinematics, machines, programs, results, service, toolpath,
     toolpath_rows, workspace,
@@ -33,7 +35,7 @@ pub fn document() -> Value {
 }
 
 /// Each route with its access.
-fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 30] {
+fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 31] {
     [
         (Key(Read, Fast), routes!(kinematics::get_fk, kinematics::post_fk)),
         (Key(Read, Fast), routes!(kinematics::get_ik, kinematics::post_ik)),
@@ -50,6 +52,7 @@ fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 30] {
         (Key(Read, Other), routes!(programs::get_program)),
         (Key(Read, Other), routes!(programs::get_source)),
         (Key(Compute, Other), routes!(toolpath::post_toolpath)),
+        (Key(Compute, Other), routes!(toolpath::post_toolpath_file)),
         (Key(Read, Other), routes!(toolpath::get_report)),
         (Key(Read, Other), routes!(toolpath_rows::get_rows)),
         (Key(Read, Other), routes!(joint_program::get_joint_program)),
@@ -84,7 +87,18 @@ pub(crate) fn routes(control: &AccessControl) -> OpenApiRouter<SharedState> {
     let fallback = control.guard(any(service::unknown_path), Open);
     let router = OpenApiRouter::with_openapi(document).fallback(fallback);
     list().into_iter().fold(router, |router, (access, (schemas, paths, route))| {
-        let route = control.guard(reject_unknown(route, &paths), access);
-        router.routes((schemas, security::with_access_problems(paths, access), route))
+        let guarded = |paths: &Paths, route| control.guard(reject_unknown(route, paths), access);
+        let formats = format_paths::of(&paths, &route);
+        let (router, listed) = if format_paths::is_listed(&paths) {
+            (router, Some((paths, route)))
+        } else {
+            let of_path =
+                |router: OpenApiRouter<_>, path: &String| router.route(path, guarded(&paths, route.clone()));
+            (paths.paths.keys().fold(router, of_path), None)
+        };
+        listed.into_iter().chain(formats).fold(router, |router, (paths, route)| {
+            let route = guarded(&paths, route);
+            router.routes((schemas.clone(), security::with_access_problems(paths, access), route))
+        })
     })
 }

@@ -7,9 +7,9 @@ use moka::future::Cache;
 use tokio_util::sync::CancellationToken;
 use verne_jobs::{Backend, JobId};
 
+use crate::http::openapi::versions::Documents;
 use crate::http::proxy::BasePath;
 use crate::http::readiness::Readiness;
-use crate::http::static_content::StaticContent;
 use crate::limits::admission::Admission;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::results::Results;
@@ -58,7 +58,7 @@ pub(crate) struct AppState {
     /// The path under which the service is published.
     pub base: BasePath,
     /// The OpenAPI document.
-    pub document: StaticContent,
+    pub documents: Documents,
     /// Cancelled when the service stops.
     pub stopping: CancellationToken,
 }

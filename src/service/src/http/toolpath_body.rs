@@ -42,10 +42,18 @@ impl FromRequest<SharedState> for ToolpathBody {
             refuse_parameters(&query)?;
             return BatchBody::from_request(request, state).await.map(Self::Json);
         }
-        let [reading, options] = divided(&query);
+        FileRequest::from_request(request, state).await.map(|file| Self::File(Box::new(file)))
+    }
+}
+
+impl FromRequest<SharedState> for FileRequest {
+    type Rejection = HttpError;
+
+    async fn from_request(request: Request, state: &SharedState) -> Result<Self, HttpError> {
+        let [reading, options] = divided(request.uri().query().unwrap_or_default());
         let (reading, query) = (parse_query(&reading)?, parse_query(&options)?);
         let body = ProgramBody::from_request(request, state).await?;
-        Ok(Self::File(Box::new(FileRequest { reading, query, body })))
+        Ok(Self { reading, query, body })
     }
 }
 

@@ -1,7 +1,7 @@
 //! How long a request waits for the result of its job, by the header Prefer (RFC 7240).
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
@@ -24,7 +24,9 @@ pub(crate) struct WaitPolicy {
     /// The permit that the request returns while it waits.
     pub permit: Arc<RequestPermit>,
     /// The wait after which the response is 202. Zero: the request does not wait.
-    pub wait: Duration,
+    wait: Duration,
+    /// The end of every wait: the time limit of the request is near then.
+    latest: Instant,
     /// The preference of the request that applies.
     applied: Option<String>,
 }
@@ -41,17 +43,27 @@ impl FromRequestParts<SharedState> for WaitPolicy {
             0 => "respond-async".to_owned(),
             seconds => format!("wait={seconds}"),
         });
-        Ok(Self { client, permit, wait, applied })
+        let latest = Instant::now() + state.limits.longest_wait;
+        Ok(Self { client, permit, wait, latest, applied })
     }
 }
 
 impl WaitPolicy {
+    /// The wait from now on. It is shorter than preferred after a body that has arrived slowly.
+    pub(crate) fn wait(&self) -> Duration {
+        wait_until(self.latest, self.wait, Instant::now())
+    }
+
     /// States in the response which preference applied.
     pub(crate) fn state_preference<B>(self, response: &mut Response<B>) {
         if let Some(value) = self.applied.and_then(|applied| HeaderValue::from_str(&applied).ok()) {
             response.headers_mut().insert(PREFERENCE_APPLIED, value);
         }
     }
+}
+
+fn wait_until(latest: Instant, preferred: Duration, now: Instant) -> Duration {
+    preferred.min(latest.saturating_duration_since(now))
 }
 
 /// The wait that the request prefers. With both preferences, the response is asynchronous after `wait`.
@@ -77,11 +89,24 @@ fn preferred_wait(headers: &HeaderMap) -> Option<Duration> {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
-    use std::time::Duration;
+    use std::time::{Duration, Instant};
 
     use axum::http::{HeaderMap, HeaderValue};
 
-    use super::{PREFER, preferred_wait};
+    use super::{PREFER, preferred_wait, wait_until};
+
+    #[test]
+    fn a_wait_ends_before_the_time_limit_also_after_a_slow_body() {
+        let began = Instant::now();
+        let seconds = Duration::from_secs;
+        for (now, wait) in [(0, 10), (19, 10), (25, 4), (29, 0), (31, 0)] {
+            assert_eq!(
+                wait_until(began + seconds(29), seconds(10), began + seconds(now)),
+                seconds(wait),
+                "{now}"
+            );
+        }
+    }
 
     #[test]
     fn preferences_follow_rfc_7240() {

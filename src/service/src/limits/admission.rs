@@ -5,6 +5,9 @@
 //!   waits for a job.
 //! - A batch has a permit of its own from the end of its body until its response is sent. The worker threads compute
 //!   batches in order.
+//! - A batch that is answered while its rows arrive, a table, has a permit of another kind: it may last for any time.
+//!   There are fewer of these, so that some memory of bodies is left for other batches. The worker threads compute its
+//!   chunks in turn with all other work.
 //! - The encoding of a mesh as a file has a permit. Few encodings run at once; the others wait in order.
 //! - Bodies that are read and responses that are sent are counted by their memory.
 //!
@@ -22,6 +25,10 @@ use crate::limits::response_memory::{CountedBody, memory_of};
 /// Most batches that wait, are computed or are sent. All bodies together may use the memory of this many of the largest
 /// bodies: half a gibibyte with the default limit.
 const BATCHES: usize = 32;
+
+/// A table takes the memory of this many of the largest bodies: the bytes that are read ahead, a message of Arrow that
+/// is incomplete, and one that is answered.
+const TABLE_BODIES: usize = 3;
 
 /// Most meshes that are encoded at once. Each is in memory three times: packed, as a mesh and as a file. This is some
 /// hundred megabytes for the largest.
@@ -63,6 +70,8 @@ pub(crate) struct Admission {
     pub(super) bodies: Arc<Quota>,
     /// Batches whose bodies are complete, until their responses are sent.
     pub batches: Arc<Quota>,
+    /// Batches that are answered while their rows arrive, until their answers are sent.
+    pub(super) row_streams: Arc<Quota>,
     /// Encodings of meshes that wait or run.
     pub(super) meshes: Arc<Quota>,
     /// Encodings of meshes that run.
@@ -86,6 +95,7 @@ impl Admission {
             slow_requests: Quota::new(requests - requests / 4),
             bodies: Quota::new(bodies),
             batches: Quota::new(batches),
+            row_streams: Quota::new(batches / 4),
             meshes: Quota::new(batches),
             running_meshes: Quota::new(MESHES),
             programs: Quota::new(2 * pages(PROGRAM_BYTES as u64)),
@@ -115,6 +125,17 @@ impl Admission {
     /// The memory of a body, before any of it is read.
     pub(crate) fn body(&self, client: Option<&str>) -> Result<BodyMemory, LimitError> {
         self.bodies.take(client).map(BodyMemory)
+    }
+
+    /// A permit for a table with its memory, before any of it is read. A body has at most this many bytes.
+    pub(crate) fn table(
+        &self,
+        client: Option<&str>,
+        body_bytes: usize,
+    ) -> Result<[QuotaPermit; 2], LimitError> {
+        let stream = self.row_streams.take(client)?;
+        let memory = TABLE_BODIES.saturating_mul(pages(body_bytes as u64));
+        Ok([self.bodies.take_many(client, memory)?, stream])
     }
 
     /// The memory of a program that is received, before any of it is read.
@@ -204,92 +225,4 @@ impl RequestPermit {
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
-mod tests {
-    use std::sync::Arc;
-
-    use futures_util::FutureExt;
-
-    use super::{Admission, RequestClass};
-    use crate::limits::error::LimitError;
-
-    fn free(admission: &Admission) -> (usize, usize) {
-        (admission.requests.left(), admission.slow_requests.left())
-    }
-
-    #[tokio::test]
-    async fn a_request_returns_its_permit_while_it_waits() {
-        let admission = Admission::new(4, 1);
-        let permit = admission.admit(RequestClass::Other, None).unwrap();
-        assert_eq!(free(&admission), (3, 2));
-        let seen = permit.return_during(async { free(&admission) }).await;
-        assert_eq!((seen, free(&admission)), (Some((4, 3)), (3, 2)));
-        drop(permit);
-        assert_eq!(free(&admission), (4, 3));
-    }
-
-    #[tokio::test]
-    async fn the_number_of_waiting_requests_is_limited() {
-        let admission = Admission::new(4, 1);
-        let permit = admission.admit(RequestClass::Other, None).unwrap();
-        let waiting: Vec<_> = std::iter::from_fn(|| admission.waiting.take(None).ok()).collect();
-        assert_eq!(permit.return_during(async {}).await, None);
-        assert_eq!(free(&admission), (3, 2), "the request has its permit");
-        drop(waiting);
-        assert_eq!(permit.return_during(async {}).await, Some(()));
-    }
-
-    #[test]
-    fn a_service_has_at_least_one_permit_of_each_kind() {
-        let admission = Admission::new(0, 1);
-        drop(admission.admit(RequestClass::Other, None).unwrap());
-        let permit = admission.admit(RequestClass::Fast, None).unwrap();
-        assert!(
-            admission.admit(RequestClass::Fast, None).is_err()
-                && admission.admit(RequestClass::Monitoring, None).is_ok()
-        );
-        assert!(admission.batches.take(None).is_ok() && Arc::strong_count(&permit) == 1);
-    }
-
-    #[test]
-    fn bodies_count_received_bytes_and_no_client_takes_all_memory() {
-        let admission = Admission::new(8, 1_000_000);
-        let mut body = admission.body(Some("a")).unwrap();
-        for bytes in [0, 1, 500_000, 1_000_000] {
-            body.grow_to(bytes).unwrap();
-        }
-        let mut second = admission.body(Some("a")).unwrap();
-        second.grow_to(1_000_000).unwrap();
-        assert!(admission.body(Some("a")).is_err());
-        let mut other = admission.body(Some("b")).unwrap();
-        other.grow_to(1_000_000).unwrap();
-        drop(second);
-        assert!(admission.body(Some("a")).is_ok());
-    }
-
-    #[tokio::test]
-    async fn few_meshes_are_encoded_at_once_and_the_others_wait_in_order() {
-        let admission = Admission::new(64, 1);
-        let mut permits = Vec::new();
-        for _ in 0..super::MESHES {
-            permits.push(admission.mesh(Some("a")).await.unwrap());
-        }
-        let mut waiting: Vec<_> =
-            (0..super::BATCHES / 2 - super::MESHES).map(|_| Box::pin(admission.mesh(Some("a")))).collect();
-        for permit in &mut waiting {
-            assert!(permit.as_mut().now_or_never().is_none());
-        }
-        assert_eq!(admission.mesh(Some("a")).await.unwrap_err(), LimitError::Overloaded);
-        assert!(admission.mesh(Some("b")).now_or_never().is_none(), "other clients have the other half");
-        drop(permits.pop());
-        assert!(waiting[1].as_mut().now_or_never().is_none());
-        assert!(waiting[0].as_mut().now_or_never().is_some());
-    }
-
-    #[test]
-    fn no_client_takes_all_streams() {
-        let admission = Admission::new(8, 1);
-        let streams: Vec<_> = std::iter::from_fn(|| admission.streams.take(Some("a")).ok()).collect();
-        assert_eq!(streams.len(), super::STREAMS / 2);
-        assert!(admission.streams.take(Some("b")).is_ok());
-    }
-}
+mod tests;

@@ -26,7 +26,7 @@ pub(crate) struct KeyHolder {
     /// The role.
     pub role: Role,
     /// The rate. The bucket is full again after the file was read again.
-    pub bucket: Option<TokenBucket>,
+    pub bucket: Option<Arc<TokenBucket>>,
 }
 
 /// Holders by the hashes of their keys.
@@ -88,10 +88,19 @@ impl Entry {
 
 /// Reads the keys of a file. `default` applies to keys without a rate of their own.
 pub(crate) fn read(path: &Path, default: Option<Rate>) -> Result<KeyTable, KeysFileError> {
+    let unreadable = |error: std::io::Error| KeysFileError {
+        path: path.to_owned(),
+        location: None,
+        reason: error.to_string(),
+    };
+    parse(path, &std::fs::read_to_string(path).map_err(unreadable)?, default)
+}
+
+/// Reads the keys of the text of a file.
+pub(crate) fn parse(path: &Path, text: &str, default: Option<Rate>) -> Result<KeyTable, KeysFileError> {
     let bad = |location, reason| KeysFileError { path: path.to_owned(), location, reason };
-    let text = std::fs::read_to_string(path).map_err(|error| bad(None, error.to_string()))?;
     let Document { key } =
-        toml::from_str(&text).map_err(|error| bad(None, toml_error::describe(&error, &text)))?;
+        toml::from_str(text).map_err(|error| bad(None, toml_error::describe(&error, text)))?;
     let mut keys = KeyTable::new();
     for (i, entry) in key.into_iter().enumerate() {
         let location = location(i + 1, &entry);
@@ -103,7 +112,7 @@ pub(crate) fn read(path: &Path, default: Option<Rate>) -> Result<KeyTable, KeysF
         if entry.rate.is_none() && entry.rate_burst.is_some() {
             return Err(bad(Some(format!("{location}: rate_burst")), "needs a rate".to_owned()));
         }
-        let bucket = entry.rate(default).map(TokenBucket::new);
+        let bucket = entry.rate(default).map(|rate| Arc::new(TokenBucket::new(rate)));
         let holder = Arc::new(KeyHolder { name: entry.name, role: entry.role, bucket });
         if keys.insert(entry.hash, holder).is_some() {
             return Err(bad(Some(location), "its hash is that of an earlier entry".to_owned()));

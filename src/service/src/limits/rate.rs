@@ -8,6 +8,7 @@ use governor::clock::{Clock, DefaultClock};
 use governor::{DefaultDirectRateLimiter, Quota, RateLimiter};
 use moka::policy::EvictionPolicy;
 use moka::sync::Cache;
+use tokio::time::sleep;
 
 use crate::limits::error::LimitError;
 
@@ -47,6 +48,43 @@ impl TokenBucket {
     }
 }
 
+impl TokenBucket {
+    /// Waits for a token, and takes it.
+    async fn wait(&self) {
+        while let Err(not_until) = self.0.check() {
+            sleep(not_until.wait_time_from(DefaultClock::default().now())).await;
+        }
+    }
+}
+
+/// Charges the rows of a table to its client: a token for as many rows as a batch in JSON may have. A client that has
+/// none left waits.
+#[derive(Debug)]
+pub(crate) struct RowCharge {
+    bucket: Option<Arc<TokenBucket>>,
+    rows_per_token: usize,
+    /// Rows that are paid for.
+    paid: usize,
+}
+
+impl RowCharge {
+    /// The token of the request pays for the first rows. Without a bucket there is no limit.
+    pub(crate) fn new(bucket: Option<Arc<TokenBucket>>, rows_per_token: usize) -> Self {
+        let rows_per_token = rows_per_token.max(1);
+        Self { bucket, rows_per_token, paid: rows_per_token }
+    }
+
+    /// Charges some rows.
+    pub(crate) async fn charge(&mut self, rows: usize) {
+        let Some(bucket) = &self.bucket else { return };
+        while self.paid < rows {
+            bucket.wait().await;
+            self.paid += self.rows_per_token;
+        }
+        self.paid -= rows;
+    }
+}
+
 /// Whole seconds until there is a token.
 fn seconds(wait: Duration) -> u64 {
     wait.as_secs() + u64::from(wait.subsec_nanos() > 0)
@@ -66,8 +104,31 @@ impl AddressBuckets {
         Self { rate, buckets: buckets.build() }
     }
 
-    /// Takes a token of an address.
-    pub(crate) fn take(&self, address: &str) -> Result<(), LimitError> {
-        self.buckets.get_with_by_ref(address, || Arc::new(TokenBucket::new(self.rate))).take()
+    /// The bucket of an address.
+    pub(crate) fn bucket(&self, address: &str) -> Arc<TokenBucket> {
+        self.buckets.get_with_by_ref(address, || Arc::new(TokenBucket::new(self.rate)))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use std::num::NonZeroU32;
+    use std::sync::Arc;
+
+    use futures_util::FutureExt;
+
+    use super::{Rate, RowCharge, TokenBucket};
+
+    #[tokio::test]
+    async fn rows_take_the_tokens_of_as_many_batches() {
+        let rate = Rate::new(1, NonZeroU32::new(2)).unwrap();
+        let bucket = Arc::new(TokenBucket::new(rate));
+        let mut charge = RowCharge::new(Some(Arc::clone(&bucket)), 10);
+        assert!(charge.charge(10).now_or_never().is_some(), "the request has paid");
+        assert!(charge.charge(15).now_or_never().is_some(), "two tokens");
+        assert!(charge.charge(5).now_or_never().is_some(), "the rest of the second one");
+        assert!(charge.charge(1).now_or_never().is_none() && bucket.take().is_err());
+        assert!(RowCharge::new(None, 10).charge(1_000_000).now_or_never().is_some());
     }
 }

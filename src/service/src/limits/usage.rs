@@ -16,11 +16,12 @@ pub(crate) struct Usage {
 
 impl Admission {
     /// The use of permits.
-    pub(crate) fn permits(&self) -> [Usage; 6] {
+    pub(crate) fn permits(&self) -> [Usage; 7] {
         [
             ("requests", &self.requests),
             ("work", &self.slow_requests),
             ("batches", &self.batches),
+            ("row_streams", &self.row_streams),
             ("meshes", &self.meshes),
             ("waiting", &self.waiting),
             ("streams", &self.streams),

@@ -37,6 +37,34 @@ pub(crate) enum RowOutcome {
     Invalid(String),
 }
 
+impl RowOutcome {
+    /// The status.
+    pub(crate) fn status(&self) -> Status {
+        match self {
+            Self::Ok(_) => Status::Ok,
+            Self::Unreachable(_) => Status::Unreachable,
+            Self::Infeasible(_) => Status::Infeasible,
+            Self::Invalid(_) => Status::Invalid,
+        }
+    }
+
+    /// The margin.
+    pub(crate) fn margin(&self) -> Option<Margin> {
+        match self {
+            Self::Ok(margin) | Self::Unreachable(margin) | Self::Infeasible(margin) => Some(*margin),
+            Self::Invalid(_) => None,
+        }
+    }
+
+    /// Why the row cannot be used.
+    pub(crate) fn detail(&self) -> Option<&str> {
+        match self {
+            Self::Invalid(detail) => Some(detail),
+            _ => None,
+        }
+    }
+}
+
 /// The numbers that a row may have. The first three numbers are lengths in mm; one or two more are angles in degrees,
 /// three more a direction.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +83,11 @@ impl RowFormat {
     /// The row if its numbers and its length are accepted.
     fn checked(self, row: Row) -> Result<Row, String> {
         let has_direction = row.len() == ROW_WITH_AXIS;
-        row.iter().enumerate().try_for_each(|(i, &number)| check_item(i, number, has_direction))?;
+        let fault =
+            row.iter().enumerate().find_map(|(i, &number)| Some((i, fault_of(i, number, has_direction)?)));
+        if let Some((i, fault)) = fault {
+            return Err(format!("item {i} {fault}"));
+        }
         if self.lengths.contains(&row.len()) { Ok(row) } else { Err(self.expected()) }
     }
 }
@@ -92,17 +124,15 @@ impl BatchRow for &RawValue {
     }
 }
 
-fn check_item(i: usize, number: f64, has_direction: bool) -> Result<(), String> {
+/// Why number i of a row cannot be used, if it cannot.
+pub(crate) fn fault_of(i: usize, number: f64, has_direction: bool) -> Option<String> {
     if i >= 3 && has_direction {
-        return if number.is_finite() { Ok(()) } else { Err(format!("item {i} must be a finite number")) };
+        return (!number.is_finite()).then(|| "must be a finite number".to_owned());
     }
     if i < 3 && !is_length(number) {
-        return Err(format!("item {i} must be within ±{MAX_INPUT:e} mm"));
+        return Some(format!("must be within ±{MAX_INPUT:e} mm"));
     }
-    if i >= 3 && !is_angle(number) {
-        return Err(format!("item {i} must be within ±{LARGEST_ANGLE} degrees"));
-    }
-    Ok(())
+    (i >= 3 && !is_angle(number)).then(|| format!("must be within ±{LARGEST_ANGLE} degrees"))
 }
 
 /// The text up to the first comma, and the text after it. Items are short: the standard library's search is made for
@@ -157,19 +187,14 @@ pub(crate) fn row_report(
         ..RowReport::default()
     };
     for (row, outcome) in outcomes.enumerate() {
-        let (status, margin) = match outcome {
-            RowOutcome::Ok(margin) => (Status::Ok, Some(margin)),
-            RowOutcome::Unreachable(margin) => (Status::Unreachable, Some(margin)),
-            RowOutcome::Infeasible(margin) => (Status::Infeasible, Some(margin)),
-            RowOutcome::Invalid(detail) => {
-                if report.errors.len() < MAX_EXPLAINED {
-                    report.errors.push(RowError { row, detail });
-                }
-                (Status::Invalid, None)
-            }
-        };
+        let status = outcome.status();
         count(&mut report.counts, status);
-        let limit = margin.map(Limit::from);
+        let limit = outcome.margin().map(Limit::from);
+        if let RowOutcome::Invalid(detail) = outcome
+            && report.errors.len() < MAX_EXPLAINED
+        {
+            report.errors.push(RowError { row, detail });
+        }
         report.status.push(status);
         report.constraint.push(limit.as_ref().map(|limit| limit.constraint));
         report.margin.push(limit.as_ref().map(|limit| limit.value));

@@ -15,6 +15,7 @@ use crate::wire::field_errors::{FieldErrors, out_of_proportion};
 use crate::wire::json::write_json;
 use crate::wire::limit::Limit;
 use crate::wire::parse::parse_body;
+use crate::wire::workspace::WorkspaceRequest;
 
 /// About the bytes of an answered point.
 const POINT_BYTES: usize = 96;
@@ -34,33 +35,59 @@ pub(crate) fn answer_contains(
     if rows > max_rows {
         return Err(OperationError::TooManyRows { rows, limit: max_rows });
     }
-    let question = WorkspaceQuestion::new(&request.workspace(), machines)?;
-    let machine = &*question.machine;
-    let mut faults = FieldErrors::default();
-    faults.proportion("/tool_length", question.request.tool_length.unwrap_or_default(), machine);
-    faults.into_result()?;
-    let points: Vec<Result<Point, String>> = request
-        .points
-        .items()
-        .par_iter()
-        .with_min_len(MIN_CHUNK)
-        .map(|row| {
-            let row = row.numbers(POINT)?;
-            let fault = row.iter().find_map(|&length| out_of_proportion(length, machine));
-            fault.map_or(Ok([row[0], row[1], row[2]]), |fault| Err(format!("each coordinate {fault}")))
-        })
-        .collect();
-    let valid: Vec<Point> = points.iter().flatten().copied().collect();
-    let found = contains(machine, &Request::from(&question.request), &valid, observer);
-    let mut memberships = found.map_err(workspace_error)?.into_iter();
-    let mut answer = ContainsAnswer::with_capacity(&question, rows);
+    let batch = PointBatch::new(&request.workspace(), machines)?;
+    let points = batch.answer(request.points.items(), observer)?;
+    let mut answer = ContainsAnswer::with_capacity(&batch.question, rows);
     for point in points {
         match point {
-            Ok(_) => answer.add(memberships.next().ok_or(OperationError::Internal)?),
+            Ok(membership) => answer.add(membership),
             Err(detail) => answer.add_invalid(detail),
         }
     }
     write_json(&answer, POINT_BYTES * rows)
+}
+
+/// What all points share.
+pub(crate) struct PointBatch {
+    pub(crate) question: WorkspaceQuestion,
+}
+
+impl PointBatch {
+    /// Checks what all points share.
+    pub(crate) fn new(
+        request: &WorkspaceRequest,
+        machines: &MachineRegistry,
+    ) -> Result<Self, OperationError> {
+        let question = WorkspaceQuestion::new(request, machines)?;
+        let mut faults = FieldErrors::default();
+        let tool_length = question.request.tool_length.unwrap_or_default();
+        faults.proportion("/tool_length", tool_length, &question.machine);
+        faults.into_result()?;
+        Ok(Self { question })
+    }
+
+    /// Answers some points; for a malformed one, why it cannot be used.
+    pub(crate) fn answer<R: BatchRow>(
+        &self,
+        rows: &[R],
+        observer: &dyn Observer,
+    ) -> Result<Vec<Result<Membership, String>>, OperationError> {
+        let machine = &*self.question.machine;
+        let points = rows.par_iter().with_min_len(MIN_CHUNK).map(|row| {
+            let row = row.numbers(POINT)?;
+            let fault = row.iter().find_map(|&length| out_of_proportion(length, machine));
+            fault.map_or(Ok([row[0], row[1], row[2]]), |fault| Err(format!("each coordinate {fault}")))
+        });
+        let points: Vec<Result<Point, String>> = points.collect();
+        let valid: Vec<Point> = points.iter().flatten().copied().collect();
+        let found = contains(machine, &Request::from(&self.question.request), &valid, observer);
+        let mut memberships = found.map_err(workspace_error)?.into_iter();
+        let mut answered = |_| memberships.next().ok_or(OperationError::Internal);
+        points
+            .into_iter()
+            .map(|point| point.map_or_else(|detail| Ok(Err(detail)), |point| answered(point).map(Ok)))
+            .collect()
+    }
 }
 
 impl ContainsAnswer {

@@ -15,25 +15,26 @@ use crate::wire::batch::Row;
 /// Rows that are solved before the choice goes through them.
 const BLOCK: usize = 4096;
 
-/// An answered row.
-pub(crate) struct ContinuousRow {
+/// The joints of a row.
+pub(crate) struct AnsweredPose {
     pub(crate) joints: Option<Row>,
     pub(crate) outcome: RowOutcome,
-    /// `None` for a row without a solution.
+    /// `None` for a row without a solution, and in a batch that is not continuous.
     pub(crate) jump: Option<bool>,
 }
 
 /// A row and its candidates; those of the pole are solved when theta2 is known.
 type SolvedRow = Result<(PartRow, Candidates), String>;
 
-/// Answers all rows in order. `start` is where the machine stands before the first one.
+/// Answers all rows in order. `standing` is where the machine stands before the first one, and then where it stands
+/// after the last one.
 pub(crate) fn answer_continuous<R: BatchRow>(
     setting: Setting<'_>,
     format: RowFormat,
     rows: &[R],
-    start: Option<Standing>,
-) -> Vec<ContinuousRow> {
-    let mut walk = Walk { setting, standing: start };
+    standing: &mut Option<Standing>,
+) -> Vec<AnsweredPose> {
+    let mut walk = Walk { setting, standing };
     let mut answered = Vec::with_capacity(rows.len());
     for block in rows.chunks(BLOCK) {
         let solved = block.par_iter().with_min_len(MIN_CHUNK);
@@ -56,23 +57,23 @@ impl Setting<'_> {
     }
 
     /// The answer of a row with its solution.
-    pub(crate) fn answered(&self, row: Result<Chosen, RowOutcome>) -> ContinuousRow {
+    pub(crate) fn answered(&self, row: Result<Chosen, RowOutcome>) -> AnsweredPose {
         let chosen = match row {
             Ok(chosen) => chosen,
-            Err(outcome) => return ContinuousRow { joints: None, outcome, jump: None },
+            Err(outcome) => return AnsweredPose { joints: None, outcome, jump: None },
         };
         let Chosen { posture, jump, .. } = chosen;
         let table = TablePosition::from(chosen.table);
         let joints = Some(posture.rho.into_iter().chain(table.degrees).collect());
         let outcome = outcome_of_solution(self.machine, &posture, Some(table.angles), self.clearance);
-        ContinuousRow { joints, outcome, jump: Some(jump) }
+        AnsweredPose { joints, outcome, jump: Some(jump) }
     }
 }
 
 /// The way from row to row.
 struct Walk<'a> {
     setting: Setting<'a>,
-    standing: Option<Standing>,
+    standing: &'a mut Option<Standing>,
 }
 
 impl Walk<'_> {
@@ -104,7 +105,7 @@ impl Walk<'_> {
     fn choose(&mut self, row: &SolvedRow) -> Result<Chosen, RowOutcome> {
         let (row, candidates) = row.as_ref().map_err(|detail| RowOutcome::Invalid(detail.clone()))?;
         let chosen = self.setting.choose(self.standing.as_ref(), row, candidates)?;
-        self.standing = Some(Standing::after(row, &chosen, candidates));
+        *self.standing = Some(Standing::after(row, &chosen, candidates));
         Ok(chosen)
     }
 }

@@ -5,8 +5,10 @@ use verne_solver::workspace::Observer;
 use verne_solver::workspace::dexterity::{Dexterity, DexterityRequest, Region, merge};
 
 use crate::operations::dexterity_question::DexterityQuestion;
-use crate::operations::dexterity_subtasks::{grid, read_slab, read_volumes};
+use crate::operations::dexterity_subtasks::{compute_slab, compute_volumes, grid, read_slab, read_volumes};
+use crate::operations::observers::equal_section;
 use crate::operations::solver_errors::workspace_error;
+use crate::operations::subtask::{Subtask, SubtaskRequest};
 use crate::wire::degrees::to_degrees;
 use crate::wire::dexterity::{
     DexterityCells, DexterityLinks, DexteritySummary, GridObject, SetName, SetObject,
@@ -30,6 +32,26 @@ pub(crate) struct DexterityMap {
     pub cells: Vec<u8>,
     /// The surfaces of the reachable and of the dexterous points.
     pub meshes: [Mesh; 2],
+}
+
+/// Computes a map, without a store for the results of its subtasks.
+pub(crate) fn compute_map(
+    question: &DexterityQuestion,
+    observer: &dyn Observer,
+) -> Result<DexterityMap, OperationError> {
+    let subtasks = Subtask::of_map(question);
+    let (mut slabs, mut volumes) = (Vec::new(), Vec::new());
+    for (i, subtask) in subtasks.iter().enumerate() {
+        let section = equal_section(observer, i, subtasks.len());
+        match subtask.request {
+            SubtaskRequest::Slab { number, count, .. } => {
+                slabs.push(compute_slab(question, [number, count], &section)?);
+            }
+            SubtaskRequest::Volumes(_) => volumes = compute_volumes(question, &section)?,
+            SubtaskRequest::Member(_) => return Err(OperationError::Internal),
+        }
+    }
+    merge_map(question, &slabs, &volumes, observer)
 }
 
 /// Merges a map from its slabs, in any order, and its volumes. Call it on the compute pool.

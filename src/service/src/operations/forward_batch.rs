@@ -1,5 +1,7 @@
 //! `/fk/batch`: the working pose for many joint positions.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use serde_json::value::RawValue;
 use verne_solver::axis::tool_axis;
@@ -12,7 +14,7 @@ use crate::operations::batch_rows::{
     BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_margins,
     outcome_of_refusal, row_report,
 };
-use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Orientation, Row};
 use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::error::OperationError;
@@ -30,16 +32,16 @@ const JOINTS_WITH_TABLE: RowFormat = RowFormat {
     description: "[rho1, rho2, rho3, theta1, theta2]: table_clearance needs theta1",
 };
 
-/// One answered row.
-struct AnsweredRow {
-    pose: Option<Row>,
-    part: Option<Row>,
-    outcome: RowOutcome,
+/// The poses of a row.
+pub(crate) struct AnsweredJoints {
+    pub(crate) pose: Option<Row>,
+    pub(crate) part: Option<Row>,
+    pub(crate) outcome: RowOutcome,
     /// Whether the row gives theta1.
     has_theta1: bool,
 }
 
-impl AnsweredRow {
+impl AnsweredJoints {
     fn with_solution(pose: &PlatformPose, part: Option<Row>, outcome: RowOutcome) -> Self {
         let has_theta1 = part.is_some();
         let pose = [pose.x, pose.y, pose.z, to_degrees(pose.alpha)].into_iter().collect();
@@ -69,28 +71,52 @@ fn answer<R: BatchRow>(
     machines: &MachineRegistry,
     max_rows: usize,
 ) -> Result<Vec<u8>, OperationError> {
-    let tool = request.tool();
-    check_batch(tool, None, request.joints.len(), max_rows)?;
-    let machine = machines.resolve(&request.machine)?;
-    let clearance = tool.clearance(&machine);
-    let rows: Vec<_> = request
-        .joints
-        .items()
-        .par_chunks(MIN_CHUNK)
-        .flat_map_iter(|rows| answer_rows(&machine, tool, clearance.as_ref(), request.orientation, rows))
-        .collect();
+    let batch = JointBatch::new(request, machines, max_rows)?;
+    let rows = batch.answer(request.joints.items());
     let (mut poses, mut parts) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
     let mut outcomes = Vec::with_capacity(rows.len());
-    let mut table_checked = clearance.is_some();
-    for AnsweredRow { pose, part, outcome, has_theta1 } in rows {
+    let mut table_checked = batch.clearance.is_some();
+    for AnsweredJoints { pose, part, outcome, has_theta1 } in rows {
         table_checked &= has_theta1;
         poses.push(pose);
         parts.push(part);
         outcomes.push(outcome);
     }
     let report = row_report(outcomes.into_iter(), table_checked);
-    let answer = FkBatchAnswer { machine: machine.id.clone(), poses, parts, report };
+    let answer = FkBatchAnswer { machine: batch.machine.id.clone(), poses, parts, report };
     write_json(&answer, ROW_BYTES * answer.poses.len())
+}
+
+/// What all rows of a batch share.
+pub(crate) struct JointBatch {
+    pub(crate) machine: Arc<IdentifiedMachine>,
+    pub(crate) tool: Tool,
+    clearance: Option<Clearance>,
+    pub(crate) orientation: Orientation,
+}
+
+impl JointBatch {
+    /// Checks what all rows share. Of the rows only the number is checked.
+    pub(crate) fn new<R>(
+        request: &FkBatchRequest<R>,
+        machines: &MachineRegistry,
+        max_rows: usize,
+    ) -> Result<Self, OperationError> {
+        let tool = request.tool();
+        check_batch(tool, None, request.joints.len(), max_rows)?;
+        let machine = machines.resolve(&request.machine)?;
+        let clearance = tool.clearance(&machine);
+        Ok(Self { machine, tool, clearance, orientation: request.orientation })
+    }
+
+    /// Answers some rows.
+    pub(crate) fn answer<R: BatchRow>(&self, rows: &[R]) -> Vec<AnsweredJoints> {
+        let Self { machine, tool, clearance, orientation } = self;
+        let chunks = rows.par_chunks(MIN_CHUNK);
+        chunks
+            .flat_map_iter(|rows| answer_rows(machine, *tool, clearance.as_ref(), *orientation, rows))
+            .collect()
+    }
 }
 
 /// Sliders, and theta1 and theta2 if the row gives them.
@@ -103,7 +129,7 @@ fn answer_rows(
     clearance: Option<&Clearance>,
     orientation: Orientation,
     rows: &[impl BatchRow],
-) -> Vec<AnsweredRow> {
+) -> Vec<AnsweredJoints> {
     let format = if tool.table_clearance.is_none() { JOINTS } else { JOINTS_WITH_TABLE };
     let read: Vec<Result<Joints, String>> =
         rows.iter().map(|row| row.numbers(format).map(|row| joints(&row))).collect();
@@ -121,17 +147,17 @@ fn answer_rows(
     let answered = read.into_iter().map(|row| {
         let table = match row {
             Ok((_, table)) => table,
-            Err(detail) => return Some(AnsweredRow::without_solution(RowOutcome::Invalid(detail), true)),
+            Err(detail) => return Some(AnsweredJoints::without_solution(RowOutcome::Invalid(detail), true)),
         };
         Some(match solved.next()? {
             Ok(posture) => {
                 let part = table.map(|table| {
                     part_row(&part_pose(machine, &posture.pose, table, tool.length), orientation)
                 });
-                AnsweredRow::with_solution(&posture.pose, part, outcomes.next()?)
+                AnsweredJoints::with_solution(&posture.pose, part, outcomes.next()?)
             }
             Err(refusal) => {
-                AnsweredRow::without_solution(outcome_of_refusal(machine, refusal), table.is_some())
+                AnsweredJoints::without_solution(outcome_of_refusal(machine, refusal), table.is_some())
             }
         })
     });

@@ -1,6 +1,8 @@
 //! The joint program of a stored tool path.
 
-use verne_program::joint_program::{JointProgramError, JointProgramOptions, JointProgramWriter, JointRow};
+use verne_program::joint_program::{
+    JointProgramError, JointProgramOptions, JointProgramWriter, JointRow, RapidWord,
+};
 use verne_program::{Event, Program};
 use verne_solver::toolpath::RowKind;
 
@@ -19,13 +21,15 @@ impl JointProgramText {
     ///
     /// # Errors
     ///
-    /// [`OperationError::Fields`]: an option cannot be met, or the words would be coarser than the tolerances.
+    /// [`OperationError::Fields`]: an option cannot be met, the words would be coarser than the tolerances, or rapids
+    /// have no durations.
     pub(crate) fn new(
         mut options: JointProgramOptions,
         question: &ToolpathQuestion,
         program: &Program,
     ) -> Result<Self, OperationError> {
         check_decimals(&options, question.request.tolerance)?;
+        check_rapids(&options, question.request.drives.is_some())?;
         let machine = &question.machine.id;
         options.comments = vec![
             format!("verne {}, tool path {}", env!("CARGO_PKG_VERSION"), question.id),
@@ -70,6 +74,16 @@ fn check_decimals(options: &JointProgramOptions, tolerance: Tolerance) -> Result
         })
         .collect();
     if faults.is_empty() { Ok(()) } else { Err(OperationError::Fields(faults)) }
+}
+
+/// Whether rapids have the durations that their word needs.
+fn check_rapids(options: &JointProgramOptions, has_drives: bool) -> Result<(), OperationError> {
+    if options.rapids == RapidWord::G0 || has_drives {
+        return Ok(());
+    }
+    let detail = "g1 needs the duration of rapids, which the drives of the machine determine; plan the tool path with \
+                  drives in the machine, or use g0";
+    Err(OperationError::Fields(vec![FieldError::new("/query/rapid_word", detail)]))
 }
 
 /// Whether a joint program can state the speed of every row of a chunk.

@@ -35,7 +35,12 @@ pub(crate) fn machine_hash(data: &MachineData) -> String {
     let l = &data.limits;
     l.stroke.into_iter().flatten().for_each(&mut put);
     let limits = [l.slider_cone, l.platform_cone, l.serial_margin, l.parallel_margin];
-    limits.into_iter().chain(l.tilt).chain(l.rotary).for_each(&mut put);
+    limits.into_iter().chain(l.tilt).for_each(&mut put);
+    match l.rotary {
+        Some(range) => range.into_iter().for_each(&mut put),
+        // No range has its limits the wrong way round.
+        None => [f64::INFINITY, f64::NEG_INFINITY].into_iter().for_each(&mut put),
+    }
     for axes in [l.slider_axes, l.platform_axes] {
         put(if axes.is_some() { 1.0 } else { 0.0 });
         axes.into_iter().flatten().flatten().for_each(&mut put);

@@ -12,7 +12,7 @@ use verne_program::{Move, MoveKind, Orientation, Program, ProgramErrors};
 use verne_solver::Machine;
 use verne_solver::toolpath::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
 
-use crate::operations::program_motions::check::check_motions;
+use crate::operations::program_motions::check::{Checked, check_motions};
 use crate::operations::program_motions::frame::Frame;
 use crate::operations::program_motions::sections::{Section, Sections};
 use crate::wire::canonical_toolpath::CanonicalToolpath;
@@ -25,6 +25,7 @@ pub(crate) struct ProgramMotions {
     sections: Vec<Section>,
     frames: Vec<Frame>,
     orientation: Option<OrientationName>,
+    hold_rotary: bool,
     /// What the plan takes from the program instead of the request.
     pub warnings: Vec<WarningObject>,
 }
@@ -42,8 +43,10 @@ impl ProgramMotions {
         machine: &Machine,
     ) -> Result<Self, ProgramErrors> {
         let Sections { list: sections, frames, warnings } = Sections::of(&program, request)?;
-        let motions = Self { program, sections, frames, orientation: request.orientation, warnings };
-        check_motions(&motions.program, &motions, request.orientation, machine)?;
+        let CanonicalToolpath { orientation, hold_rotary, .. } = *request;
+        let motions = Self { program, sections, frames, orientation, hold_rotary, warnings };
+        let Self { program, sections, .. } = &motions;
+        check_motions(&motions, &Checked { program, sections, orientation, machine })?;
         Ok(motions)
     }
 
@@ -57,21 +60,35 @@ impl ProgramMotions {
         self.program.moves().get(index).map_or(0, Move::line)
     }
 
+    fn frame(&self, index: usize) -> &Frame {
+        &self.frames[self.section(index).frame as usize]
+    }
+
     fn section(&self, index: usize) -> &Section {
         let after = self.sections.partition_point(|section| section.first as usize <= index);
         // The first section begins at the first move.
         &self.sections[after.saturating_sub(1)]
     }
 
-    fn turning(&self, start: &Move, end: &Move, frame: &Frame) -> Turning {
+    /// The motion of the axis between two moves' ends, each with its frame.
+    fn turning(&self, [(start, before), (end, frame)]: [(&Move, &Frame); 2]) -> Turning {
         if self.orientation == Some(OrientationName::Vector) {
             return Turning::GreatCircle;
         }
-        match (start.orientation(), end.orientation()) {
-            (Orientation::Rotary { phi1: start1, phi2: start2 }, Orientation::Rotary { phi1, phi2 }) => {
-                Turning::Angles { start: [start1, start2], end: [phi1, phi2], frame: frame.rotation }
-            }
-            _ => Turning::GreatCircle,
+        let words = |step: &Move| match step.orientation() {
+            Orientation::Rotary { phi1, phi2 } => Some([phi1, phi2]),
+            Orientation::Vector(_) => None,
+        };
+        let (Some(start), Some(end)) = (words(start), words(end)) else { return Turning::GreatCircle };
+        if self.hold_rotary {
+            let turned = |[phi1, phi2]: [f64; 2], frame: &Frame| [phi1, phi2 + frame.azimuth()];
+            return Turning::Held { start: turned(start, before), end: turned(end, frame) };
+        }
+        // In another frame, the axis before the move has other words.
+        if before.rotation == frame.rotation {
+            Turning::Angles { start, end, frame: frame.rotation }
+        } else {
+            Turning::GreatCircle
         }
     }
 
@@ -92,19 +109,26 @@ impl Motions for ProgramMotions {
     fn motion(&self, index: usize) -> Motion {
         let section = self.section(index);
         let frame = &self.frames[section.frame as usize];
-        let end = &self.program.moves()[index];
-        let before = index.checked_sub(1).map(|before| &self.program.moves()[before]);
-        let is_feed = end.kind() == MoveKind::Feed;
-        let arrives = section.first as usize == index;
+        let moves = self.program.moves();
+        let end = &moves[index];
         let position = ToolPosition { tip: frame.point(end.tip()), axis: frame.direction(end.axis()) };
-        let (kind, curve, turning) = match before {
-            Some(start) if !arrives => {
-                let kind = if is_feed { MotionKind::Feed } else { MotionKind::Rapid };
-                (kind, self.curve(end, frame), self.turning(start, end, frame))
+        let (kind, curve, turning) = match index.checked_sub(1) {
+            Some(before) if section.first as usize != index => {
+                (moving(end), self.curve(end, frame), self.turning([(&moves[before], frame), (end, frame)]))
             }
-            _ => (MotionKind::Arrive, Curve::Line, Turning::GreatCircle),
+            Some(before) if section.by.keeps_joints(end.kind()) => {
+                (moving(end), Curve::Line, self.turning([(&moves[before], self.frame(before)), (end, frame)]))
+            }
+            _ => (MotionKind::Arrive, Curve::Line, self.turning([(end, frame); 2])),
         };
         Motion { kind, end: position, curve, turning, tool_length: section.tool_length }
+    }
+}
+
+fn moving(step: &Move) -> MotionKind {
+    match step.kind() {
+        MoveKind::Feed => MotionKind::Feed,
+        MoveKind::Rapid => MotionKind::Rapid,
     }
 }
 

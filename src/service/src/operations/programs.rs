@@ -135,7 +135,7 @@ pub(crate) fn program_lines_in_job(
     numbers: &[u32],
 ) -> Result<Vec<(u32, String)>, OperationError> {
     let (_, format) = results.runtime.block_on(program_source(&results.results, id))?;
-    if matches!(format, Format::Csv | Format::Ndjson) {
+    if matches!(format, Format::Csv | Format::Ndjson | Format::Arrow) {
         return Ok(Vec::new());
     }
     let source = results.reader(id, SOURCE).ok_or_else(|| unknown(id))?;

@@ -18,6 +18,7 @@ use crate::wire::fixed_array::FixedArray;
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::margins::MarginsObject;
 use crate::wire::request::{Joints, Near, SolutionFilter};
+use crate::wire::windings::Windings;
 
 /// A posture with the table's angles.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +29,7 @@ pub(crate) struct SolvedPosture {
     /// `[phi1, phi2]`, rad, as in the request.
     pub(crate) requested: Option<[f64; 2]>,
     /// How many windings of theta2 are within its range, if the request has an orientation.
-    pub(crate) windings: Option<u32>,
+    pub(crate) windings: Option<Windings>,
 }
 
 /// The solver's postures for all orientations of a request.

@@ -16,6 +16,10 @@ pub(crate) fn workspace_error(error: WorkspaceError) -> OperationError {
             tolerance(format!("makes more triangles than the limit of {most}"))
         }
         WorkspaceError::TooManyNodes { nodes } => return too_many_grid_points(nodes),
+        WorkspaceError::TooManyIntervals { .. } => {
+            let detail = "reaches a point in more than 255 intervals; state a narrower range";
+            ("/phi1".to_owned(), detail.to_owned())
+        }
         WorkspaceError::Open => tolerance(
             "gives a surface that the service cannot close for this machine; try a finer or coarser tolerance",
         ),

@@ -7,6 +7,7 @@ use verne_solver::{Machine, PartPose, SplitAngle, TableAngles, Winding, rotary_w
 
 use crate::wire::degrees::{from_degrees, from_degrees_of_turn, to_degrees, whole_turns};
 use crate::wire::request::Near;
+use crate::wire::windings::Windings;
 
 /// The orientation of a tool in the part frame: each angle as at most half a turn and a number of whole turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,8 +87,8 @@ impl ToolOrientation {
     }
 
     /// How many values of theta2, by whole turns apart, are within the machine's range.
-    pub(crate) fn windings(&self, machine: &Machine) -> u32 {
-        rotary_windings(machine, -self.phi2.remainder)
+    pub(crate) fn windings(&self, machine: &Machine) -> Windings {
+        rotary_windings(machine, -self.phi2.remainder).into()
     }
 }
 

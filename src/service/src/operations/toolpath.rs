@@ -7,6 +7,7 @@ use verne_program::Program;
 use verne_solver::toolpath::{PlanError, TimedRow, Timer, healing_change, plan};
 use verne_solver::workspace::Observer;
 
+use crate::operations::dwell_marks::DwellMarks;
 use crate::operations::program_pace::ProgramPace;
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_report::report;
@@ -51,9 +52,12 @@ pub(crate) fn compute_toolpath(
         observer.progress(fraction);
         !observer.cancelled() && !has_failed.get()
     };
+    let mut marks = DwellMarks::default();
     let write = |timed: &TimedRow| {
         if written.is_ok() {
-            written = writer.push(&StoredRow::new(&timed.row, program, timed.duration));
+            let row = StoredRow::new(&timed.row, program, timed.duration);
+            marks.push(timed, row.line);
+            written = writer.push(&row);
             has_failed.set(written.is_err());
         }
     };
@@ -77,7 +81,7 @@ pub(crate) fn compute_toolpath(
         return Err(OperationError::Cancelled);
     }
     let time = TimeObject::new(&times.unwrap_or_default(), pace.waits());
-    let mut report = report(question, &motions, &planned, &changes, time);
+    let mut report = report(question, &motions, &planned, &changes, marks, time);
     let mut failing: Vec<u32> = report.failures.iter().map(|failure| failure.lines[0]).collect();
     failing.sort_unstable();
     failing.dedup();

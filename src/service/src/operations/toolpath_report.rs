@@ -5,15 +5,17 @@ use std::iter::repeat;
 use serde::Deserialize;
 use verne_solver::toolpath::{Change, Departure, Failure, LeastMargin, Motions, Report};
 
+use crate::operations::dwell_marks::DwellMarks;
 use crate::operations::program_motions::ProgramMotions;
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::wire::degrees::to_degrees;
 use crate::wire::fixed_array::FixedArray;
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::program::WarningObject;
+use crate::wire::toolpath_failure::{ChangeObject, FailureObject, FailurePlace};
 use crate::wire::toolpath_report::{
-    ChangeObject, DepartureObject, DeviationObject, FailureObject, FailurePlace, JointRanges, MarginObject,
-    PathLengths, ToolpathLinks, ToolpathReport, TurningObject, Verdict,
+    DepartureObject, DeviationObject, JointRanges, MarginObject, PathLengths, ToolpathLinks, ToolpathReport,
+    TurningObject, Verdict,
 };
 use crate::wire::toolpath_time::TimeObject;
 
@@ -41,6 +43,7 @@ pub(crate) fn report(
     motions: &ProgramMotions,
     planned: &Report,
     changes: &[Option<Change>],
+    marks: DwellMarks,
     time: TimeObject,
 ) -> ToolpathReport {
     let [feed, rapid] = planned.length;
@@ -75,6 +78,8 @@ pub(crate) fn report(
         deviation: DeviationObject { tip: planned.deviation.tip, axis: to_degrees(planned.deviation.axis) },
         preimage_changes: planned.preimage_changes,
         retracts: planned.retracts,
+        dwell_marks: marks.list,
+        dwell_mark_count: marks.count,
         departures: planned.departures.iter().map(|departure| departed(motions, departure)).collect(),
         departure_count: planned.departure_count,
         warnings: warnings.collect(),
@@ -99,7 +104,7 @@ fn failed(motions: &ProgramMotions, failure: &Failure, change: Option<Change>) -
         element,
         margin: value,
         unit,
-        at: FailurePlace::new(motions.line(failure.motion), failure.pose, tool_length),
+        at: FailurePlace::new(motions.line(failure.motion), failure, tool_length),
         change: change.map(ChangeObject::from),
     }
 }

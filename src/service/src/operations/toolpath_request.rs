@@ -1,5 +1,7 @@
 //! Reads a request for a tool path: its options are checked, and its program is found or received.
 
+use verne_program::Format;
+
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::programs::receiver::{ReceivedProgram, receive_points};
 use crate::operations::toolpath_question::CheckedToolpath;
@@ -48,7 +50,8 @@ pub(crate) fn read_request(
             ProgramSource::Stored(id)
         }
         Some(ProgramRef::Points(points)) => {
-            let options = ProgramQuery { units: request.units, ..ProgramQuery::default() }.options();
+            let reading = ProgramQuery { units: request.units, ..ProgramQuery::default() };
+            let options = reading.options(Format::Ndjson)?;
             ProgramSource::Received(Box::new(receive_points(&points.points, &options)?))
         }
     };

@@ -1,11 +1,20 @@
-//! The command line: one module for each command except `serve` and `worker`.
+//! The command line: one module for each command except `serve`, `worker` and `openapi`, and what several of them use.
 
 pub(crate) mod answer;
+pub(crate) mod batch;
+pub(crate) mod dexterity;
+pub(crate) mod files;
 pub(crate) mod health;
+pub(crate) mod jobs;
 pub(crate) mod key;
 pub(crate) mod kinematics;
+pub(crate) mod limit_words;
+pub(crate) mod machine;
+pub(crate) mod one_or_batch;
 pub(crate) mod progress;
 pub(crate) mod result_pipe;
+pub(crate) mod service_address;
+pub(crate) mod shell_help;
 pub(crate) mod store;
 pub(crate) mod toolpath;
 pub(crate) mod workspace;
@@ -17,10 +26,16 @@ use std::time::Duration;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use crate::http::router::document;
+use crate::process::cli::answer::to_json;
+use crate::process::cli::dexterity::DexterityCommand;
 use crate::process::cli::health::HealthCommand;
+use crate::process::cli::jobs::JobsCommand;
 use crate::process::cli::key::KeyCommand;
 use crate::process::cli::kinematics::KinematicsCommand;
+use crate::process::cli::machine::MachineCommand;
 use crate::process::cli::result_pipe::ResultPipe;
+use crate::process::cli::shell_help::{CompletionsCommand, ManCommand};
 use crate::process::cli::store::StoreCommand;
 use crate::process::cli::toolpath::ToolpathCommand;
 use crate::process::cli::workspace::WorkspaceCommand;
@@ -32,9 +47,9 @@ use crate::telemetry::TelemetryConfig;
 
 /// Kinematics and workspaces of the VERNE five-axis hybrid machine's architecture, over HTTP and on the command line.
 ///
-/// Without a command, verne serves over HTTP. Lengths are in mm and angles in degrees; z points down. The built-in
-/// machine `verne` has invented dimensions that reproduce the solution counts printed in arXiv:0707.3507; they are not
-/// Fatronik's dimensions.
+/// Without a command, verne serves over HTTP, with the options that `verne serve --help` lists. Lengths are in mm and
+/// angles in degrees; z points down. The built-in machine `verne` has invented dimensions that reproduce the solution
+/// counts printed in arXiv:0707.3507; they are not Fatronik's dimensions.
 #[derive(Debug, Parser)]
 #[command(name = "verne", version, args_conflicts_with_subcommands = true)]
 pub struct Cli {
@@ -49,23 +64,36 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    #[command(flatten)]
+    Kinematics(KinematicsCommand),
+    /// Compute a workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
+    Workspace(WorkspaceCommand),
+    /// Compute a dexterity map: the inclinations that reach each point of the part.
+    Dexterity(Box<DexterityCommand>),
+    /// Plan the joint motion of a program: its rows (-o FILE), and a report on the limits that it breaks.
+    ///
+    /// The exit status is 3 if the machine cannot run the program.
+    Toolpath(Box<ToolpathCommand>),
+    /// Print a machine as a JSON file, which every --machine accepts.
+    Machine(MachineCommand),
     /// Serve over HTTP.
     Serve(Box<ServeConfig>),
     /// Run jobs from a broker (--broker) and write their results to a shared store (--store).
     Worker(WorkerConfig),
     /// Check whether a service is ready. The exit status is 0 if it is ready, otherwise 1.
     Health(HealthCommand),
+    /// List or cancel the jobs of a running service.
+    Jobs(JobsCommand),
     /// Create API keys for the --keys file.
     Key(KeyCommand),
     /// Prepare a directory for --store.
     Store(StoreCommand),
-    /// Compute a workspace: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
-    Workspace(WorkspaceCommand),
-    /// Plan the joint motion of a program: its rows (-o FILE), and a report on the limits that it breaks. The exit
-    /// status is 3 if the machine cannot run the program.
-    Toolpath(Box<ToolpathCommand>),
-    #[command(flatten)]
-    Kinematics(KinematicsCommand),
+    /// Print the OpenAPI document.
+    Openapi,
+    /// Print the completions of the command line for a shell.
+    Completions(CompletionsCommand),
+    /// Print the manual page, or write the pages of all commands to a directory.
+    Man(ManCommand),
 }
 
 impl Cli {
@@ -73,12 +101,17 @@ impl Cli {
     /// environment names.
     pub fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
         let words: Vec<OsString> = words.into_iter().collect();
-        let read = config::sources::read(Self::command(), &words)?;
+        let read = config::sources::read(Self::command_line(), &words)?;
         Ok(Self { printed_settings: read.printed, ..Self::from_arg_matches(&read.matches)? })
     }
 
+    /// The commands and their arguments. The help of `verne` lists no options of `verne serve`.
+    fn command_line() -> clap::Command {
+        Self::command().mut_args(|arg| arg.hide(true))
+    }
+
     /// Runs the command, and returns the exit status. Results go to `out`, with line breaks if `pretty`; the key of
-    /// `verne key new` and the summary of `verne toolpath` go to `err`. The error is a message for people.
+    /// `verne key new` and the summaries of tool paths and batches go to `err`. The error is a message for people.
     ///
     /// If the reader of `out` closes it early, as `head` does, the command stops without a message, and succeeds.
     pub fn run(self, out: &mut impl Write, err: &mut impl Write, pretty: bool) -> Result<ExitCode, String> {
@@ -103,11 +136,17 @@ impl Cli {
             Command::Key(command) => command.run(out, err),
             Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, pretty),
-            Command::Toolpath(command) => return command.run(out, err, pretty),
-            Command::Kinematics(command) => {
-                let answer = command.answer(pretty)?;
-                writeln!(out, "{answer}").map_err(|error| format!("cannot write the answer: {error}"))
+            Command::Dexterity(command) => command.run(out, pretty),
+            Command::Machine(command) => command.run(out),
+            Command::Jobs(command) => command.run(out, pretty),
+            Command::Openapi => {
+                let document = to_json(&document(), true)?;
+                writeln!(out, "{document}").map_err(|error| format!("cannot write the document: {error}"))
             }
+            Command::Completions(command) => command.run(Self::command_line(), out),
+            Command::Man(command) => command.run(Self::command_line(), out),
+            Command::Toolpath(command) => return command.run(out, err, pretty),
+            Command::Kinematics(command) => return command.run(out, err, pretty),
         };
         done.map(|()| ExitCode::SUCCESS)
     }
@@ -169,8 +208,11 @@ mod tests {
             format!("verne toolpath {} --tool-length 100", file.display())
         };
         let rows = toolpath("part.csv", "-150,0,300\n150,0,300\n") + " -o -";
+        let poses = directory.path().join("poses.csv");
+        std::fs::write(&poses, "x,y,z\n0,0,300\n").unwrap();
+        let batch = format!("verne contains --batch {}", poses.display());
         let success = format!("{:?}", Ok::<_, String>(ExitCode::SUCCESS));
-        for line in ["verne fk --rho 674,685,250", &rows] {
+        for line in ["verne fk --rho 674,685,250", &rows, &batch] {
             assert_eq!(status(line), (success.clone(), String::new()), "{line}");
         }
         // The report was not read, but the verdict is known.

@@ -12,7 +12,7 @@ use utoipa_swagger_ui::{Config, SwaggerUi};
 
 use crate::http::access_control::AccessControl;
 use crate::http::allowed_origins::AllowedOrigins;
-use crate::http::handlers::service;
+use crate::http::openapi::versions::Documents;
 use crate::http::readiness::Readiness;
 use crate::http::security_headers::BrowserPolicy;
 use crate::http::state::{AppState, ESTIMATES, SharedState};
@@ -102,7 +102,7 @@ fn state(
         costs: Cache::new(ESTIMATES),
         metrics,
         base: config.base_path.clone(),
-        document: service::document(&config.base_path),
+        documents: Documents::new(&config.base_path),
         stopping,
     }
 }

@@ -11,6 +11,7 @@ use crate::wire::fixed_array::{FixedArray, Triple};
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::margins::{ConditioningObject, MarginsObject};
 use crate::wire::request::Joints;
+use crate::wire::windings::Windings;
 
 /// The machine of an answer.
 #[derive(Clone, Debug, Serialize, ToSchema)]
@@ -84,11 +85,11 @@ pub(crate) struct Solution {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub part: Option<PartObject>,
-    /// How many values theta2 + 360 n, n a whole number, are within the machine's rotary range; 0 if none is. Only
-    /// answers of /ik in frame `part` have it.
+    /// How many values theta2 + 360 n, n a whole number, are within the machine's rotary range; 0 if none is, null if
+    /// the range has no limit. Only answers of /ik in frame `part` have it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(nullable = false)]
-    pub windings: Option<u32>,
+    #[schema(value_type = Option<u32>)]
+    pub windings: Option<Windings>,
     /// The solution's label.
     pub mode: ModeObject,
     /// Whether the solution is in the working mode: the slider end of every rod is above its platform end, and leg I is

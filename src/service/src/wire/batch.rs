@@ -1,16 +1,18 @@
 //! Batches: many rows in, columns out.
 
 use arrayvec::ArrayVec;
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use crate::wire::answer::MachineId;
 use crate::wire::bounded_list::BoundedList;
 use crate::wire::constraint::{ConstraintName, ElementName};
-use crate::wire::fixed_array::FiveJoints;
 use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::request::Frame;
+use crate::wire::start::Start;
+use crate::wire::strict_object::optional_strict_object;
 use crate::wire::tool::has_tool;
 
 /// The working solution for many poses.
@@ -55,11 +57,10 @@ pub(crate) struct IkBatchRequest<R> {
     #[serde(default)]
     #[schema(default = false)]
     pub continuous: bool,
-    /// `[rho1, rho2, rho3, theta1, theta2]` from which the first row continues. Only with `continuous`. Without it the
-    /// first row has the least |theta2|, or phi1 >= 0 if two are equal.
-    #[serde(default)]
-    #[schema(inline, nullable = false)]
-    pub start: Option<FiveJoints>,
+    /// Joints, with the sliders, from which the first row continues. Only with `continuous`. Without it the first row
+    /// has the least |theta2|, or phi1 >= 0 if two are equal.
+    #[serde(default, deserialize_with = "optional_strict_object")]
+    pub start: Option<Start>,
 }
 
 /// The working solution for many joint positions.
@@ -94,7 +95,7 @@ pub(crate) struct FkBatchRequest<R> {
 
 /// Orientation of a pose in the part frame: `rotary` (default), phi1 and phi2 in degrees; `vector`, the tool axis i, j,
 /// k, a unit vector from the tool end to the holder.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Orientation {
     /// phi1 and phi2.
@@ -197,6 +198,21 @@ pub(crate) enum Status {
     Infeasible,
     /// The row cannot be read.
     Invalid,
+}
+
+impl Status {
+    /// All of them, in the order of their values.
+    pub(crate) const ALL: [Self; 4] = [Self::Ok, Self::Unreachable, Self::Infeasible, Self::Invalid];
+
+    /// The name.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::Unreachable => "unreachable",
+            Self::Infeasible => "infeasible",
+            Self::Invalid => "invalid",
+        }
+    }
 }
 
 /// Number of rows with each status.

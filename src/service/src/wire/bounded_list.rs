@@ -17,6 +17,12 @@ pub(crate) struct BoundedList<T> {
     beyond: usize,
 }
 
+impl<T> Default for BoundedList<T> {
+    fn default() -> Self {
+        Self { items: Vec::new(), beyond: 0 }
+    }
+}
+
 impl<T> BoundedList<T> {
     /// How many items the list had.
     pub(crate) fn len(&self) -> usize {

@@ -7,6 +7,7 @@ use utoipa::ToSchema;
 
 use crate::wire::drives::DrivesObject;
 use crate::wire::result_id::ResultId;
+use crate::wire::start::Start;
 use crate::wire::toolpath::{
     OnLimitName, OrientationName, RapidsName, Setup, TipName, Tolerance, ToolLengths,
 };
@@ -41,16 +42,19 @@ pub(crate) struct CanonicalToolpath {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub orientation: Option<OrientationName>,
+    /// Whether the table keeps the program's phi2 also where phi1 is 0. Only a request with `hold_rotary` has it.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub hold_rotary: bool,
     /// Greatest deviations.
     pub tolerance: Tolerance,
     /// Half-angle of the cap around the table's own axis in which theta2 is free, degrees.
     pub pole: f64,
     /// The motion in rapids.
     pub rapids: RapidsName,
-    /// Where the table stands before the program.
+    /// Where the machine stands before the program.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
-    pub start: Option<TableStart>,
+    pub start: Option<Start>,
     /// Table clearance, mm. Only a request with a table check has it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
@@ -76,11 +80,7 @@ pub(crate) struct CanonicalToolpath {
     pub retract_z: Option<f64>,
 }
 
-/// Where the table stands.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-pub(crate) struct TableStart {
-    /// Tilting angle, degrees.
-    pub theta1: f64,
-    /// Rotary angle, degrees.
-    pub theta2: f64,
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_false(flag: &bool) -> bool {
+    !flag
 }

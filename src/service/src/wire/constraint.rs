@@ -41,6 +41,20 @@ pub(crate) enum Unit {
     One,
 }
 
+impl Unit {
+    /// All of them, in the order of their values.
+    pub(crate) const ALL: [Self; 3] = [Self::Millimetre, Self::Degree, Self::One];
+
+    /// The name.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Millimetre => "mm",
+            Self::Degree => "deg",
+            Self::One => "1",
+        }
+    }
+}
+
 /// A constraint, written as its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ConstraintName(pub Constraint);
@@ -55,6 +69,18 @@ impl ConstraintName {
 impl fmt::Display for ConstraintName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(name_and_unit(self.0).0)
+    }
+}
+
+impl ConstraintName {
+    /// The names of all constraints, in the order of [`code`](Self::code).
+    pub(crate) fn all() -> Vec<String> {
+        Constraint::ALL.iter().map(|constraint| Self(*constraint).to_string()).collect()
+    }
+
+    /// The position among all constraints.
+    pub(crate) fn code(self) -> usize {
+        self.0 as usize
     }
 }
 
@@ -83,8 +109,8 @@ impl ToSchema for ConstraintName {
 /// The part of the machine that a margin belongs to, written as its name.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ElementName {
-    constraint: Constraint,
-    element: Element,
+    pub(super) constraint: Constraint,
+    pub(super) element: Element,
 }
 
 impl From<Margin> for ElementName {

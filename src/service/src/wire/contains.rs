@@ -14,7 +14,7 @@ use crate::wire::sweep::Sweep;
 use crate::wire::workspace::{KindName, WorkspaceRequest};
 
 /// A tolerance that every machine accepts, mm. Membership does not depend on it.
-const ANY_TOLERANCE: f64 = 1000.0;
+pub(crate) const ANY_TOLERANCE: f64 = 1000.0;
 
 /// Points to test against a workspace.
 ///

@@ -12,6 +12,7 @@ use crate::wire::format::MeshFormat;
 use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::result_id::ResultId;
+use crate::wire::row_format::RowFormat;
 use crate::wire::strict_object::strict_object;
 use crate::wire::workspace_summary::BoundsObject;
 
@@ -123,6 +124,16 @@ pub(crate) struct StoredMeshQuery {
     pub set: Option<SetName>,
 }
 
+/// Parameters of GET /workspace/{id}/cells.
+#[derive(Debug, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct CellsQuery {
+    /// Return the points in this format. It overrides Accept.
+    #[param(inline, nullable = false)]
+    pub format: Option<RowFormat>,
+}
+
 /// Summary of a dexterity map.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct DexteritySummary {
@@ -180,7 +191,7 @@ pub(crate) struct DexterityLinks {
 
 /// Equally spaced points of the part frame. Point (i, j, k) is `origin` + step (i, j, k), turned about Z by `turn`; its
 /// number is (i · counts[1] + j) · counts[2] + k.
-#[derive(Clone, Debug, Serialize, ToSchema)]
+#[derive(Clone, Debug, Serialize, Deserialize, ToSchema)]
 #[schema(as = PointGrid)]
 pub(crate) struct GridObject {
     /// Point (0, 0, 0) before the turn, mm.
@@ -208,7 +219,7 @@ impl From<&Grid> for GridObject {
 
 /// The intervals of phi1, within the requested range, that keep every limit at each point of the grid. They are exact:
 /// the service finds the roots of the limits.
-#[derive(Clone, Debug, Serialize, ToSchema)]
+#[derive(Clone, Debug, Serialize, Deserialize, ToSchema)]
 pub(crate) struct DexterityCells {
     /// Id of the map.
     #[schema(value_type = String)]

@@ -11,7 +11,8 @@ use verne_program::ProgramErrors;
 #[error("{}", self.text())]
 #[schema(as = FieldProblem)]
 pub(crate) struct FieldError {
-    /// JSON Pointer into the body, such as `/machine/limits/stroke/0`; `/query/<name>` for a query parameter.
+    /// JSON Pointer into the body, such as `/machine/limits/stroke/0`; `/query/<name>` for a query parameter,
+    /// `/columns/<name>` for a column of rows.
     pub pointer: String,
     /// The error, and the accepted values.
     pub detail: String,
@@ -45,6 +46,9 @@ impl FieldError {
 pub(crate) enum OperationError {
     #[error("The body is not JSON: {0}.")]
     Syntax(String),
+    /// The body is not of its format of rows, or ends too early.
+    #[error("The rows cannot be read: {0}.")]
+    Rows(String),
     /// The request is well formed, but these fields are invalid.
     #[error("{}", fields(.0))]
     Fields(Vec<FieldError>),

@@ -24,8 +24,6 @@ pub(crate) type Triple = FixedArray<f64, 3>;
 pub(crate) type PerRod = FixedArray<f64, 6>;
 /// Points along x, y, z.
 pub(crate) type Counts = FixedArray<u32, 3>;
-/// rho1, rho2, rho3, theta1, theta2.
-pub(crate) type FiveJoints = FixedArray<f64, 5>;
 /// A pair for each slider.
 pub(crate) type PairPerSlider = FixedArray<Pair, 3>;
 /// Four directions: rod 11, rod 12, the rods of leg II, the rods of leg III.

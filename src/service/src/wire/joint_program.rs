@@ -48,7 +48,7 @@ pub(crate) struct JointProgramQuery {
     #[arg(long, default_value = "inverse_time")]
     #[param(inline)]
     pub feed_word: FeedWordName,
-    /// The greatest F.
+    /// The greatest F. A comment at the end of the program counts the blocks that need more; they take longer.
     #[serde(default = "default_greatest_feed")]
     #[arg(long, default_value_t = default_greatest_feed())]
     #[param(minimum = 0.001, default = 99_999.0)]
@@ -94,7 +94,8 @@ pub(crate) enum FeedWordName {
 }
 
 /// The word of rapids: `g0`, in which the controller decides whether the joints move linearly; `g1`, with the duration
-/// of the row. The first position is G0. Retracts, rewinds and approaches that have a duration are G1 in any case.
+/// of the row, which needs the drives of the machine. The first position is G0. Retracts, rewinds and approaches that
+/// have a duration are G1 in any case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[schema(default = "g0")]

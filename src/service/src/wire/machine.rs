@@ -1,6 +1,6 @@
 //! The machine as JSON: lengths in mm, angles in degrees.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 use verne_solver::MachineData;
 use verne_solver::machine::{Geometry, Limits, Table};
@@ -120,9 +120,10 @@ pub struct LimitsObject {
     /// `[min, max]` of theta1, degrees.
     #[schema(inline)]
     pub tilt: Pair,
-    /// `[min, max]` of theta2, degrees.
-    #[schema(inline)]
-    pub rotary: Pair,
+    /// `[min, max]` of theta2, degrees; null if the table turns without a limit.
+    #[serde(deserialize_with = "nullable")]
+    #[schema(inline, required)]
+    pub rotary: Option<Pair>,
     /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
     /// part frame), mm. Without it, the service checks the table only if a request has a clearance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -137,6 +138,11 @@ pub struct LimitsObject {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(inline)]
     pub platform_axes: Option<Axes>,
+}
+
+/// Reads a field that may be null but not missing.
+fn nullable<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Pair>, D::Error> {
+    Option::deserialize(deserializer)
 }
 
 impl From<&MachineObject> for MachineData {
@@ -154,7 +160,7 @@ impl From<&MachineObject> for MachineData {
                 serial_margin: l.serial_margin,
                 parallel_margin: l.parallel_margin,
                 tilt: l.tilt.0.map(from_degrees),
-                rotary: l.rotary.0.map(from_degrees),
+                rotary: l.rotary.map(|range| range.0.map(from_degrees)),
                 table_clearance: l.table_clearance,
                 slider_axes: l.slider_axes.map(|axes| axes.0.map(|axis| axis.0)),
                 platform_axes: l.platform_axes.map(|axes| axes.0.map(|axis| axis.0)),
@@ -179,7 +185,7 @@ impl From<&MachineData> for MachineObject {
                 serial_margin: l.serial_margin,
                 parallel_margin: l.parallel_margin,
                 tilt: FixedArray(l.tilt.map(to_degrees)),
-                rotary: FixedArray(l.rotary.map(to_degrees)),
+                rotary: l.rotary.map(|range| FixedArray(range.map(to_degrees))),
                 table_clearance: l.table_clearance,
                 slider_axes: l.slider_axes.map(|axes| FixedArray(axes.map(FixedArray))),
                 platform_axes: l.platform_axes.map(|axes| FixedArray(axes.map(FixedArray))),

@@ -19,7 +19,7 @@ const MOST_MOVES: usize = 2_000_000;
 #[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(crate) struct ProgramQuery {
-    /// Format of the program: `apt` (CL text), `gcode`, `csv` or `ndjson`. With it the service accepts any
+    /// Format of the program: `apt` (CL text), `gcode`, `csv`, `ndjson` or `arrow`. With it the service accepts any
     /// Content-Type. Without it Content-Type must tell the format.
     #[arg(long)]
     #[param(nullable = false)]
@@ -29,8 +29,8 @@ pub(crate) struct ProgramQuery {
     #[arg(long, value_parser = read_name::<Units>)]
     #[param(nullable = false, schema_with = units)]
     pub units: Option<Units>,
-    /// How the reader takes cutter radius compensation (CUTCOM, G41): `accept` makes it a warning, because the points
-    /// of a program are the tool's path; `refuse` makes it a fault.
+    /// CL text and G-code: how the reader takes cutter radius compensation (CUTCOM, G41). `accept` makes it a warning,
+    /// because the points of a program are the tool's path; `refuse` makes it a fault.
     #[serde(default)]
     #[arg(long, default_value = "accept", value_parser = read_name::<Compensation>)]
     #[param(schema_with = compensation)]
@@ -65,9 +65,14 @@ pub(crate) struct ProgramQuery {
 }
 
 impl ProgramQuery {
-    /// The options for the reader.
-    pub(crate) fn options(&self) -> ReadOptions {
-        ReadOptions {
+    /// The options for the reader of a format.
+    ///
+    /// # Errors
+    ///
+    /// The parameters that this format does not use.
+    pub(crate) fn options(&self, format: Format) -> Result<ReadOptions, OperationError> {
+        self.check_uses(format)?;
+        Ok(ReadOptions {
             units: self.units,
             compensation: self.compensation,
             tcp: self.tcp,
@@ -76,7 +81,32 @@ impl ProgramQuery {
             rapid_feed: self.rapid_feed,
             rotary_sense: self.rotary_sense,
             most_moves: MOST_MOVES,
-        }
+        })
+    }
+
+    fn check_uses(&self, format: Format) -> Result<(), OperationError> {
+        let gcode: &[Format] = &[Format::Gcode];
+        let stated = [
+            ("compensation", self.compensation != Compensation::default(), &[Format::Apt, Format::Gcode][..]),
+            ("tcp", self.tcp, gcode),
+            ("tcp_on", self.tcp_on.is_some(), gcode),
+            ("tcp_off", self.tcp_off.is_some(), gcode),
+            ("rapid_feed", self.rapid_feed.is_some(), gcode),
+            ("rotary_sense", self.rotary_sense != RotarySense::default(), gcode),
+        ];
+        let unused = stated.into_iter().filter(|(_, stated, formats)| *stated && !formats.contains(&format));
+        let faults: Vec<_> = unused
+            .map(|(parameter, _, formats)| {
+                let names: Vec<_> = formats.iter().map(|format| format.name()).collect();
+                let detail = format!(
+                    "is for the format {}; a program in the format {} does not use it",
+                    names.join(" or "),
+                    format.name()
+                );
+                FieldError::new(format!("/query/{parameter}"), detail)
+            })
+            .collect();
+        if faults.is_empty() { Ok(()) } else { Err(OperationError::Fields(faults)) }
     }
 
     /// The format, stated here or by the media type of the body.

@@ -10,10 +10,10 @@ use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 use verne_program::Units;
 
-use crate::wire::fixed_array::Triple;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::program_points::ProgramPoints;
 use crate::wire::program_query::units;
+use crate::wire::start::Start;
 use crate::wire::strict_object::{StrictObject, optional_strict_object, strict_object};
 
 /// A request for the joint motion of a program.
@@ -56,6 +56,11 @@ pub(crate) struct ToolpathRequest {
     /// and `rotary` for phi1, phi2.
     #[serde(default)]
     pub orientation: Option<OrientationName>,
+    /// Whether the table keeps the program's phi2 also where phi1 is 0, so that phi2 does not turn the tool's axis. It
+    /// then turns through the stated angles everywhere; otherwise theta2 is free there. Only moves between points with
+    /// rotary words keep it, and only frames with a = b = 0 allow it.
+    #[serde(default)]
+    pub hold_rotary: bool,
     /// Greatest deviations.
     #[serde(default, deserialize_with = "strict_object")]
     pub tolerance: Tolerance,
@@ -66,7 +71,8 @@ pub(crate) struct ToolpathRequest {
     /// The motion in rapids.
     #[serde(default)]
     pub rapids: RapidsName,
-    /// Where the machine stands before the program. Without it, the machine stands at the first point.
+    /// Where the machine stands before the program: it moves from there to the first point as in a rapid. Without it,
+    /// the machine stands at the first point.
     #[serde(default, deserialize_with = "optional_strict_object")]
     pub start: Option<Start>,
     /// Least height of the tool's end and of the platform's six joints over the table (the plane Z = 0 of the part
@@ -282,19 +288,4 @@ impl Default for Tolerance {
     fn default() -> Self {
         Self { tip: 0.01, axis: 0.05, rapid: 1.0 }
     }
-}
-
-/// Where the machine stands before the program.
-#[derive(Clone, Copy, Debug, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Start {
-    /// The three sliders, mm. They do not change the plan.
-    #[schema(inline, nullable = false)]
-    pub rho: Option<Triple>,
-    /// Tilting angle of the table, degrees.
-    #[schema(minimum = -36000, maximum = 36000)]
-    pub theta1: f64,
-    /// Rotary angle of the table, degrees.
-    #[schema(minimum = -36000, maximum = 36000)]
-    pub theta2: f64,
 }

@@ -9,9 +9,10 @@ use utoipa::IntoParams;
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::json_text::JsonText;
 use crate::wire::machine_ref::{MachineRef, REFERENCE, reference_name};
+use crate::wire::start::Start;
 use crate::wire::strict_object::StrictObject;
 use crate::wire::toolpath::{
-    OnLimitName, OrientationName, RapidsName, Setup, Start, TipName, Tolerance, ToolLengths, ToolpathRequest,
+    OnLimitName, OrientationName, RapidsName, Setup, TipName, Tolerance, ToolLengths, ToolpathRequest,
 };
 
 /// The fields of a request for a tool path whose program is the body.
@@ -55,6 +56,13 @@ pub(crate) struct ToolpathQuery {
     #[arg(long)]
     #[param(inline, nullable = false)]
     pub orientation: Option<OrientationName>,
+    /// Whether the table keeps the program's phi2 also where phi1 is 0, so that phi2 does not turn the tool's axis. It
+    /// then turns through the stated angles everywhere; otherwise theta2 is free there. Only moves between points with
+    /// rotary words keep it, and only frames with a = b = 0 allow it.
+    #[serde(default)]
+    #[arg(long)]
+    #[param(default = false)]
+    pub hold_rotary: bool,
     /// Greatest deviation of the tool's end in feed moves, mm.
     #[serde(default = "default_tip")]
     #[arg(long, default_value_t = default_tip(), allow_hyphen_values = true)]
@@ -79,8 +87,8 @@ pub(crate) struct ToolpathQuery {
     #[serde(default)]
     #[arg(long, default_value = "linear")]
     pub rapids: RapidsName,
-    /// Where the machine stands before the program as JSON, such as `{"theta1":0,"theta2":180}`. Without it, the
-    /// machine stands at the first point.
+    /// Where the machine stands before the program as JSON, such as `{"rho":[600,500,500],"theta1":0,"theta2":180}`: it
+    /// moves from there to the first point as in a rapid. Without it, the machine stands at the first point.
     #[arg(long, value_name = "JSON")]
     #[param(value_type = Option<String>, nullable = false)]
     pub start: Option<JsonText<StrictObject<Start>>>,
@@ -138,6 +146,7 @@ impl ToolpathQuery {
             tool_radius: self.tool_radius,
             tip: self.tip,
             orientation: self.orientation,
+            hold_rotary: self.hold_rotary,
             tolerance: Tolerance {
                 tip: self.tip_tolerance,
                 axis: self.axis_tolerance,

@@ -2,17 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
-use verne_solver::toolpath::{Change, Parameter};
-use verne_solver::{Margin, PartPose};
+use verne_solver::Margin;
 
 use crate::wire::answer::MachineId;
 use crate::wire::canonical_toolpath::CanonicalToolpath;
 use crate::wire::constraint::{ConstraintName, ElementName, Unit};
-use crate::wire::degrees::to_degrees;
+use crate::wire::dwell_mark::DwellMark;
 use crate::wire::fixed_array::{Pair, Triple};
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::program::WarningObject;
 use crate::wire::result_id::ResultId;
+use crate::wire::toolpath_failure::FailureObject;
 use crate::wire::toolpath_time::TimeObject;
 
 /// Most characters of a line's text.
@@ -58,6 +58,10 @@ pub(crate) struct ToolpathReport {
     pub preimage_changes: u64,
     /// How often the tool leaves the part within a cut, so that the table can turn by whole turns.
     pub retracts: u64,
+    /// Places where the tool stands on the part while the table turns, in order; the first thousand of them.
+    pub dwell_marks: Vec<DwellMark>,
+    /// Number of all these places.
+    pub dwell_mark_count: u64,
     /// Rapids in which the joints move straight, because the table changes its orientation or on request; the first
     /// thousand of them.
     pub departures: Vec<DepartureObject>,
@@ -82,96 +86,6 @@ pub(crate) enum Verdict {
     Ok,
     /// The machine cannot follow some lines.
     Fails,
-}
-
-/// Consecutive moves that the machine cannot follow for the same reason.
-#[derive(Clone, Debug, Serialize, ToSchema)]
-#[schema(as = ToolpathFailure)]
-pub(crate) struct FailureObject {
-    /// The first and the last line.
-    #[schema(value_type = Vec<u32>, min_items = 2, max_items = 2)]
-    pub lines: [u32; 2],
-    /// The first 200 characters of the first line. Rows (CSV, NDJSON, points) have no text.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(nullable = false)]
-    pub text: Option<String>,
-    /// The constraint that the moves break.
-    pub constraint: ConstraintName,
-    /// The part of the machine, such as `slider2.max`.
-    #[schema(value_type = String, example = "slider2.max")]
-    pub element: ElementName,
-    /// The worst margin: negative, as much as is missing.
-    pub margin: f64,
-    /// Unit of `margin`.
-    pub unit: Unit,
-    /// The place with the worst margin.
-    pub at: FailurePlace,
-    /// The smallest change of one number of the request that lets the machine follow these moves. The service looks for
-    /// it up to 512 mm for the first three stretches of at most 2000 moves.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(nullable = false)]
-    pub change: Option<ChangeObject>,
-}
-
-/// A change of one number of the request.
-#[derive(Clone, Copy, Debug, Serialize, ToSchema)]
-#[schema(as = ToolpathChange)]
-pub(crate) struct ChangeObject {
-    /// The number.
-    pub parameter: ParameterName,
-    /// The change, mm: add it to the parameter.
-    pub delta: f64,
-}
-
-/// A number of the request: `setup.x`, `setup.y`, `setup.z` (of the frame that the moves are in), or `tool_length` (of
-/// the tool of the moves).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
-#[schema(as = ToolpathParameter)]
-pub(crate) enum ParameterName {
-    /// x of the frame.
-    #[serde(rename = "setup.x")]
-    X,
-    /// y of the frame.
-    #[serde(rename = "setup.y")]
-    Y,
-    /// z of the frame.
-    #[serde(rename = "setup.z")]
-    Z,
-    /// The length of the tool.
-    #[serde(rename = "tool_length")]
-    ToolLength,
-}
-
-impl From<Change> for ChangeObject {
-    fn from(Change { parameter, delta }: Change) -> Self {
-        let parameter = match parameter {
-            Parameter::X => ParameterName::X,
-            Parameter::Y => ParameterName::Y,
-            Parameter::Z => ParameterName::Z,
-            Parameter::ToolLength => ParameterName::ToolLength,
-        };
-        Self { parameter, delta }
-    }
-}
-
-/// A place of a program. /ik reproduces the failure for this pose in frame `part` with this tool. A failure of `rotary`
-/// is one of the winding: theta2 is -phi2 there, while /ik takes a winding within the range.
-#[derive(Clone, Debug, Serialize, ToSchema)]
-pub(crate) struct FailurePlace {
-    /// The line.
-    pub line: u32,
-    /// x of the tool's end in the part frame, mm.
-    pub x: f64,
-    /// y, mm.
-    pub y: f64,
-    /// z, mm.
-    pub z: f64,
-    /// Inclination of the tool, degrees.
-    pub phi1: f64,
-    /// Azimuth of the tool, degrees, on the winding of the plan.
-    pub phi2: f64,
-    /// Distance from P to the tool end, mm. With `tip: "centre"` the end is the centre of the ball.
-    pub tool_length: f64,
 }
 
 /// Lengths of the tip's path, mm.
@@ -272,15 +186,6 @@ impl ToolpathReport {
             let found = texts.binary_search_by_key(&failure.lines[0], |(line, _)| *line).ok();
             failure.text = found.map(|index| texts[index].1.chars().take(TEXT_CHARACTERS).collect());
         }
-    }
-}
-
-impl FailurePlace {
-    /// The place with a pose and a tool.
-    pub(crate) fn new(line: u32, pose: PartPose, tool_length: f64) -> Self {
-        let PartPose { x, y, z, phi1, phi2 } = pose;
-        let [phi1, phi2] = [phi1, phi2].map(to_degrees);
-        Self { line, x: x + 0.0, y: y + 0.0, z: z + 0.0, phi1, phi2, tool_length }
     }
 }
 

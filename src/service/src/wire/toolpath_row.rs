@@ -1,53 +1,11 @@
-//! The rows of a tool path as text: CSV, NDJSON or JSON.
+//! The rows of a tool path.
 
-use std::fmt::{self, Write};
-
-use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 use verne_solver::toolpath::RowKind;
 
 use crate::wire::constraint::{ConstraintName, ElementName};
-
-/// The columns of CSV, which are also the names of the fields in JSON.
-pub(crate) const COLUMNS: &str =
-    "line,kind,x,y,z,i,j,k,rho1,rho2,rho3,theta1,theta2,duration,margin,constraint,element";
-
-/// Format of the rows: `csv`, with the names of the columns in the first line; `ndjson`, an object in each line;
-/// `json`, one document.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, ToSchema, ValueEnum)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum RowFormat {
-    /// Comma-separated columns.
-    Csv,
-    /// A JSON object in each line.
-    Ndjson,
-    /// One JSON document.
-    Json,
-}
-
-impl RowFormat {
-    /// All of them; the first is preferred.
-    pub(crate) const ALL: [Self; 3] = [Self::Json, Self::Ndjson, Self::Csv];
-
-    /// The media type.
-    pub(crate) fn media(self) -> &'static str {
-        match self {
-            Self::Csv => "text/csv",
-            Self::Ndjson => "application/x-ndjson",
-            Self::Json => "application/json",
-        }
-    }
-
-    /// The name, which is also the extension.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Csv => "csv",
-            Self::Ndjson => "ndjson",
-            Self::Json => "json",
-        }
-    }
-}
+use crate::wire::row_format::RowFormat;
 
 /// Parameters of GET /toolpath/{id}/rows.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -158,7 +116,12 @@ impl From<RowKind> for RowKindName {
 }
 
 impl RowKindName {
-    const fn name(self) -> &'static str {
+    /// All of them, in the order of their values.
+    pub(crate) const ALL: [Self; 7] =
+        [Self::Rapid, Self::Feed, Self::Inserted, Self::Turn, Self::Retract, Self::Rewind, Self::Approach];
+
+    /// The name.
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Rapid => "rapid",
             Self::Feed => "feed",
@@ -167,51 +130,6 @@ impl RowKindName {
             Self::Retract => "retract",
             Self::Rewind => "rewind",
             Self::Approach => "approach",
-        }
-    }
-}
-
-impl RowObject {
-    /// Writes the row as a line of CSV, without its end. A value that does not exist is an empty column.
-    pub(crate) fn write_csv(&self, text: &mut String) -> fmt::Result {
-        let Self { line, kind, x, y, z, i, j, k, rho1, rho2, rho3, theta1, theta2, .. } = self;
-        write!(text, "{line},{}", kind.name())?;
-        for number in [x, y, z, i, j, k, rho1, rho2, rho3, theta1, theta2] {
-            text.push(',');
-            write_number(*number, text)?;
-        }
-        text.push(',');
-        self.duration.map_or(Ok(()), |duration| write_number(duration, text))?;
-        text.push(',');
-        write_number(self.margin, text)?;
-        write!(text, ",{},{}", self.constraint, self.element)
-    }
-}
-
-/// Writes the shortest decimal number that is read as this one: as JSON does, without a zero fraction.
-fn write_number(number: f64, text: &mut String) -> fmt::Result {
-    let start = text.len();
-    write!(text, "{number:?}")?;
-    if text[start..].ends_with(".0") {
-        text.truncate(text.len() - 2);
-    }
-    Ok(())
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
-mod tests {
-    use super::write_number;
-
-    #[test]
-    fn numbers_are_short_and_survive() {
-        for (number, expected) in
-            [(300.0, "300"), (-0.5, "-0.5"), (1.2e-17, "1.2e-17"), (0.1 + 0.2, "0.30000000000000004")]
-        {
-            let mut text = "before,".to_owned();
-            write_number(number, &mut text).unwrap();
-            let written = text.strip_prefix("before,").unwrap();
-            assert_eq!((written, written.parse()), (expected, Ok(number)));
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Random requests that the machine can satisfy, the same in every run.
 
+use std::f64::consts::PI;
+
 use verne_solver::{
     Machine, Margins, PartPose, PlatformPose, Point, Posture, TableAngles, part_pose, platform_working,
     tool_point,
@@ -67,7 +69,8 @@ impl Inputs {
 /// A posture in the working mode within all margins, and table angles in their ranges.
 fn reachable(machine: &Machine, random: &mut Random) -> (Posture, TableAngles) {
     let limits = &machine.data().limits;
-    let ([tilt_low, tilt_high], [rotary_low, rotary_high]) = (limits.tilt, limits.rotary);
+    let ([tilt_low, tilt_high], [rotary_low, rotary_high]) =
+        (limits.tilt, limits.rotary.unwrap_or([-PI, PI]));
     loop {
         let point = BOX.map(|[low, high]| random.between(low, high));
         let theta1 = random.between(tilt_low, tilt_high);

@@ -11,7 +11,6 @@ use crate::error::KinematicsError;
 use crate::fast_math::{sin_cos, wrapped};
 use crate::loop_closure::{Root, Roots, find_roots, from_level_platform, polish};
 use crate::machine::Machine;
-use crate::pose::PlatformPose;
 use crate::posture::{Posture, Postures, postures_or_error};
 
 /// All postures along the locus.
@@ -49,20 +48,24 @@ pub(super) fn working(machine: &Machine, locus: &PlatformLocus) -> Result<Postur
     working_among_all(machine, locus, &closure, level).map(|postures| postures[0])
 }
 
-/// The posture in the working mode that Newton's method finds from another pose and its rho1.
+/// The posture in the working mode that Newton's method finds from alpha of another one, its sine and cosine, and the
+/// height of leg I; with sine and cosine of its own alpha.
 #[inline]
 pub(super) fn working_near(
     machine: &Machine,
     locus: &PlatformLocus,
-    (before, rho1): (PlatformPose, f64),
-) -> Option<Posture> {
+    (alpha, [s, c], height): (f64, [f64; 2], f64),
+) -> Option<(Posture, [f64; 2])> {
     if let Some(p) = locus.fixed_point() {
-        return platform_working(machine, p).ok();
+        let posture = platform_working(machine, p).ok()?;
+        let (sine, cosine) = sin_cos(posture.pose.alpha);
+        return Some((posture, [sine, cosine]));
     }
     let closure = LegOneClosure::new(&machine.mechanism, locus);
-    let (s, c) = sin_cos(before.alpha);
-    let root = polish(&closure, Root::at(before.alpha, [c, s], before.z - rho1))?;
-    working_posture(machine, &locus.pose(&machine.mechanism, &root)).ok()
+    let root = polish(&closure, Root::at(alpha, [c, s], height))?;
+    let pose = locus.pose(&machine.mechanism, &root);
+    let [cosine, sine] = pose.checked;
+    Some((working_posture(machine, &pose).ok()?, [sine, cosine]))
 }
 
 /// All postures in the working mode along the locus, that of [`working`] first. There is at least one, or the function

@@ -5,7 +5,7 @@ use super::platform_locus::PlatformLocus;
 use crate::error::KinematicsError;
 use crate::fast_math::sin_cos;
 use crate::machine::Machine;
-use crate::pose::{PartPose, PlatformPose};
+use crate::pose::PartPose;
 use crate::posture::{Posture, Postures};
 use crate::request_range::{check_numbers, check_proportion};
 
@@ -124,16 +124,16 @@ pub fn part_every_working(
     every_working(machine, &locus(machine, target, tool_length)?)
 }
 
-/// The posture of [`part_every_working`] near another one, of which P, alpha and rho1 are given, by Newton's method.
-/// `turns` are sine and cosine of the target's phi1 and phi2. `None` if the method does not converge to a posture in
-/// the working mode.
+/// The posture of [`part_every_working`] near another one by Newton's method, with sine and cosine of its alpha.
+/// `before` is alpha of the other one, its sine and cosine, and the height of leg I, and `turns` are sine and cosine of
+/// the target's phi1 and phi2. `None` if the method does not converge to a posture in the working mode.
 pub(crate) fn part_working_near(
     machine: &Machine,
     target: &PartPose,
     turns: [[f64; 2]; 2],
     tool_length: f64,
-    before: (PlatformPose, f64),
-) -> Option<Posture> {
+    before: (f64, [f64; 2], f64),
+) -> Option<(Posture, [f64; 2])> {
     let locus = turned_locus(machine, target, turns, tool_length).ok()?;
     working_near(machine, &locus, before)
 }

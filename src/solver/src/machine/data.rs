@@ -27,8 +27,8 @@ pub struct Limits {
     pub parallel_margin: f64,
     /// Range of the tilting angle theta1.
     pub tilt: [f64; 2],
-    /// Range of the rotary angle theta2.
-    pub rotary: [f64; 2],
+    /// Range of the rotary angle theta2. `None`: the table turns without a limit.
+    pub rotary: Option<[f64; 2]>,
     /// Least height of the tool's end and of the platform's joints over the plane Z = 0 of the part frame, mm.
     /// `None`: the table is no limit unless the request gives a height. See [`crate::Clearance`].
     pub table_clearance: Option<f64>,

@@ -56,7 +56,7 @@ impl Machine {
                 serial_margin: 0.1,
                 parallel_margin: 0.05,
                 tilt: [-90_f64, 90.0].map(f64::to_radians),
-                rotary: [-360_f64, 360.0].map(f64::to_radians),
+                rotary: Some([-360_f64, 360.0].map(f64::to_radians)),
                 table_clearance: None,
                 slider_axes: None,
                 platform_axes: None,

@@ -128,9 +128,10 @@ fn limits(l: &Limits, checker: &mut Checker) {
         let holds = (0.0..1.0).contains(&margin);
         checker.check(holds, &format!("limits/{field}"), "must be at least 0 and below 1");
     }
-    for (field, range) in [("tilt", l.tilt), ("rotary", l.rotary)] {
-        let degrees = range.map(f64::to_degrees);
-        checker.range(&format!("limits/{field}"), degrees, 36_000.0, "degrees");
+    for (field, range) in [("tilt", Some(l.tilt)), ("rotary", l.rotary)] {
+        if let Some(range) = range {
+            checker.range(&format!("limits/{field}"), range.map(f64::to_degrees), 36_000.0, "degrees");
+        }
     }
     let clearance = l.table_clearance.is_none_or(|least| (0.0..=LARGEST).contains(&least));
     checker.check(clearance, "limits/table_clearance", "must be a length between 0 and 1e6 mm");

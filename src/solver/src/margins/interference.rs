@@ -25,6 +25,12 @@ impl NearestPair {
             *self = Self { square, rods: rods.map(|rod| RODS[rod]) };
         }
     }
+
+    /// The distance, and the rods' numbers.
+    #[inline(always)]
+    fn distance(&self) -> (f64, [u8; 2]) {
+        (self.square.sqrt(), self.rods)
+    }
 }
 
 /// The least distance between two rods' axes as segments, mm, and the two rods' numbers.
@@ -35,13 +41,25 @@ pub(crate) fn least_distance(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     // further apart.
     let (square, leg) = of_one_leg(g, &ends, rods);
     let mut nearest = NearestPair { square, rods: rods_of_leg(leg) };
-    // Nearly always all are farther.
-    if !others_are_farther(square, g, &ends, rods) {
-        for pair in BETWEEN_LEGS {
-            compare_pair(&mut nearest, &ends, rods, pair);
-        }
-    }
-    (nearest.square.sqrt(), nearest.rods)
+    compare_between_legs(&mut nearest, g, &ends, rods);
+    nearest.distance()
+}
+
+/// The same of a parallelogram's two rods.
+#[inline]
+pub(super) fn least_distance_in_parallelograms(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
+    let [second, third] = squares_of_parallelograms(g, rods);
+    let (square, leg) = if third < second { (third, 2) } else { (second, 1) };
+    (square.sqrt(), rods_of_leg(leg))
+}
+
+/// The same of all other pairs.
+#[inline]
+pub(super) fn least_distance_of_others(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
+    let ends = rods.platform_ends(g);
+    let mut nearest = NearestPair { square: square_of_leg_one(&ends, rods), rods: rods_of_leg(0) };
+    compare_between_legs(&mut nearest, g, &ends, rods);
+    nearest.distance()
 }
 
 /// The least distance between the two rods of a leg, and the leg: 0, 1 or 2.
@@ -73,7 +91,7 @@ pub(super) fn rods_of_leg(leg: u64) -> [u8; 2] {
 /// The square of the least distance between the two rods of a leg, and 0, 1 or 2 for the leg.
 #[inline(always)]
 fn of_one_leg(g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> (f64, u64) {
-    let first = square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1]);
+    let first = square_of_leg_one(ends, rods);
     let [second, third] = squares_of_parallelograms(g, rods);
     let (square, leg) = if second < first { (second, 1) } else { (first, 0) };
     if third < square { (third, 2) } else { (square, leg) }
@@ -85,7 +103,7 @@ fn of_one_leg(g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> (f64, u64) {
 #[inline(always)]
 pub(crate) fn least_distances_by_legs(g: &Geometry, rods: &Rods) -> [f64; 3] {
     let ends = rods.platform_ends(g);
-    let first = square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1]);
+    let first = square_of_leg_one(&ends, rods);
     let [second, third] = squares_of_parallelograms(g, rods);
     let mut between = NearestPair { square: f64::INFINITY, rods: [11, 12] };
     for pair in BETWEEN_LEGS {
@@ -120,6 +138,12 @@ fn interval_distance([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
     greater(lesser(a, b) - greater(c, d), lesser(c, d) - greater(a, b))
 }
 
+/// The square of the distance between leg I's two rods.
+#[inline(always)]
+fn square_of_leg_one(ends: &[[f64; 3]; 6], rods: &Rods) -> f64 {
+    square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1])
+}
+
 /// The squares of the distances between the two rods of each parallelogram.
 #[inline(always)]
 fn squares_of_parallelograms(g: &Geometry, rods: &Rods) -> [f64; 2] {
@@ -142,6 +166,17 @@ fn others_are_farther(nearest: f64, g: &Geometry, ends: &[[f64; 3]; 6], rods: &R
 /// Pairs of rods of different legs. Rods 22 and 32 are at the same distance as 21 and 31.
 const BETWEEN_LEGS: [[usize; 2]; 11] =
     [[0, 2], [0, 3], [0, 4], [0, 5], [1, 2], [1, 3], [1, 4], [1, 5], [2, 4], [2, 5], [3, 4]];
+
+/// The pairs of rods of different legs.
+#[inline(always)]
+fn compare_between_legs(nearest: &mut NearestPair, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
+    // Nearly always all are farther.
+    if !others_are_farther(nearest.square, g, ends, rods) {
+        for pair in BETWEEN_LEGS {
+            compare_pair(nearest, ends, rods, pair);
+        }
+    }
+}
 
 /// Whether two rods are at least as far apart as the nearest pair, whose distance's square is given, decided without
 /// their nearest points, if one of them is shifted along x by up to `shift` either way: the segments' projections on

@@ -95,7 +95,7 @@ impl MarginRows {
             rod_interference,
             nearest_rods,
             tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
-            rotary: table.map(|table| range_margins(limits.rotary, table.theta2)),
+            rotary: table.zip(limits.rotary).map(|(table, range)| range_margins(range, table.theta2)),
             table_clearance: above.map(|(table, clearance)| clearance.margin(machine, &posture.pose, table)),
         }
     }

@@ -34,7 +34,8 @@ impl Normalization {
             rod_crossing: 1.0 / (g.R1 - g.r1),
             rod_interference: 1.0 / rod_distance,
             tilt: inverse_width(limits.tilt),
-            rotary: inverse_width(limits.rotary),
+            // Without a limit there is no margin to compare.
+            rotary: limits.rotary.map_or(0.0, inverse_width),
             // The sliders move the platform up and down by their strokes.
             table_clearance: 1.0
                 / limits.stroke.map(|[low, high]| high - low).into_iter().fold(0.0, f64::max),

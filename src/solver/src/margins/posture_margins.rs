@@ -92,7 +92,7 @@ impl Margins {
         let limits = machine.limits();
         Self {
             tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
-            rotary: table.map(|table| range_margins(limits.rotary, table.theta2)),
+            rotary: table.zip(limits.rotary).map(|(table, range)| range_margins(range, table.theta2)),
             ..Self::of_parallel_module(machine, pose, rho, rods, nearest)
         }
     }
@@ -217,7 +217,7 @@ impl Margins {
 
 /// The height of each leg along z, mm: what its length leaves for it.
 #[inline(always)]
-fn heights(g: &Geometry, pose: &PlatformPose, rho: [f64; 3], rods: &Rods) -> [f64; 3] {
+pub(super) fn heights(g: &Geometry, pose: &PlatformPose, rho: [f64; 3], rods: &Rods) -> [f64; 3] {
     let (z, q) = (pose.z, g.R2 * rods.s);
     let [rho1, rho2, rho3] = rho;
     [z - rho1, z - q - rho2, z + q - rho3].map(f64::abs)
@@ -226,8 +226,13 @@ fn heights(g: &Geometry, pose: &PlatformPose, rho: [f64; 3], rods: &Rods) -> [f6
 /// `det_P` in the sign of home less the limit.
 #[inline(always)]
 pub(super) fn det_margin(machine: &Machine, rods: &Rods) -> f64 {
-    determinant(&matrix(machine.geometry(), rods)) * machine.home.det.signum()
-        - machine.limits().parallel_margin
+    margin_of_det(machine, determinant(&matrix(machine.geometry(), rods)))
+}
+
+/// The same from the determinant.
+#[inline(always)]
+pub(super) fn margin_of_det(machine: &Machine, det: f64) -> f64 {
+    det * machine.home.det.signum() - machine.limits().parallel_margin
 }
 
 /// The margins of a value in a range.

@@ -7,11 +7,12 @@ use crate::machine::Machine;
 use crate::pose::TableAngles;
 
 /// The rod that represents each family.
-const FAMILY_ROD: [Element; 4] = [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
+pub(super) const FAMILY_ROD: [Element; 4] =
+    [Element::Rod(11), Element::Rod(12), Element::Rod(21), Element::Rod(31)];
 
 /// The least number and its index.
 #[inline]
-fn least(margins: &[f64]) -> (usize, f64) {
+pub(super) fn least(margins: &[f64]) -> (usize, f64) {
     let mut found = (0, f64::INFINITY);
     for (i, &margin) in margins.iter().enumerate() {
         if margin < found.1 {
@@ -24,7 +25,7 @@ fn least(margins: &[f64]) -> (usize, f64) {
 /// The worst margin so far, and its fraction of its constraint's range.
 pub(super) struct WorstMargin {
     pub(super) margin: Margin,
-    fraction: f64,
+    pub(super) fraction: f64,
 }
 
 impl WorstMargin {
@@ -40,8 +41,9 @@ impl WorstMargin {
         let mut worst = Self::new(rod_crossing, machine.normalization.rod_crossing);
         worst.compare_strokes(machine, &[0, 1, 2].map(|i| range_margins(limits.stroke[i], rho[i])));
         if let Some(TableAngles { theta1, theta2 }) = table {
-            let (tilt, rotary) = (range_margins(limits.tilt, theta1), range_margins(limits.rotary, theta2));
-            each_range(machine, Some(tilt), Some(rotary), &mut |constraint, element, value, factor| {
+            let tilt = range_margins(limits.tilt, theta1);
+            let rotary = limits.rotary.map(|range| range_margins(range, theta2));
+            each_range(machine, Some(tilt), rotary, &mut |constraint, element, value, factor| {
                 worst.compare(constraint, element, value, factor);
             });
         }
@@ -68,14 +70,14 @@ impl WorstMargin {
 
     /// Starts with the margin of crossed rods.
     #[inline]
-    fn new(rod_crossing: f64, factor: f64) -> Self {
+    pub(super) fn new(rod_crossing: f64, factor: f64) -> Self {
         let (constraint, element) = (Constraint::RodCrossing, Element::Leg(1));
         let margin = Margin { constraint, element, value: rod_crossing };
         Self { margin, fraction: rod_crossing * factor }
     }
 
     #[inline]
-    fn compare(&mut self, constraint: Constraint, element: Element, value: f64, factor: f64) {
+    pub(super) fn compare(&mut self, constraint: Constraint, element: Element, value: f64, factor: f64) {
         let fraction = value * factor;
         if fraction < self.fraction {
             *self = Self { margin: Margin { constraint, element, value }, fraction };
@@ -103,13 +105,7 @@ impl WorstMargin {
 #[inline]
 fn each_margin(machine: &Machine, margins: &Margins, mut found: impl FnMut(Constraint, Element, f64, f64)) {
     let factors = &machine.normalization;
-    for (slider, (ends, factor)) in (1..).zip(margins.stroke.iter().zip(factors.stroke)) {
-        let element = Element::Stroke { slider, high: ends[1] < ends[0] };
-        found(Constraint::Stroke, element, lesser(ends[0], ends[1]), factor);
-    }
-    for (leg, (value, factor)) in (1..).zip(margins.leg_length.iter().zip(factors.leg_length)) {
-        found(Constraint::LegLength, Element::Leg(leg), *value, factor);
-    }
+    each_length(machine, &margins.stroke, &margins.leg_length, &mut found);
     let families = [
         (Constraint::SerialSingularity, &margins.serial_singularity, factors.serial_singularity),
         (Constraint::SliderJoint, &margins.slider_joint, factors.slider_joint),
@@ -129,9 +125,27 @@ fn each_margin(machine: &Machine, margins: &Margins, mut found: impl FnMut(Const
     }
 }
 
+/// The same for sliders and legs.
+#[inline]
+pub(super) fn each_length(
+    machine: &Machine,
+    stroke: &[[f64; 2]; 3],
+    leg_length: &[f64; 3],
+    found: &mut impl FnMut(Constraint, Element, f64, f64),
+) {
+    let factors = &machine.normalization;
+    for (slider, (ends, factor)) in (1..).zip(stroke.iter().zip(factors.stroke)) {
+        let element = Element::Stroke { slider, high: ends[1] < ends[0] };
+        found(Constraint::Stroke, element, lesser(ends[0], ends[1]), factor);
+    }
+    for (leg, (value, factor)) in (1..).zip(leg_length.iter().zip(factors.leg_length)) {
+        found(Constraint::LegLength, Element::Leg(leg), *value, factor);
+    }
+}
+
 /// The same for the table's ranges.
 #[inline]
-fn each_range(
+pub(super) fn each_range(
     machine: &Machine,
     tilt: Option<[f64; 2]>,
     rotary: Option<[f64; 2]>,

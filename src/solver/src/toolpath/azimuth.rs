@@ -2,14 +2,16 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::motion::Motion;
+use super::motion::{Motion, Turning};
 use super::path::Path;
 use crate::fast_math::{angle_of, angle_of_vector};
 
 /// Width of the strip beside an azimuth of half a turn whose sign is rounding, rad.
 const SEAM: f64 = 1e-9;
+/// Fraction of a period below which a difference clearly is the one nearest to zero.
+const CLEARLY_NEAREST: f64 = 0.49;
 /// Sine of the inclination below which an axis has no azimuth.
-const LEAST_SINE: f64 = 1e-9;
+pub(super) const LEAST_SINE: f64 = 1e-9;
 
 /// phi1 of an axis on the meridian of this sine and cosine, rad: of its component there, if phi2 is not its own. Also
 /// sine and cosine of phi1.
@@ -24,14 +26,26 @@ pub(super) fn inclination([i, j, k]: [f64; 3], [sin, cos]: [f64; 2]) -> (f64, [f
     }
 }
 
-/// phi2 of an axis with phi1 >= 0, rad, in (-π, π] but for rounding; `None` at the pole.
-pub(super) fn azimuth([i, j, _]: [f64; 3]) -> Option<f64> {
-    (i * i + j * j > LEAST_SINE * LEAST_SINE).then(|| direction_azimuth(i, j))
+/// Sine and cosine of phi2 of an axis with phi1 >= 0; `None` at the pole.
+#[inline]
+pub(super) fn azimuth_direction([i, j, _]: [f64; 3]) -> Option<[f64; 2]> {
+    let square = i * i + j * j;
+    (square > LEAST_SINE * LEAST_SINE).then(|| {
+        let length = square.sqrt();
+        [i / length, (0.0 - j) / length]
+    })
 }
 
-fn direction_azimuth(i: f64, j: f64) -> f64 {
-    let azimuth = angle_of_vector(0.0 - j, i);
+/// The angle of this sine and cosine, rad, in (-π, π] but for rounding.
+#[inline]
+pub(super) fn azimuth_of([sine, cosine]: [f64; 2]) -> f64 {
+    let azimuth = angle_of(cosine, sine);
     if azimuth <= SEAM - PI { azimuth + TAU } else { azimuth }
+}
+
+/// phi2 of an axis with phi1 >= 0, rad, in (-π, π] but for rounding; `None` at the pole.
+fn azimuth(axis: [f64; 3]) -> Option<f64> {
+    azimuth_direction(axis).map(azimuth_of)
 }
 
 /// The azimuths of the paths of a program, which begin where the ones before them end.
@@ -60,16 +74,25 @@ impl Azimuths {
 /// The azimuth of the way from the pole.
 fn way(path: &Path, s: f64, sign: f64) -> f64 {
     let (_, [_, rate]) = path.with_rates(s);
-    direction_azimuth(sign * rate.x, sign * rate.y)
+    let azimuth = angle_of_vector(-sign * rate.y, sign * rate.x);
+    if azimuth <= SEAM - PI { azimuth + TAU } else { azimuth }
 }
 
 /// The difference modulo `period` that is nearest to zero; of two, the positive one.
+#[inline]
 pub(super) fn to_nearest(difference: f64, period: f64) -> f64 {
+    if difference.abs() < CLEARLY_NEAREST * period {
+        return difference;
+    }
     difference - period * (difference / period - 0.5 - SEAM).ceil()
 }
 
+/// phi2 where a motion of kind [`Arrive`](super::MotionKind::Arrive) ends.
 pub(super) fn of_arrival(motion: &Motion) -> f64 {
-    azimuth(motion.end.axis).unwrap_or(0.0)
+    match motion.turning {
+        Turning::Held { end, .. } => end[1],
+        Turning::GreatCircle | Turning::Angles { .. } => azimuth(motion.end.axis).unwrap_or(0.0),
+    }
 }
 
 /// The value nearest to `before` with this azimuth, modulo half turns.

@@ -25,7 +25,7 @@ pub(super) struct InverseBound {
 
 impl InverseBound {
     fn new(machine: &Machine, node: &Node, rods: &Rods) -> Option<Self> {
-        let inverse = inverse(&matrix(machine.geometry(), rods))?;
+        let (_, inverse) = inverse(&matrix(machine.geometry(), rods))?;
         let square: f64 = inverse.iter().flatten().map(|element| element * element).sum();
         Some(Self { rods: rods.vectors, alpha: node.pose.alpha, norm: square.sqrt() })
     }
@@ -47,23 +47,23 @@ impl InverseBound {
 pub(super) fn second_derivatives(
     machine: &Machine,
     [a, b]: [&Node; 2],
+    [rods, other]: [&Rods; 2],
     tool_length: f64,
     known: &mut Option<InverseBound>,
 ) -> Option<Deviation> {
     let g = machine.geometry();
-    let [rods, other] = [a, b].map(|node| node.rods(machine));
     let ratio = (g.R2 / g.R1).max(1.0);
     let least_length = g.L1.min(g.L2).min(g.L3);
     let alpha = (b.pose.alpha - a.pose.alpha).abs();
     let rod = greatest_distance(&rods.vectors, &other.vectors);
     let platform = square_distance([a.pose.x, a.pose.y, a.pose.z], [b.pose.x, b.pose.y, b.pose.z]).sqrt();
     let radius = g.R1.max(g.R2);
-    let nearby = known.and_then(|known| known.along(g, a, &rods, [rod, alpha]));
+    let nearby = known.and_then(|known| known.along(g, a, rods, [rod, alpha]));
     let greatest_inverse = if let Some(nearby) = nearby {
         nearby
     } else {
-        *known = InverseBound::new(machine, a, &rods);
-        known.and_then(|known| known.along(g, a, &rods, [rod, alpha]))?
+        *known = InverseBound::new(machine, a, rods);
+        known.and_then(|known| known.along(g, a, rods, [rod, alpha]))?
     };
     // Rates are at most those of the chords plus the second derivative, for which twice a first estimate is tried.
     let right = |second: f64| {

@@ -1,5 +1,6 @@
 //! The cap around the pole in which phi2 is free.
 
+use super::azimuth::LEAST_SINE;
 use super::golden_section;
 use super::path::{Path, count_of};
 use crate::fast_math::angle_of_vector;
@@ -22,9 +23,9 @@ pub(super) struct Cap {
 }
 
 impl Cap {
-    /// A cap of this half-angle, rad.
+    /// A cap of this half-angle, rad. An axis that is so near to the pole that it has no azimuth is in every cap.
     pub(super) fn new(angle: f64, scale: f64) -> Self {
-        Self { sine: angle.sin(), scale }
+        Self { sine: angle.sin().max(LEAST_SINE), scale }
     }
 
     pub(super) fn has(&self, axis: [f64; 3]) -> bool {

@@ -17,12 +17,12 @@ use self::cost::Cost;
 use self::rewind::rewound;
 use self::stages::Stages;
 pub(super) use self::stages::{Choice, Chosen, Rewind};
-use self::state::{Reserve, State, advance, is_wound};
-use super::cap::Cap;
+use self::state::{Reserve, State, advance, has_same_posture, is_wound, keep_best_windings, useful_range};
 use super::meridian::{Meridian, Span};
 use super::motion::{Motion, MotionKind, Motions, ToolPosition};
-use super::node::{Node, Setting};
+use super::node::{Node, Setting, half_turns};
 use super::path::{Path, places};
+use super::start::Start;
 use super::stretches::Place;
 
 /// Greatest number of motions of a program all of whose ends are examined.
@@ -43,9 +43,10 @@ pub(super) struct Chooser<'a> {
     weights: [f64; 2],
     states: Vec<State>,
     stages: Stages,
-    start: Option<[f64; 2]>,
     may_retract: bool,
     is_long: bool,
+    /// Length of the tool in the last motion.
+    tool_length: Option<f64>,
     /// The end of the last motion, if it has not been examined.
     skipped: Option<Skipped>,
 }
@@ -62,32 +63,33 @@ struct Skipped {
 }
 
 impl<'a> Chooser<'a> {
-    /// `weights` are those of turning of theta1 and theta2; `start` is where the table stands before the program.
+    /// `weights` are those of turning of theta1 and theta2; `start` is where the machine stands before the program.
     pub(super) fn new(
         setting: Setting<'a>,
         weights: [f64; 2],
-        start: Option<[f64; 2]>,
+        start: Option<Start>,
         may_retract: bool,
     ) -> Self {
-        let (states, stages) = (Vec::new(), Stages::default());
-        Self { setting, weights, states, stages, start, may_retract, is_long: false, skipped: None }
+        let (states, stages) = (start.map(State::of_start).into_iter().collect(), Stages::default());
+        let (is_long, tool_length, skipped) = (false, None, None);
+        Self { setting, weights, states, stages, may_retract, is_long, tool_length, skipped }
     }
 
     /// Examines the program; `go_on` is asked from time to time and ends the examination by `false`.
-    pub(super) fn choose<M: Motions + ?Sized>(
+    pub(super) fn choose(
         mut self,
-        motions: &M,
-        cap: Cap,
+        motions: &dyn Motions,
+        mut meridian: Meridian<'_>,
         mut go_on: impl FnMut(usize) -> bool,
     ) -> Option<Choice> {
         self.is_long = motions.count() > ALL_EXAMINED;
-        let mut meridian = Meridian::new(cap, self.setting.stretches);
         for index in 0..motions.count() {
             if !go_on(index) {
                 return None;
             }
             let motion = motions.motion(index);
             meridian.advance(&motion);
+            self.take_tool(motion.tool_length);
             match &meridian.path {
                 Some(path) if motion.kind == MotionKind::Feed => {
                     self.feed(index, &motion, path, &meridian.spans);
@@ -98,15 +100,29 @@ impl<'a> Chooser<'a> {
         Some(self.traced())
     }
 
+    /// Examines the limits of the states anew if the tool is another one.
+    fn take_tool(&mut self, tool_length: f64) {
+        if self
+            .tool_length
+            .replace(tool_length)
+            .is_some_and(|before| before.to_bits() != tool_length.to_bits())
+        {
+            self.examine_skipped();
+            for state in &mut self.states {
+                state.reserve = Reserve::of(&self.setting, state.node.as_ref(), tool_length);
+            }
+        }
+    }
+
     /// The states at the end of a motion whose joints are free.
     fn jump(&mut self, motion: &Motion, span: Option<&Span>) {
         let Some(span) = span else { return };
         self.examine_skipped();
         let before = std::mem::take(&mut self.states);
-        let phi2 = span.phi2(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
+        let (phi2, _) = span.meridian(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
         // The nodes of both preimages; whole turns change theta2 alone.
         let mut known: [Option<Solutions>; 2] = [None, None];
-        for h in self.setting.half_turns(phi2) {
+        for h in half_turns(phi2, span.is_odd(), useful_range(&before, &self.setting)) {
             let target = self.setting.target(span, 1.0, &motion.end, [h, h]);
             let nodes = known[usize::from(h.rem_euclid(2) == 1)].get_or_insert_with(|| {
                 let nodes = self.setting.nodes(&target, motion.tool_length).unwrap_or_default();
@@ -125,18 +141,21 @@ impl<'a> Chooser<'a> {
                 break;
             }
         }
+        self.keep_useful();
         self.stage(None);
+    }
+
+    fn keep_useful(&mut self) {
+        if self.setting.machine.limits().rotary.is_none() {
+            keep_best_windings(&mut self.states);
+        }
     }
 
     fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, reserve: Reserve) -> State {
         let own = reserve.place_cost(&self.setting, node.as_ref());
         if before.is_empty() {
-            let turning = node.zip(self.start).map_or(0.0, |(node, [theta1, theta2])| {
-                self.weights[0] * (node.table.theta1 - theta1).abs()
-                    + self.weights[1] * (node.table.theta2 - theta2).abs()
-            });
             let start = node.map_or(f64::INFINITY, |node| node.table.theta2.abs());
-            let cost = Cost { turning, start, is_turned: h[1].rem_euclid(2) == 1, ..own };
+            let cost = Cost { start, is_turned: h[1].rem_euclid(2) == 1, ..own };
             return State { h, node, reserve, cost, parent: 0, twin: None };
         }
         let mut best: Option<(Cost, usize)> = None;
@@ -205,10 +224,10 @@ impl<'a> Chooser<'a> {
     /// Gives every state at the beginning of a stretch all its ends.
     fn spread(&mut self, phi2: f64) {
         self.examine_skipped();
-        let ends = self.setting.half_turns(phi2);
+        let ends: Vec<i32> = half_turns(phi2, None, useful_range(&self.states, &self.setting)).collect();
         let before = std::mem::take(&mut self.states);
         for (parent, state) in before.iter().enumerate() {
-            for h in ends.clone().chain([state.h[1]]) {
+            for h in ends.iter().copied().chain([state.h[1]]) {
                 let h = [state.h[1], h];
                 if self.states.iter().all(|other| other.h != h || other.parent != parent) {
                     self.states.push(State { h, parent, ..*state });
@@ -224,20 +243,14 @@ impl<'a> Chooser<'a> {
         let before = std::mem::take(&mut self.states);
         for (parent, state) in before.iter().enumerate() {
             let state = State { h: [state.h[1]; 2], parent, ..*state };
-            let same = |other: &State| {
-                let near = match (other.node, state.node) {
-                    (Some(a), Some(b)) => (a.pose.alpha - b.pose.alpha).abs() < 1e-6,
-                    (None, None) => true,
-                    _ => false,
-                };
-                other.h == state.h && near
-            };
+            let same = |other: &State| other.h == state.h && has_same_posture(other, &state);
             match self.states.iter_mut().find(|other| same(other)) {
                 Some(other) if state.cost.compare(&other.cost) == Ordering::Less => *other = state,
                 Some(_) => {}
                 None => self.states.push(state),
             }
         }
+        self.keep_useful();
         self.stage(None);
     }
 

@@ -13,14 +13,16 @@ pub(super) struct Differential {
     /// Cosine between the guideway and rods 11, 12, 21 and 31.
     cosines: [f64; 4],
     radius: f64,
+    /// The matrix' determinant.
+    pub(super) det: f64,
 }
 
 impl Differential {
     /// `None` at a parallel singularity.
     pub(super) fn of(machine: &Machine, rods: &Rods) -> Option<Self> {
         let g = machine.geometry();
-        let inverse = inverse(&matrix(g, rods))?;
-        Some(Self { inverse, cosines: rods.directions.map(|direction| direction[2]), radius: g.R1 })
+        let (det, inverse) = inverse(&matrix(g, rods))?;
+        Some(Self { inverse, cosines: rods.directions.map(|direction| direction[2]), radius: g.R1, det })
     }
 
     /// Rates of the platform's pose for these rates of the sliders.

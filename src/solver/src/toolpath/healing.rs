@@ -96,6 +96,7 @@ pub fn healing_change<M: Motions + ?Sized>(
     let options = PlanOptions { on_limit: OnLimit::Fail, most_rows, ..options.clone() };
     let planned = |[first, last]: [usize; 2], change| {
         let changed = Changed { motions, begin: first.saturating_sub(1), end: last, change };
+        let options = PlanOptions { start: options.start.filter(|_| first == 0), ..options };
         plan(machine, &changed, &options, |_| go_on(), |_| {})
     };
     let follows = |range, change| planned(range, change).is_ok_and(|report| report.is_feasible());

@@ -6,11 +6,10 @@ use super::differential::Differential;
 use super::golden_section::{STEPS, beside, least};
 use super::meridian::Span;
 use super::nearby_pose::{hermite_middle, parabola, solved};
-use super::node::{Node, Setting};
+use super::node::{ClosedRods, Node, Setting, Turns};
 use super::path::Path;
 use super::tool_motion::ToolMotion;
 use crate::machine::Machine;
-use crate::margins::Margins;
 use crate::pose::{PlatformPose, TableAngles};
 
 /// Number of intervals between the places where the forward problem is solved, if the deviation is not interpolated.
@@ -59,6 +58,7 @@ pub(super) struct Stop {
 
 /// What the segments on both sides of a stop need of it.
 pub(super) struct Surroundings {
+    pub(super) closed: ClosedRods,
     pub(super) differential: Differential,
     tool: ToolMotion,
     /// The rates of the path by its parameter.
@@ -69,9 +69,11 @@ impl Surroundings {
     /// `None` at a parallel singularity.
     pub(super) fn of(track: &Track<'_>, stop: &Stop, path: [Vector3<f64>; 2]) -> Option<Self> {
         let machine = track.setting.machine;
-        let differential = Differential::of(machine, &stop.node.rods(machine))?;
+        let rods = stop.node.rods(machine);
+        let differential = Differential::of(machine, &rods)?;
+        let closed = ClosedRods { rods, det: differential.det };
         let tool = ToolMotion::at(machine, &stop.node, track.tool_length);
-        Some(Self { differential, tool, path })
+        Some(Self { closed, differential, tool, path })
     }
 }
 
@@ -139,12 +141,14 @@ impl<'a> JointSegment<'a> {
         tolerance: &Deviation,
     ) -> Option<Deviation> {
         let machine = track.setting.machine;
+        let weights = [tolerance.tip, tolerance.axis].map(|tolerance| 1.0 / (tolerance * tolerance));
         let at = |t: f64, node: &Node| {
             let tool = ToolMotion::at(machine, node, track.tool_length).position();
-            from_path(track.path, parameters, t, tool, tolerance)
+            from_path(track.path, parameters, t, tool, weights)
         };
         let (rho, table) = between(self.ends, 0.5);
-        let middle = at(0.5, &Node::new(self.middle, rho, table));
+        let turns = Turns::in_middle(self.ends, self.middle.alpha);
+        let middle = at(0.5, &Node { pose: self.middle, rho, table, turns });
         // Inside a cap the axis is off its path at the ends, too.
         let held = if track.span.stretch().is_some() {
             [at(0.0, self.ends[0])[1], at(1.0, self.ends[1])[1]]
@@ -153,7 +157,7 @@ impl<'a> JointSegment<'a> {
         };
         let width = parameters[1] - parameters[0];
         let rates = [0, 1].map(|end| {
-            let [tip, axis] = self.rates_from_path(surroundings[end], width, end, tolerance);
+            let [tip, axis] = self.rates_from_path(surroundings[end], width, end, weights);
             [tip, axis - (held[1] - held[0])]
         });
         let tips = Interpolated::new(middle[0], [rates[0][0], rates[1][0]]);
@@ -178,20 +182,20 @@ impl<'a> JointSegment<'a> {
         &Surroundings { tool, path, .. }: &Surroundings,
         width: f64,
         end: usize,
-        tolerance: &Deviation,
+        weights: [f64; 2],
     ) -> [Vector3<f64>; 2] {
         let [a, b] = self.ends;
         let turn = [b.table.theta1 - a.table.theta1, b.table.theta2 - a.table.theta2];
         let tool = tool.rates(&self.rates[end], turn);
         let off = [tool[0] - path[0] * width, tool[1] - path[1] * width];
-        across_path(off, path, tolerance, [f64::NEG_INFINITY, f64::INFINITY])
+        across_path(off, path, weights, [f64::NEG_INFINITY, f64::INFINITY])
     }
 
-    /// The place of the worst margin along the segment, as a fraction of its constraint's range, and the margins there.
-    pub(super) fn worst(&self, setting: &Setting<'_>, tool_length: f64) -> Option<(Node, Margins)> {
+    /// The place of the worst margin along the segment, as a fraction of its constraint's range.
+    pub(super) fn worst(&self, setting: &Setting<'_>, tool_length: f64) -> Option<Node> {
         let margins = self.places(setting.machine).flatten().map(|(_, node)| {
             let margins = setting.margins(&node, tool_length);
-            (margins.worst_with_fraction(setting.machine).1, (node, margins))
+            (margins.worst_with_fraction(setting.machine).1, node)
         });
         margins.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, worst)| worst)
     }
@@ -239,27 +243,27 @@ fn from_path(
     parameters: [f64; 2],
     t: f64,
     [tip, axis]: [Vector3<f64>; 2],
-    tolerance: &Deviation,
+    weights: [f64; 2],
 ) -> [Vector3<f64>; 2] {
     let s = parameters[0] + (parameters[1] - parameters[0]) * t;
     let ([at_tip, at_axis], rates) = path.with_rates(s);
-    across_path([tip - at_tip, axis - at_axis], rates, tolerance, parameters.map(|end| end - s))
+    across_path([tip - at_tip, axis - at_axis], rates, weights, parameters.map(|end| end - s))
 }
 
-/// The offset less the step along the path that makes it smallest in proportion to the tolerances. The path is
+/// The offset less the step along the path that makes it smallest; `weights` are those of the squares of tip and axis,
+/// the reciprocals of the squares of the tolerances. The path is
 /// straight as far as the parameter moves.
 fn across_path(
     [tip, axis]: [Vector3<f64>; 2],
     [tip_rate, axis_rate]: [Vector3<f64>; 2],
-    tolerance: &Deviation,
+    weights: [f64; 2],
     [least, most]: [f64; 2],
 ) -> [Vector3<f64>; 2] {
-    let squares = [tolerance.tip, tolerance.axis].map(|tolerance| 1.0 / (tolerance * tolerance));
-    let square = tip_rate.norm_squared() * squares[0] + axis_rate.norm_squared() * squares[1];
+    let square = tip_rate.norm_squared() * weights[0] + axis_rate.norm_squared() * weights[1];
     if square <= 0.0 {
         return [tip, axis];
     }
-    let along = tip_rate.dot(&tip) * squares[0] + axis_rate.dot(&axis) * squares[1];
+    let along = tip_rate.dot(&tip) * weights[0] + axis_rate.dot(&axis) * weights[1];
     let step = (along / square).max(least).min(most);
     [tip - tip_rate * step, axis - axis_rate * step]
 }

@@ -3,9 +3,10 @@
 use super::bound::{InverseBound, second_derivatives};
 use super::joint_segment::{Deviation, JointSegment, Stop, Surroundings, Track};
 use super::motion::ToolPosition;
-use super::node::{Node, Target};
+use super::node::{ClosedRods, Node, Target};
 use crate::error::KinematicsError;
 use crate::machine::Machine;
+use crate::rods::Rods;
 
 /// The fraction of the tolerance that is used: the greatest deviation may lie between the places that are examined.
 const USED: f64 = 0.97;
@@ -17,8 +18,8 @@ const BOUNDABLE: f64 = 0.1;
 const RATIOS: [f64; 2] = [0.2, 2.5];
 /// Part of a step by which the rest of a path may be longer than whole steps.
 const ROUNDING: f64 = 1e-6;
-/// Least step, as a fraction of a motion.
-const LEAST_STEP: f64 = 1e-9;
+/// Least step, as a fraction of a motion. At the edge of the smallest cap theta2 turns within a billionth of a motion.
+const LEAST_STEP: f64 = 1e-13;
 
 /// Why a path between two stops cannot be divided into rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,45 +45,48 @@ pub(super) fn linearise(
     end: &Stop,
     tolerance: &Deviation,
     bend: &mut Bend,
-    mut found: impl FnMut(&Stop, Option<&JointSegment<'_>>, Deviation),
+    mut found: impl FnMut(&Stop, &ClosedRods, Option<&JointSegment<'_>>, Deviation),
 ) -> Result<(), LineariseError> {
     let machine = track.setting.machine;
     let way = square_way(machine, &start.node, &end.node);
     let expected = bend.known.map(|known| known * way);
-    if expected.is_none_or(|expected| expected <= BOUNDABLE)
-        && let Some(deviation) = bounded(track, [&start, end], &mut bend.inverse)
-        && deviation.ratio(tolerance) <= USED
-    {
-        found(end, None, deviation);
-        return Ok(());
+    if expected.is_none_or(|expected| expected <= BOUNDABLE) {
+        let rods = [&start, end].map(|stop| stop.node.rods(machine));
+        if let Some(deviation) = bounded(track, [&start, end], [&rods[0], &rods[1]], &mut bend.inverse)
+            && deviation.ratio(tolerance) <= USED
+        {
+            found(end, &ClosedRods::of(machine, rods[1]), None, deviation);
+            return Ok(());
+        }
     }
-    let surroundings = |stop: &Stop| Surroundings::of(track, stop, track.path.with_rates(stop.s).1);
-    let (mut now, mut here) = (start, surroundings(&start));
+    let mut places = [start, *end].map(|stop| Place { stop, surroundings: None });
+    let [first, last] = &mut places;
+    let (mut now, mut next) = (first, last);
+    now.surround(track);
     // Fraction of the tolerance over the square of the parameter.
     let mut curvature = expected.map_or(0.0, |expected| expected / (end.s - start.s).powi(2));
-    while now.s < end.s {
-        let rest = end.s - now.s;
+    while now.stop.s < end.s {
+        let (from, rest) = (now.stop.s, end.s - now.stop.s);
         let count = (rest * (curvature / AIM).sqrt() - ROUNDING).ceil().max(1.0);
         let width = rest / count;
-        let (next, there) =
-            if count == 1.0 { (*end, surroundings(end)) } else { stop_at(track, now.s + width, &now.node)? };
-        let segment = here.as_ref().zip(there.as_ref()).and_then(|(here, there)| {
-            let differentials = [&here.differential, &there.differential];
-            let segment = JointSegment::new(machine, [&now.node, &next.node], differentials)?;
-            let deviation = segment.deviation(track, [now.s, next.s], [here, there], tolerance)?;
-            Some((segment, deviation))
-        });
-        let ratio = segment.as_ref().map_or(f64::INFINITY, |(_, deviation)| deviation.ratio(tolerance));
+        if count == 1.0 {
+            next.stop = *end;
+            next.surround(track);
+        } else {
+            next.move_to(track, from + width, &now.stop.node)?;
+        }
+        let segment = Place::segment([now, next], track, tolerance);
+        let ratio = segment.as_ref().map_or(f64::INFINITY, |(.., deviation)| deviation.ratio(tolerance));
         let bounds = RATIOS.map(|ratio| AIM / (ratio * ratio));
         curvature = ratio.clamp(bounds[1], bounds[0]) / (width * width);
         match segment {
-            Some((segment, deviation)) if ratio <= USED => {
-                found(&next, Some(&segment), deviation);
-                let way = square_way(machine, &now.node, &next.node);
+            Some((segment, rods, deviation)) if ratio <= USED => {
+                found(&next.stop, rods, Some(&segment), deviation);
+                let way = square_way(machine, &now.stop.node, &next.stop.node);
                 bend.known = (way > 0.0).then(|| ratio / way).or(bend.known);
-                (now, here) = (next, there);
+                std::mem::swap(&mut now, &mut next);
             }
-            _ if width < LEAST_STEP => return Err(LineariseError::Jump(now.s)),
+            _ if width < LEAST_STEP => return Err(LineariseError::Jump(from)),
             _ => {}
         }
     }
@@ -101,25 +105,54 @@ fn square_way(machine: &Machine, a: &Node, b: &Node) -> f64 {
 fn bounded(
     track: &Track<'_>,
     [start, end]: [&Stop; 2],
+    rods: [&Rods; 2],
     inverse: &mut Option<InverseBound>,
 ) -> Option<Deviation> {
     let ends = [&start.node, &end.node];
-    let joints = second_derivatives(track.setting.machine, ends, track.tool_length, inverse)?;
+    let joints = second_derivatives(track.setting.machine, ends, rods, track.tool_length, inverse)?;
     let width = end.s - start.s;
     let [tip, axis] = track.path.second_derivatives().map(|second| second * width * width);
     // Inside a cap the axis is off its path at the ends, too.
-    let off = if track.span.stretch().is_some() { track.setting.pole } else { 0.0 };
+    let off =
+        if track.span.stretch().is_some() { track.axis_off(start).max(track.axis_off(end)) } else { 0.0 };
     Some(Deviation { tip: 0.125 * (joints.tip + tip), axis: off + 0.125 * (joints.axis + axis) })
 }
 
-fn stop_at(track: &Track<'_>, s: f64, before: &Node) -> Result<(Stop, Option<Surroundings>), LineariseError> {
-    let ([tip, axis], rates) = track.path.with_rates(s);
-    let at = ToolPosition { tip: tip.into(), axis: axis.into() };
-    let target = track.setting.target(&track.span, s, &at, track.h);
-    let node = track.setting.node_near(&target, track.tool_length, before);
-    let stop = Stop { s, node: node.map_err(|refusal| LineariseError::Refused(s, refusal))? };
-    let surroundings = Surroundings::of(track, &stop, rates);
-    Ok((stop, surroundings))
+/// A stop on the path, with what the segments on both sides need of it, unless it is at a parallel singularity.
+struct Place {
+    stop: Stop,
+    surroundings: Option<Surroundings>,
+}
+
+impl Place {
+    fn surround(&mut self, track: &Track<'_>) {
+        self.surroundings = Surroundings::of(track, &self.stop, track.path.with_rates(self.stop.s).1);
+    }
+
+    /// Moves to a parameter; `before` is a node nearby.
+    fn move_to(&mut self, track: &Track<'_>, s: f64, before: &Node) -> Result<(), LineariseError> {
+        let ([tip, axis], rates) = track.path.with_rates(s);
+        let at = ToolPosition { tip: tip.into(), axis: axis.into() };
+        let target = track.setting.target(&track.span, s, &at, track.h);
+        let node = track.setting.node_near(&target, track.tool_length, before);
+        self.stop = Stop { s, node: node.map_err(|refusal| LineariseError::Refused(s, refusal))? };
+        self.surroundings = Surroundings::of(track, &self.stop, rates);
+        Ok(())
+    }
+
+    /// The joint segment between two places, with the rods at its end and its deviation.
+    fn segment<'p>(
+        [now, next]: [&'p Self; 2],
+        track: &Track<'_>,
+        tolerance: &Deviation,
+    ) -> Option<(JointSegment<'p>, &'p ClosedRods, Deviation)> {
+        let surroundings = [now.surroundings.as_ref()?, next.surroundings.as_ref()?];
+        let ends = [&now.stop.node, &next.stop.node];
+        let differentials = surroundings.map(|surroundings| &surroundings.differential);
+        let segment = JointSegment::new(track.setting.machine, ends, differentials)?;
+        let deviation = segment.deviation(track, [now.stop.s, next.stop.s], surroundings, tolerance)?;
+        Some((segment, &surroundings[1].closed, deviation))
+    }
 }
 
 impl Track<'_> {
@@ -130,6 +163,13 @@ impl Track<'_> {
             Some(before) => self.setting.node_near(&target, self.tool_length, before),
             None => self.setting.node(&target, self.tool_length, None),
         }
+    }
+
+    /// The distance of the axis at a stop from that of the path: its part off the meridian.
+    fn axis_off(&self, stop: &Stop) -> f64 {
+        let [i, j, k] = self.path.at(stop.s).axis;
+        let [l, m, n] = stop.node.turns.axis();
+        ((i - l).powi(2) + (j - m).powi(2) + (k - n).powi(2)).sqrt()
     }
 
     /// The pose of the tool at a parameter.

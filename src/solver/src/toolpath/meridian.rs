@@ -6,15 +6,16 @@
 //!
 //! Inside the cap phi2 is free, and phi1 is the axis' component on the meridian. Between the meridians where a path
 //! enters and leaves the cap, phi2 changes linearly with the path: over the rapids of the stretch if it has any, else
-//! over all of it.
+//! over all of it. A program may also state phi2 there; it then is the program's everywhere.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
-use super::azimuth::{Azimuths, azimuth, continued, of_arrival, to_nearest};
+use super::azimuth::{Azimuths, azimuth_direction, azimuth_of, continued, of_arrival, to_nearest};
 use super::cap::Cap;
-use super::motion::{Motion, MotionKind, ToolPosition};
+use super::motion::{Motion, MotionKind, Standstill, Turning};
 use super::path::Path;
 use super::stretches::Stretch;
+use crate::fast_math::{is_odd, sin_cos};
 
 /// A part of one motion's path on which phi2 follows one rule.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +31,8 @@ enum Rule {
     Follow { azimuth: [f64; 2], phi2: f64 },
     /// phi2 is linear in the path; `share` is the fraction of the stretch's measure at both ends.
     Linear { stretch: usize, share: [f64; 2] },
+    /// phi2 is linear between these values. `is_odd`: they are the program's phi2 and an odd number of half turns.
+    Words { phi2: [f64; 2], is_odd: bool },
     /// phi2 stays, whatever the axis.
     Held { phi2: f64 },
 }
@@ -39,7 +42,7 @@ impl Span {
     pub(super) fn stretch(&self) -> Option<usize> {
         match self.rule {
             Rule::Linear { stretch, .. } => Some(stretch),
-            Rule::Follow { .. } | Rule::Held { .. } => None,
+            Rule::Follow { .. } | Rule::Words { .. } | Rule::Held { .. } => None,
         }
     }
 
@@ -52,19 +55,40 @@ impl Span {
     pub(super) fn turning(&self) -> Self {
         let rule = match self.rule {
             Rule::Linear { stretch, .. } => Rule::Linear { stretch, share: [0.0, 1.0] },
-            Rule::Follow { .. } | Rule::Held { .. } => self.rule,
+            Rule::Follow { .. } | Rule::Words { .. } | Rule::Held { .. } => self.rule,
         };
         Self { from: 0.0, to: 1.0, rule }
     }
 
-    /// phi2 at a parameter, for h half turns at the beginning and at the end of a stretch.
-    pub(super) fn phi2(&self, stretches: &[Stretch], s: f64, axis: [f64; 3], h: [i32; 2]) -> f64 {
+    /// Whether h must be odd or even for phi2 to be the program's; `None` if it may be either.
+    pub(super) fn is_odd(&self) -> Option<bool> {
         match self.rule {
+            Rule::Words { is_odd, .. } => Some(is_odd),
+            Rule::Follow { .. } | Rule::Linear { .. } | Rule::Held { .. } => None,
+        }
+    }
+
+    /// phi2 at a parameter with its sine and cosine, for h half turns at the beginning and at the end of a stretch.
+    pub(super) fn meridian(
+        &self,
+        stretches: &[Stretch],
+        s: f64,
+        axis: [f64; 3],
+        h: [i32; 2],
+    ) -> (f64, [f64; 2]) {
+        let phi2 = match self.rule {
             Rule::Follow { azimuth: [start, end], phi2 } => {
                 let nearer = if s - self.from < self.to - s { start } else { end };
-                let now = if s == self.to { end } else { azimuth(axis).unwrap_or(nearer) };
-                phi2 + to_nearest(now - start, TAU) + PI * f64::from(h[1])
+                let along = azimuth_direction(axis);
+                let now = if s == self.to { end } else { along.map_or(nearer, azimuth_of) };
+                let phi2 = phi2 + to_nearest(now - start, TAU) + PI * f64::from(h[1]);
+                if let Some(along) = along {
+                    let is_opposite = is_odd((phi2 - now) * FRAC_1_PI);
+                    return (phi2, if is_opposite { along.map(|c| -c) } else { along });
+                }
+                phi2
             }
+            Rule::Words { phi2: [from, to], .. } => from + (to - from) * s + PI * f64::from(h[1]),
             Rule::Held { phi2 } => phi2,
             Rule::Linear { stretch, share } => {
                 let [from, to] = stretches[stretch].phi2;
@@ -73,7 +97,9 @@ impl Span {
                 let part = if width > 0.0 { (s - self.from) / width } else { 1.0 };
                 from + (to - from) * (share[0] + (share[1] - share[0]) * part)
             }
-        }
+        };
+        let (sine, cosine) = sin_cos(phi2);
+        (phi2, [sine, cosine])
     }
 }
 
@@ -88,7 +114,7 @@ pub(super) struct Meridian<'a> {
     is_inside: bool,
     phi2: Option<f64>,
     /// The end of the last motion.
-    position: Option<ToolPosition>,
+    standstill: Standstill,
     azimuths: Azimuths,
     /// The path of the last motion; `None`: the program has no path to its end.
     pub(super) path: Option<Path>,
@@ -97,15 +123,20 @@ pub(super) struct Meridian<'a> {
 }
 
 impl<'a> Meridian<'a> {
-    pub(super) fn new(cap: Cap, stretches: &'a [Stretch]) -> Self {
+    /// Begins at a standstill, with phi2 there if it is known.
+    pub(super) fn new(
+        cap: Cap,
+        stretches: &'a [Stretch],
+        (standstill, phi2): (Standstill, Option<f64>),
+    ) -> Self {
         Self {
             cap,
             stretches,
             next: 0,
             done: 0.0,
             is_inside: false,
-            phi2: None,
-            position: None,
+            phi2,
+            standstill,
             azimuths: Azimuths::default(),
             path: None,
             spans: Vec::new(),
@@ -114,8 +145,7 @@ impl<'a> Meridian<'a> {
 
     /// Moves to the end of a motion.
     pub(super) fn advance(&mut self, motion: &Motion) {
-        let start = self.position.replace(motion.end).filter(|_| motion.kind != MotionKind::Arrive);
-        self.path = start.map(|start| {
+        self.path = self.standstill.advance(motion).map(|start| {
             let path = Path::new(start, motion);
             self.pass(motion.kind, &path);
             path
@@ -129,7 +159,10 @@ impl<'a> Meridian<'a> {
     fn arrive(&mut self, motion: &Motion) {
         self.leave();
         self.spans.clear();
-        let rule = if self.cap.has(motion.end.axis) {
+        let rule = if matches!(motion.turning, Turning::Held { .. }) {
+            let phi2 = of_arrival(motion);
+            self.words([phi2; 2])
+        } else if self.cap.has(motion.end.axis) {
             self.is_inside = true;
             Rule::Linear { stretch: self.next, share: [0.0, 0.0] }
         } else {
@@ -141,8 +174,24 @@ impl<'a> Meridian<'a> {
         self.spans.push(Span { from: 1.0, to: 1.0, rule });
     }
 
+    /// Follows phi2 of the program, between two values.
+    fn words(&mut self, [start, end]: [f64; 2]) -> Rule {
+        let begun = continued(self.phi2, start);
+        let phi2 = [begun, begun + (end - start)];
+        self.phi2 = Some(phi2[1]);
+        let half_turns = ((begun - start) / PI).round();
+        Rule::Words { phi2, is_odd: half_turns.rem_euclid(2.0) == 1.0 }
+    }
+
     /// Finds the parts of a path.
     fn pass(&mut self, kind: MotionKind, path: &Path) {
+        if let Some(phi2) = path.held() {
+            self.leave();
+            self.spans.clear();
+            let rule = self.words(phi2);
+            self.spans.push(Span { from: 0.0, to: 1.0, rule });
+            return;
+        }
         let (cap, mut spans, mut azimuths) = (self.cap, std::mem::take(&mut self.spans), self.azimuths);
         spans.clear();
         cap.split(path, |[from, to], inside| {

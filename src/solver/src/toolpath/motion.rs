@@ -23,6 +23,13 @@ pub struct ToolPosition {
     pub axis: [f64; 3],
 }
 
+impl ToolPosition {
+    /// The position of a tool in the same holder that is longer by `change`, mm.
+    fn lengthened(self, change: f64) -> Self {
+        Self { tip: std::array::from_fn(|i| self.tip[i] - change * self.axis[i]), ..self }
+    }
+}
+
 /// The path of the tool's end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Curve {
@@ -54,9 +61,20 @@ pub enum Turning {
         /// Rotation of the program's frame in the part frame, by rows.
         frame: [[f64; 3]; 3],
     },
+    /// With phi1 and phi2 in the part frame linear in the path parameter, and theta2 = -phi2 but for whole turns, also
+    /// where phi1 = 0, so that phi2 does not turn the tool's axis.
+    Held {
+        /// `[phi1, phi2]` at the start, rad.
+        start: [f64; 2],
+        /// `[phi1, phi2]` at the end, rad; the start of a motion of kind [`MotionKind::Arrive`] does not count.
+        end: [f64; 2],
+    },
 }
 
 /// One motion of a program: from the end of the motion before it to its own end.
+///
+/// If the tool has another length than in the motion before, the joints stay and the motion begins at the new tool's
+/// end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     /// The purpose of the motion.
@@ -71,12 +89,34 @@ pub struct Motion {
     pub tool_length: f64,
 }
 
-/// The motions of a program. They are read twice and in order.
+/// Where the machine stands between two motions: the tool's position, and the tool's length, mm.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Standstill(pub(super) Option<(ToolPosition, f64)>);
+
+impl Standstill {
+    /// Moves to the end of a motion. The answer is where the tool is before it; `None` if that is unknown.
+    pub(super) fn advance(&mut self, motion: &Motion) -> Option<ToolPosition> {
+        let (start, tool_length) = self.0.replace((motion.end, motion.tool_length))?;
+        (motion.kind != MotionKind::Arrive).then(|| start.lengthened(motion.tool_length - tool_length))
+    }
+}
+
+/// The motions of a program. They are read several times and in order.
 pub trait Motions {
     /// Number of motions.
     fn count(&self) -> usize;
     /// One motion; `index` is less than [`Self::count`].
     fn motion(&self, index: usize) -> Motion;
+}
+
+impl<M: Motions + ?Sized> Motions for &M {
+    fn count(&self) -> usize {
+        (**self).count()
+    }
+
+    fn motion(&self, index: usize) -> Motion {
+        (**self).motion(index)
+    }
 }
 
 impl Motions for [Motion] {

@@ -1,7 +1,6 @@
 //! The joints at one place of the path.
 
-use std::f64::consts::PI;
-use std::ops::RangeInclusive;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::azimuth::inclination;
 use super::meridian::Span;
@@ -13,6 +12,8 @@ use crate::fast_math::sin_cos;
 use crate::inverse::{part_every_working, part_working, part_working_near};
 use crate::machine::Machine;
 use crate::margins::Margins;
+use crate::margins::lesser_margins::ClosedPosture;
+use crate::parallel_matrix::{determinant, matrix};
 use crate::pose::{PartPose, PlatformPose, TableAngles};
 use crate::posture::Posture;
 use crate::rods::Rods;
@@ -20,7 +21,7 @@ use crate::rods::Rods;
 /// The difference of alpha to the place before above which other working solutions are looked for, rad.
 const NEAR: f64 = 0.05;
 
-/// Greatest number of half turns to each side of the middle of the rotary range.
+/// Greatest number of half turns to each side of the middle of a range of theta2.
 const MOST_HALF_TURNS: i32 = 16;
 
 /// What does not change along a program.
@@ -30,8 +31,6 @@ pub(super) struct Setting<'a> {
     pub(super) stretches: &'a [Stretch],
     pub(super) table_clearance: Option<f64>,
     pub(super) tool_radius: f64,
-    /// Half-angle of the cap around the pole, rad.
-    pub(super) pole: f64,
 }
 
 /// Joints and platform pose at a place of the path.
@@ -43,6 +42,19 @@ pub(super) struct Node {
     pub(super) turns: Turns,
 }
 
+/// The rods at a place, and `det_P`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ClosedRods {
+    pub(super) rods: Rods,
+    pub(super) det: f64,
+}
+
+impl ClosedRods {
+    pub(super) fn of(machine: &Machine, rods: Rods) -> Self {
+        Self { rods, det: determinant(&matrix(machine.geometry(), &rods)) }
+    }
+}
+
 /// Sine and cosine of alpha, theta1 and theta2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turns {
@@ -52,9 +64,23 @@ pub(super) struct Turns {
 }
 
 impl Turns {
+    /// Those in the middle between two nodes with this alpha there.
+    pub(super) fn in_middle([a, b]: [&Node; 2], alpha: f64) -> Self {
+        let tilt = halfway([a.table.theta1, b.table.theta1], [a.turns.tilt, b.turns.tilt]);
+        let rotary = halfway([a.table.theta2, b.table.theta2], [a.turns.rotary, b.turns.rotary]);
+        Self { platform: direction(alpha), tilt, rotary }
+    }
+
     pub(super) fn of(alpha: f64, table: TableAngles) -> Self {
         let [platform, tilt, rotary] = [alpha, table.theta1, table.theta2].map(direction);
         Self { platform, tilt, rotary }
+    }
+
+    /// The tool's axis in the part frame.
+    pub(super) fn axis(&self) -> [f64; 3] {
+        let ([s1, c1], [s2, c2]) = (self.inclination(), self.rotary);
+        // phi2 = -theta2.
+        [-s1 * s2, -s1 * c2, c1]
     }
 
     /// Sine and cosine of phi1.
@@ -67,6 +93,16 @@ impl Turns {
 fn direction(angle: f64) -> [f64; 2] {
     let (sine, cosine) = sin_cos(angle);
     [sine, cosine]
+}
+
+/// Sine and cosine of the mean of two angles, of which sine and cosine are known.
+fn halfway([a, b]: [f64; 2], [[sa, ca], [sb, cb]]: [[f64; 2]; 2]) -> [f64; 2] {
+    if (b - a).abs() > FRAC_PI_2 {
+        return direction(0.5 * (a + b));
+    }
+    let (sine, cosine) = (sa + sb, ca + cb);
+    let scale = 1.0 / (sine * sine + cosine * cosine).sqrt();
+    [sine * scale, cosine * scale]
 }
 
 /// Sine and cosine of the difference of two angles.
@@ -84,8 +120,7 @@ pub(super) struct Target {
 impl Setting<'_> {
     /// The pose of the tool at a place, for h half turns at the beginning and the end of a stretch.
     pub(super) fn target(&self, span: &Span, s: f64, at: &ToolPosition, h: [i32; 2]) -> Target {
-        let phi2 = span.phi2(self.stretches, s, at.axis, h);
-        let meridian = direction(phi2);
+        let (phi2, meridian) = span.meridian(self.stretches, s, at.axis, h);
         let (phi1, inclination) = inclination(at.axis, meridian);
         let [x, y, z] = at.tip;
         Target { pose: PartPose { x, y, z, phi1, phi2 }, turns: [inclination, meridian] }
@@ -104,9 +139,9 @@ impl Setting<'_> {
             Some(alpha) if distance(&posture, alpha) > NEAR => {
                 let all = part_every_working(self.machine, &target.pose, tool_length)?;
                 let nearest = all.iter().min_by(|a, b| distance(a, alpha).total_cmp(&distance(b, alpha)));
-                Ok(Node::of(nearest.unwrap_or(&posture), target))
+                Ok(Node::new_at(nearest.unwrap_or(&posture), target))
             }
-            _ => Ok(Node::of(&posture, target)),
+            _ => Ok(Node::new_at(&posture, target)),
         }
     }
 
@@ -117,9 +152,12 @@ impl Setting<'_> {
         tool_length: f64,
         before: &Node,
     ) -> Result<Node, KinematicsError> {
-        let (start, alpha) = ((before.pose, before.rho[0]), before.pose.alpha);
+        let alpha = before.pose.alpha;
+        let start = (alpha, before.turns.platform, before.pose.z - before.rho[0]);
         match part_working_near(self.machine, &target.pose, target.turns, tool_length, start) {
-            Some(posture) if (posture.pose.alpha - alpha).abs() <= NEAR => Ok(Node::of(&posture, target)),
+            Some((posture, turn)) if (posture.pose.alpha - alpha).abs() <= NEAR => {
+                Ok(Node::of(&posture, turn, target))
+            }
             _ => self.node(target, tool_length, Some(alpha)),
         }
     }
@@ -127,29 +165,32 @@ impl Setting<'_> {
     /// The joints of every working solution at a place.
     pub(super) fn nodes(&self, target: &Target, tool_length: f64) -> Result<Vec<Node>, KinematicsError> {
         let all = part_every_working(self.machine, &target.pose, tool_length)?;
-        Ok(all.iter().map(|posture| Node::of(posture, target)).collect())
+        Ok(all.iter().map(|posture| Node::new_at(posture, target)).collect())
     }
 
     /// All margins of a place.
     pub(super) fn margins(&self, node: &Node, tool_length: f64) -> Margins {
-        let clearance = Clearance::of(self.machine, self.table_clearance, tool_length, self.tool_radius);
+        let clearance = self.clearance(tool_length);
         let rods = node.rods(self.machine);
         Margins::of_rods(self.machine, &node.pose, node.rho, &rods, node.table, clearance.as_ref())
     }
 
-    /// h for which theta2 is within its range, or nearest to it.
-    pub(super) fn half_turns(&self, phi2: f64) -> RangeInclusive<i32> {
-        let [low, high] = self.machine.limits().rotary;
-        let turns = |theta2: f64| (-theta2 - phi2) / PI;
-        let (first, last) = ((turns(high) - 1e-12).ceil(), (turns(low) + 1e-12).floor());
-        let middle = turns(0.5 * (low + high)).round();
-        let most = f64::from(MOST_HALF_TURNS);
-        let [first, last] = if first <= last {
-            [first.max(middle - most), last.min(middle + most)]
-        } else {
-            [middle, middle]
-        };
-        whole(first)..=whole(last)
+    /// The joints at a place, with what margins need of them.
+    pub(super) fn closed<'n>(
+        &self,
+        node: &'n Node,
+        closed: &'n ClosedRods,
+        tool_length: f64,
+    ) -> ClosedPosture<'n> {
+        let (Node { pose, rho, table, .. }, ClosedRods { rods, det }) = (node, closed);
+        let clearance = self.clearance(tool_length);
+        let clearance = clearance.map(|clearance| clearance.margin(self.machine, pose, *table));
+        let (theta1, theta2) = (table.theta1, Some(table.theta2));
+        ClosedPosture { pose, rho: *rho, rods, det: *det, theta1, theta2, clearance }
+    }
+
+    fn clearance(&self, tool_length: f64) -> Option<Clearance> {
+        Clearance::of(self.machine, self.table_clearance, tool_length, self.tool_radius)
     }
 }
 
@@ -158,13 +199,21 @@ impl Node {
         Self { pose, rho, table, turns: Turns::of(pose.alpha, table) }
     }
 
-    fn of(posture: &Posture, target: &Target) -> Self {
+    fn new_at(posture: &Posture, target: &Target) -> Self {
+        Self::of(posture, direction(posture.pose.alpha), target)
+    }
+
+    /// `platform` is sine and cosine of alpha.
+    fn of(posture: &Posture, platform: [f64; 2], target: &Target) -> Self {
         let PartPose { phi1, phi2, .. } = target.pose;
         let [inclination, [sine, cosine]] = target.turns;
         let table = TableAngles { theta1: posture.pose.alpha - phi1, theta2: -phi2 };
-        let platform = direction(posture.pose.alpha);
         let turns = Turns { platform, tilt: difference(platform, inclination), rotary: [-sine, cosine] };
         Self { pose: posture.pose, rho: posture.rho, table, turns }
+    }
+
+    pub(super) fn closed_rods(&self, machine: &Machine) -> ClosedRods {
+        ClosedRods::of(machine, self.rods(machine))
     }
 
     pub(super) fn rods(&self, machine: &Machine) -> Rods {
@@ -203,6 +252,23 @@ impl Node {
         weights[0] * (self.table.theta1 - other.table.theta1).abs()
             + weights[1] * (self.table.theta2 - other.table.theta2).abs()
     }
+}
+
+/// h for which theta2 is within a range, or nearest to it: any, or odd or even ones only.
+pub(super) fn half_turns(
+    phi2: f64,
+    is_odd: Option<bool>,
+    [low, high]: [f64; 2],
+) -> impl Iterator<Item = i32> {
+    let (step, offset) = is_odd.map_or((1, 0), |is_odd| (2, i32::from(is_odd)));
+    let [width, first_phi2] = [PI * f64::from(step), phi2 + PI * f64::from(offset)];
+    let turns = |theta2: f64| (-theta2 - first_phi2) / width;
+    let (first, last) = ((turns(high) - 1e-12).ceil(), (turns(low) + 1e-12).floor());
+    let middle = turns(0.5 * (low + high)).round();
+    let most = f64::from(MOST_HALF_TURNS);
+    let [first, last] =
+        if first <= last { [first.max(middle - most), last.min(middle + most)] } else { [middle, middle] };
+    (whole(first)..=whole(last)).map(move |number| offset + step * number)
 }
 
 #[allow(clippy::cast_possible_truncation, reason = "clamped to the range of the type")]

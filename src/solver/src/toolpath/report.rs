@@ -2,10 +2,11 @@
 
 use super::joint_segment::Deviation;
 use super::node::Node;
+use crate::fast_math::{greater, lesser};
 use crate::limit::{Constraint, Margin};
 use crate::machine::Machine;
-use crate::margins::Margins;
-use crate::pose::PartPose;
+use crate::margins::lesser_margins::{ClosedPosture, Known, Reference, worst_and_lesser};
+use crate::pose::{PartPose, TableAngles};
 
 /// Greatest number of failures that a report lists.
 pub const MOST_FAILURES: usize = 1_000;
@@ -23,8 +24,11 @@ pub struct Failure {
     pub fraction: f64,
     /// Index of the motion with this margin.
     pub motion: usize,
-    /// The pose with this margin: the inverse problem for it, with the motion's tool, reproduces the failure.
+    /// The pose with this margin: the inverse problem for it, with the motion's tool, reproduces the failure but for
+    /// the winding of theta2.
     pub pose: PartPose,
+    /// The joints there: sliders, mm, and table. `None`: the pose has none in the working mode.
+    pub joints: Option<([f64; 3], TableAngles)>,
 }
 
 /// The least margin of a constraint.
@@ -37,22 +41,34 @@ pub struct LeastMargin {
 }
 
 /// The least margin of each constraint so far.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct LeastMargins([Option<LeastMargin>; Constraint::COUNT]);
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LeastMargins {
+    known: Known,
+    reference: Option<Reference>,
+    found: [Option<LeastMargin>; Constraint::COUNT],
+}
 
 impl LeastMargins {
-    /// Notes the margins of a place. The answer is the worst of them, and its fraction of its constraint's range.
-    pub(super) fn meet(&mut self, machine: &Machine, motion: usize, margins: &Margins) -> (Margin, f64) {
-        margins.worst_of_each(machine, |margin| {
-            let least = &mut self.0[margin.constraint as usize];
-            if least.is_none_or(|least| margin.value < least.margin.value) {
-                *least = Some(LeastMargin { margin, motion });
-            }
+    pub(super) fn new() -> Self {
+        Self { known: [f64::INFINITY; Constraint::COUNT], reference: None, found: [None; Constraint::COUNT] }
+    }
+
+    /// Notes the margins of a place of a motion. The answer is the worst of them, and its fraction of its constraint's
+    /// range.
+    pub(super) fn meet(
+        &mut self,
+        machine: &Machine,
+        motion: usize,
+        posture: &ClosedPosture<'_>,
+    ) -> (Margin, f64) {
+        let known = (&mut self.known, &mut self.reference);
+        worst_and_lesser(machine, posture, known, |margin| {
+            self.found[margin.constraint as usize] = Some(LeastMargin { margin, motion });
         })
     }
 
     pub(super) fn found(&self) -> Vec<LeastMargin> {
-        self.0.iter().copied().flatten().collect()
+        self.found.iter().copied().flatten().collect()
     }
 }
 
@@ -123,8 +139,14 @@ impl Report {
         self.failure_count == 0
     }
 
-    /// Notes a place outside a limit.
-    pub(super) fn fail(&mut self, motion: usize, pose: PartPose, margin: Margin, fraction: f64) {
+    /// Notes a place outside a limit, with its margin as a fraction of the constraint's range.
+    pub(super) fn fail(
+        &mut self,
+        motion: usize,
+        (pose, node): (PartPose, Option<&Node>),
+        (margin, fraction): (Margin, f64),
+    ) {
+        let joints = node.map(|node| (node.rho, node.table));
         if let Some(last) = self.failures.last_mut()
             && last.margin.constraint == margin.constraint
             && motion <= last.motions[1] + 1
@@ -132,29 +154,31 @@ impl Report {
             last.motions[1] = motion;
             if fraction < last.fraction {
                 (last.margin, last.fraction) = (margin, fraction);
-                (last.motion, last.pose) = (motion, pose);
+                (last.motion, last.pose, last.joints) = (motion, pose, joints);
             }
             return;
         }
         self.failure_count += 1;
         if self.failures.len() < MOST_FAILURES {
-            self.failures.push(Failure { motions: [motion; 2], margin, fraction, motion, pose });
+            self.failures.push(Failure { motions: [motion; 2], margin, fraction, motion, pose, joints });
         }
     }
 
     /// Notes a row's joints.
-    pub(super) fn add_row(&mut self, node: &Node, before: Option<&Node>, inclination: f64) {
+    pub(super) fn add_row(&mut self, node: &Node, before: Option<&Node>) {
         self.rows += 1;
         let joints = [node.rho[0], node.rho[1], node.rho[2], node.table.theta1, node.table.theta2];
         let ranges = self.ranges.get_or_insert(joints.map(|joint| [joint; 2]));
         for (range, joint) in ranges.iter_mut().zip(joints) {
-            *range = [range[0].min(joint), range[1].max(joint)];
+            *range = [lesser(range[0], joint), greater(range[1], joint)];
         }
         if let Some(before) = before {
             self.turning[0] += (node.table.theta1 - before.table.theta1).abs();
             self.turning[1] += (node.table.theta2 - before.table.theta2).abs();
         }
-        let least = self.least_inclination.get_or_insert(inclination.abs());
-        *least = least.min(inclination.abs());
+        // phi1 = alpha - theta1.
+        let inclination = (node.pose.alpha - node.table.theta1).abs();
+        let least = self.least_inclination.get_or_insert(inclination);
+        *least = lesser(*least, inclination);
     }
 }

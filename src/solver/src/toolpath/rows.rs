@@ -4,19 +4,20 @@ mod examination;
 mod feed;
 mod rapid;
 mod retract;
+mod standstill;
 
 use super::choice::{Choice, Chosen, Rewind};
 use super::joint_segment::{Deviation, Track};
 use super::linearise::Bend;
 use super::meridian::{Meridian, Span};
 use super::motion::{MotionKind, Motions, ToolPosition};
-use super::node::{Node, Setting};
+use super::node::{ClosedRods, Node, Setting};
 use super::path::Path;
 use super::report::{LeastMargins, Report};
+use super::start::Start;
 use crate::error::KinematicsError;
-use crate::fast_math::angle_of;
 use crate::limit::{Constraint, Element, Margin};
-use crate::pose::{PartPose, TableAngles};
+use crate::pose::{PartPose, Point, TableAngles};
 
 /// The purpose of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,7 +93,7 @@ pub struct Way {
 
 /// Where a row is on the program's path.
 pub(super) struct RowPlace {
-    pub(super) at: ToolPosition,
+    pub(super) tip: Point,
     /// `None`: the machine does not follow the path to this place.
     pub(super) way: Option<Way>,
     pub(super) ends_track: bool,
@@ -100,15 +101,15 @@ pub(super) struct RowPlace {
 
 impl RowPlace {
     /// The end of a motion, which the machine reaches from anywhere.
-    pub(super) fn of_arrival(at: ToolPosition) -> Self {
-        Self { at, way: None, ends_track: true }
+    pub(super) fn of_arrival(tip: Point) -> Self {
+        Self { tip, way: None, ends_track: true }
     }
 
     /// A place that the machine reaches along the path from the parameter `from`; the track ends at `end`.
     pub(super) fn on(path: &Path, from: f64, s: f64, end: f64) -> Self {
         let fraction = s - from;
         let way = Way { fraction, length: path.length() * fraction, angle: path.angle() * fraction };
-        Self { at: path.at(s), way: Some(way), ends_track: s >= end }
+        Self { tip: path.tip_at(s), way: Some(way), ends_track: s >= end }
     }
 }
 
@@ -126,21 +127,25 @@ pub(super) struct RowSettings {
     pub(super) feed: Deviation,
     pub(super) rapid: Deviation,
     pub(super) joint_rapids: bool,
+    /// Where the machine stands before the program, if that is known.
+    pub(super) start: Option<Start>,
     /// How the tool leaves the part within a cut, if it may.
     pub(super) retraction: Option<Retraction>,
 }
 
 /// Makes the rows.
-pub(super) struct Rower<'a, F> {
+pub(super) struct Rower<'a> {
     setting: Setting<'a>,
     settings: &'a RowSettings,
     choice: std::slice::Iter<'a, Chosen>,
     rewinds: &'a [Rewind],
-    emit: F,
+    emit: &'a mut dyn FnMut(&Row),
     report: Report,
     least: LeastMargins,
     /// Where the machine stands.
     now: Option<Node>,
+    /// Length of the tool in the last motion.
+    tool_length: Option<f64>,
     h: [i32; 2],
     /// The worst margin of the last row, as a fraction of its range.
     margin: Option<f64>,
@@ -148,8 +153,13 @@ pub(super) struct Rower<'a, F> {
     bends: [Bend; 2],
 }
 
-impl<'a, F: FnMut(&Row)> Rower<'a, F> {
-    pub(super) fn new(setting: Setting<'a>, settings: &'a RowSettings, choice: &'a Choice, emit: F) -> Self {
+impl<'a> Rower<'a> {
+    pub(super) fn new(
+        setting: Setting<'a>,
+        settings: &'a RowSettings,
+        choice: &'a Choice,
+        emit: &'a mut dyn FnMut(&Row),
+    ) -> Self {
         Self {
             setting,
             settings,
@@ -157,8 +167,9 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
             rewinds: &choice.rewinds,
             emit,
             report: Report::new(),
-            least: LeastMargins::default(),
+            least: LeastMargins::new(),
             now: None,
+            tool_length: None,
             h: [0; 2],
             margin: None,
             bends: Default::default(),
@@ -166,9 +177,9 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
     }
 
     /// Makes the rows of all motions; `go_on` is asked before each and ends the work by `false`.
-    pub(super) fn run<M: Motions + ?Sized>(
+    pub(super) fn run(
         mut self,
-        motions: &M,
+        motions: &dyn Motions,
         mut meridian: Meridian<'_>,
         mut go_on: impl FnMut(usize, u64) -> bool,
     ) -> Option<Report> {
@@ -177,16 +188,28 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
                 return None;
             }
             let motion = motions.motion(index);
+            if index == 0 {
+                self.begin(&motion);
+            }
             meridian.advance(&motion);
             match &meridian.path {
-                Some(path) if motion.kind == MotionKind::Rapid => {
-                    self.rapid(index, &motion, path, &meridian.spans);
+                Some(path) => {
+                    let changed = self.take_tool(index, &motion, path);
+                    let path = changed.as_ref().unwrap_or(path);
+                    if motion.kind == MotionKind::Rapid {
+                        self.rapid(index, &motion, path, &meridian.spans);
+                    } else {
+                        self.feed(index, &motion, path, &meridian.spans);
+                    }
                 }
-                Some(path) => self.feed(index, &motion, path, &meridian.spans),
                 None => self.arrive(index, &motion, &meridian.spans),
             }
+            self.tool_length = Some(motion.tool_length);
         }
         self.report.least = self.least.found();
+        // An arc is longer than its chord.
+        let axis = &mut self.report.deviation.axis;
+        *axis = 2.0 * (0.5 * *axis).min(1.0).asin();
         Some(self.report)
     }
 
@@ -223,7 +246,7 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
                 Margin { constraint: Constraint::LegLength, element: Element::Leg(1), value: f64::MIN }
             }
         };
-        self.report.fail(index, pose, margin, margin.value);
+        self.report.fail(index, (pose, None), (margin, margin.value));
     }
 
     pub(super) fn track<'p>(&self, path: &'p Path, span: Span, tool_length: f64) -> Track<'p>
@@ -241,13 +264,22 @@ impl<'a, F: FnMut(&Row)> Rower<'a, F> {
         node: &Node,
         tool_length: f64,
     ) {
-        let margins = self.setting.margins(node, tool_length);
-        let (margin, fraction) = self.meet(index, (node, tool_length), &margins);
-        let ([s1, c1], [s2, c2]) = (node.turns.inclination(), node.turns.rotary);
-        // phi2 = -theta2.
-        let position = ToolPosition { tip: place.at.tip, axis: [-s1 * s2, -s1 * c2, c1] };
-        let inclination = angle_of(c1, s1);
-        self.report.add_row(node, self.now.as_ref(), inclination);
+        let rods = node.closed_rods(self.setting.machine);
+        self.closed_row(index, kind, place, (node, &rods), tool_length);
+    }
+
+    /// The same with the rods.
+    pub(super) fn closed_row(
+        &mut self,
+        index: usize,
+        kind: RowKind,
+        place: &RowPlace,
+        (node, rods): (&Node, &ClosedRods),
+        tool_length: f64,
+    ) {
+        let (margin, fraction) = self.meet_closed(index, (node, rods), tool_length);
+        let position = ToolPosition { tip: place.tip, axis: node.turns.axis() };
+        self.report.add_row(node, self.now.as_ref());
         (self.emit)(&Row {
             motion: index,
             kind,

@@ -4,11 +4,11 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::azimuth::{Azimuths, continued, of_arrival, to_nearest};
 use super::cap::Cap;
-use super::motion::{Motion, MotionKind, Motions, ToolPosition, Turning};
+use super::motion::{Motion, MotionKind, Motions, Standstill, ToolPosition, Turning};
 use super::path::Path;
 
 /// Measure, relative to the machine's longest dimension, of a stretch that is a point.
-const LEAST_MEASURE: f64 = 1e-9;
+const LEAST_MEASURE: f64 = 1e-8;
 
 /// A place on the path of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,28 +46,24 @@ struct Open {
     rapid: f64,
 }
 
-/// Finds the stretches of a program inside the cap. `fallback` is phi2 where nothing determines it.
-pub(super) fn stretches<M: Motions + ?Sized>(motions: &M, cap: &Cap, fallback: f64) -> Vec<Stretch> {
-    let mut survey = Survey {
-        stretches: Vec::new(),
-        phi2: None,
-        open: None,
-        fallback,
-        scale: cap.scale,
-        azimuths: Azimuths::default(),
-    };
-    let mut start: Option<ToolPosition> = None;
+/// Finds the stretches inside the cap of a program that begins at a standstill, with phi2 there if it is known.
+pub(super) fn stretches(
+    motions: &dyn Motions,
+    cap: &Cap,
+    (mut standstill, phi2): (Standstill, Option<f64>),
+) -> Vec<Stretch> {
+    let mut survey =
+        Survey { stretches: Vec::new(), phi2, open: None, scale: cap.scale, azimuths: Azimuths::default() };
     for index in 0..motions.count() {
         let motion = motions.motion(index);
-        match start {
-            Some(start) if motion.kind != MotionKind::Arrive => {
+        match standstill.advance(&motion) {
+            Some(start) => {
                 if survey.open.is_some() || !survey.stays_outside(&start, &motion, cap) {
                     survey.pass(index, motion.kind, &Path::new(start, &motion), cap);
                 }
             }
-            _ => survey.arrive(index, &motion, cap),
+            None => survey.arrive(index, &motion, cap),
         }
-        start = Some(motion.end);
     }
     let end = Place { motion: motions.count().saturating_sub(1), s: 1.0 };
     survey.close(end, None);
@@ -79,7 +75,6 @@ struct Survey {
     /// phi2 so far, where it is determined.
     phi2: Option<f64>,
     open: Option<Open>,
-    fallback: f64,
     scale: f64,
     azimuths: Azimuths,
 }
@@ -87,7 +82,7 @@ struct Survey {
 impl Survey {
     fn arrive(&mut self, index: usize, motion: &Motion, cap: &Cap) {
         self.close(Place { motion: index, s: 0.0 }, None);
-        if cap.has(motion.end.axis) {
+        if cap.has(motion.end.axis) && !matches!(motion.turning, Turning::Held { .. }) {
             self.open =
                 Some(Open { start: Place { motion: index, s: 1.0 }, from: None, all: 0.0, rapid: 0.0 });
         } else {
@@ -114,6 +109,11 @@ impl Survey {
     }
 
     fn pass(&mut self, index: usize, kind: MotionKind, path: &Path, cap: &Cap) {
+        if let Some([start, end]) = path.held() {
+            self.close(Place { motion: index.saturating_sub(1), s: 1.0 }, Some(start));
+            self.phi2 = Some(continued(self.phi2, start) + (end - start));
+            return;
+        }
         cap.split(path, |[from, to], inside| {
             if inside {
                 let phi2 = self.phi2;
@@ -140,7 +140,7 @@ impl Survey {
     fn close(&mut self, end: Place, azimuth: Option<f64>) {
         let Some(open) = self.open.take() else { return };
         let exit = azimuth.map(|azimuth| continued(open.from, azimuth));
-        let free = open.from.or(exit).or(self.phi2).unwrap_or(self.fallback);
+        let free = open.from.or(exit).or(self.phi2).unwrap_or(0.0);
         let phi2 = [open.from.unwrap_or(free), exit.unwrap_or(free)];
         let has_rapid = open.rapid > 0.0;
         let measure = if has_rapid { open.rapid } else { open.all };

@@ -56,6 +56,7 @@ const BY_VOLUMES: f64 = 0.2;
 ///   phi1 is not ordered or longer than a revolution, or the cell is below 0.1 mm.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 /// - [`WorkspaceError::TooManyNodes`]: the grid would have more nodes than [`MOST_NODES`].
+/// - [`WorkspaceError::TooManyIntervals`]: a node is reached in more than 255 intervals.
 /// - [`WorkspaceError::TooFine`]: there are more intervals than 32 bits can number.
 /// - [`WorkspaceError::Open`]: a region's surface could not be closed.
 ///

@@ -79,7 +79,7 @@ impl<'a> Domain<'a> {
             chords: [chord(limits.slider_cone), chord(limits.platform_cone)],
             alpha_range: (part && half < PI).then_some([low + half + request.phi1, half]),
             floor,
-            empty: below || part && !(limits.rotary[0]..=limits.rotary[1]).contains(&theta2),
+            empty: below || part && limits.rotary.is_some_and(|[low, high]| !(low..=high).contains(&theta2)),
         }
     }
 

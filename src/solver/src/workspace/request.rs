@@ -64,6 +64,11 @@ pub enum WorkspaceError {
         /// Their number.
         nodes: f64,
     },
+    /// A node of a grid is reached in more than 255 intervals of phi1.
+    TooManyIntervals {
+        /// Their number.
+        intervals: usize,
+    },
     /// The volume and the surface of a workspace differ by more than their errors: one computation is wrong.
     Disagreement,
     /// The surface or the slice could not be closed. The function does not return a mesh with a gap.
@@ -78,6 +83,9 @@ impl fmt::Display for WorkspaceError {
             Self::TooFine => write!(f, "the tolerance needs more vertices than can be numbered"),
             Self::TooManyTriangles { most } => write!(f, "the surface has more than {most} triangles"),
             Self::TooManyNodes { nodes } => write!(f, "the grid would have {nodes} nodes"),
+            Self::TooManyIntervals { intervals } => {
+                write!(f, "a node of the grid is reached in {intervals} intervals of phi1, more than 255")
+            }
             Self::Disagreement => write!(f, "the volume and the surface disagree"),
             Self::Open => write!(f, "the surface could not be closed at this tolerance"),
         }

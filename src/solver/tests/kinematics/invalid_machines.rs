@@ -40,7 +40,7 @@ fn infinite_and_nan_numbers_are_refused() {
         ("limits/serial_margin", |d| &mut d.limits.serial_margin),
         ("limits/parallel_margin", |d| &mut d.limits.parallel_margin),
         ("limits/tilt", |d| &mut d.limits.tilt[0]),
-        ("limits/rotary", |d| &mut d.limits.rotary[1]),
+        ("limits/rotary", |d| &mut d.limits.rotary.as_mut().unwrap()[1]),
     ];
     for (field, place) in fields_and_places {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300] {
@@ -66,7 +66,7 @@ fn lengths_and_limits_out_of_order_are_refused() {
         ("limits/serial_margin", |d| d.limits.serial_margin = 1.0),
         ("limits/parallel_margin", |d| d.limits.parallel_margin = -0.1),
         ("limits/tilt", |d| d.limits.tilt = [1.0, -1.0]),
-        ("limits/rotary", |d| d.limits.rotary = [2.0, 2.0]),
+        ("limits/rotary", |d| d.limits.rotary = Some([2.0, 2.0])),
         ("name", |d| d.name.clear()),
     ];
     for (field, change) in changes {

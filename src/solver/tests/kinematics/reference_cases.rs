@@ -137,7 +137,7 @@ fn machine(file: &str) -> Machine {
             serial_margin: l("serial_margin"),
             parallel_margin: l("parallel_margin"),
             tilt: degrees("tilt"),
-            rotary: degrees("rotary"),
+            rotary: Some(degrees("rotary")),
             table_clearance: None,
             slider_axes: None,
             platform_axes: None,

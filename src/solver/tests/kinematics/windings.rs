@@ -2,14 +2,16 @@
 
 use std::f64::consts::{PI, TAU};
 
-use verne_solver::{Machine, SplitAngle, table_windings};
+use verne_solver::{
+    Machine, Margins, SplitAngle, TableAngles, forward_working, rotary_windings, table_windings,
+};
 
 use crate::random::Random;
 
 /// A machine with these ranges of tilt and rotary angle.
 fn machine(tilt: [f64; 2], rotary: [f64; 2]) -> Machine {
     let mut data = Machine::verne().data().clone();
-    (data.limits.tilt, data.limits.rotary) = (tilt, rotary);
+    (data.limits.tilt, data.limits.rotary) = (tilt, Some(rotary));
     Machine::new(data).unwrap()
 }
 
@@ -53,4 +55,23 @@ fn a_winding_outside_the_range_stays_as_requested() {
         let [_, theta2] = table_windings(&machine, asked, [None; 2]);
         assert_eq!(theta2.value, expected, "{angle} {turns}");
     }
+}
+
+/// A machine whose table turns without a limit.
+#[test]
+fn without_a_limit_every_winding_is_admissible() {
+    let mut data = Machine::verne().data().clone();
+    data.limits.rotary = None;
+    let machine = Machine::new(data).unwrap();
+    assert_eq!(rotary_windings(&machine, 0.3), None);
+    let asked = |turns: f64| [0.0, turns].map(|turns| SplitAngle { remainder: 0.5, turns });
+    for turns in [-90.0, 0.0, 7.0] {
+        let [_, theta2] = table_windings(&machine, asked(turns), [None; 2]);
+        assert_eq!((theta2.turns, theta2.value), (turns, 0.5 + TAU * turns));
+        let [_, theta2] = table_windings(&machine, asked(0.0), [None, Some(TAU * turns)]);
+        assert_eq!(theta2.turns, turns);
+    }
+    let posture = forward_working(&machine, [500.0; 3]).unwrap();
+    let margins = Margins::of(&machine, &posture, Some(TableAngles { theta1: 0.0, theta2: 1e3 }));
+    assert!(margins.rotary.is_none() && margins.tilt.is_some() && margins.feasible());
 }

@@ -160,7 +160,7 @@ impl Random {
                 serial_margin: self.between(0.0, 0.3),
                 parallel_margin: self.between(0.0, 0.1),
                 tilt: [-self.between(0.5, PI), self.between(0.5, PI)],
-                rotary: [-self.between(1.0, 6.3), self.between(1.0, 6.3)],
+                rotary: Some([-self.between(1.0, 6.3), self.between(1.0, 6.3)]),
                 table_clearance: None,
                 slider_axes: None,
                 platform_axes: None,

@@ -1,6 +1,6 @@
 //! Preimages and windings of whole programs.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use verne_solver::axis::tool_axis;
 use verne_solver::toolpath::{Motion, MotionKind, PlanOptions, RowKind};
@@ -182,18 +182,4 @@ fn rows_of_random_programs_stay_within_the_tolerance() {
         let worst = worst_deviation(&machine, &program, &rows, &options);
         assert!(worst <= 1.0, "{worst} of the tolerance");
     }
-}
-
-#[test]
-fn the_start_decides_between_equal_windings() {
-    let program =
-        [arrive([20.0, 0.0, 300.0], tilted(15.0, 80.0)), feed([30.0, 0.0, 300.0], tilted(15.0, 85.0))];
-    let start = TableAngles { theta1: 0.0, theta2: TAU - 1.4 };
-    let options = PlanOptions { start: Some(start), ..PlanOptions::default() };
-    let (_, rows) = planned(&Machine::verne(), &program, &options);
-    assert!(
-        (rows[0].table.theta2.to_degrees() - 280.0).abs() < 1e-6,
-        "{}",
-        rows[0].table.theta2.to_degrees()
-    );
 }

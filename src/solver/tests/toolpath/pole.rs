@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use verne_solver::axis::tool_axis;
-use verne_solver::toolpath::{Motion, PlanOptions, RowKind, Turning};
+use verne_solver::toolpath::{Deviation, Motion, PlanOptions, RowKind, Turning};
 use verne_solver::{Constraint, Machine};
 
 use super::random::Random;
@@ -34,6 +34,25 @@ fn a_path_over_the_pole_changes_the_sign_of_phi1() {
         assert!(turning < 1.0, "theta2 turns by {turning}° at {off}");
         assert_eq!(turns, 0);
     }
+}
+
+/// The axis is off the meridian by less than the cap.
+#[test]
+fn the_axis_deviates_by_its_part_off_the_meridian() {
+    let off = [2e-5, -3e-5, 1.0];
+    let program = [
+        arrive([60.0, 0.0, 300.0], UP),
+        feed([60.0, 0.0, 299.0], off),
+        feed([60.0, 0.1, 299.0], off),
+        feed([60.0, 0.2, 299.0], UP),
+    ];
+    let (machine, options) = (Machine::verne(), PlanOptions::default());
+    let (report, rows) = planned(&machine, &program, &options);
+    assert!(report.is_feasible() && report.turning[1] == 0.0);
+    let tolerance = Deviation { tip: options.tolerance.tip, axis: report.deviation.axis };
+    let within = PlanOptions { tolerance, ..options };
+    assert!(worst_deviation(&machine, &program, &rows, &within) <= 1.0, "the figure is an upper bound");
+    assert!((1.9e-5..2.5e-5).contains(&report.deviation.axis), "{:?}", report.deviation);
 }
 
 #[test]
@@ -72,6 +91,32 @@ fn a_cut_that_leaves_the_pole_on_another_meridian_spreads_the_turn() {
     let (turning, turns) = check(&program, &PlanOptions::default());
     assert!((turning - 80.0).abs() < 0.01, "{turning}");
     assert_eq!(turns, 0);
+}
+
+/// Every cap, however small, and none.
+#[test]
+fn a_very_small_cap_is_no_singularity() {
+    let programs = [
+        [arrive([60.0, 0.0, 300.0], tilted(10.0, 0.0)), feed([60.0, 0.0, 300.0], UP)],
+        [arrive([60.0, -10.0, 300.0], tilted(10.0, 0.0)), feed([60.0, 0.0, 300.0], UP)],
+    ];
+    for start in programs {
+        for off in [0.0, 1e-12, 1e-10, 1e-8] {
+            let [first, second] = start;
+            let near = feed([60.0, 0.0, 300.0], [off, 0.3 * off, 1.0]);
+            let program = [first, second, near, feed([50.0, 10.0, 300.0], tilted(10.0, 80.0))];
+            let over =
+                [arrive([0.0, 0.0, 300.0], [off, -0.2, 1.0]), feed([20.0, 0.0, 300.0], [off, 0.2, 1.0])];
+            for pole in (0..=60).map(|i| 10_f64.powf(-4.0 - 0.25 * f64::from(i))).chain([1e-30, 0.0]) {
+                let options = PlanOptions { pole: f64::to_radians(pole), ..PlanOptions::default() };
+                for program in [&program[..], &over[..]] {
+                    let (report, _) = planned(&Machine::verne(), program, &options);
+                    let failure = report.failures.first();
+                    assert!(failure.is_none(), "{pole}°, {off}: {failure:?}");
+                }
+            }
+        }
+    }
 }
 
 /// A single segment would move the tool's end by 17.7 mm.

@@ -73,6 +73,7 @@ fn exact(start: &ToolPosition, motion: &Motion, s: f64) -> ToolPosition {
             let axis = tool_axis(mix(start[0], end[0]), mix(start[1], end[1]));
             frame.map(|row| (0..3).map(|i| row[i] * axis[i]).sum())
         }
+        Turning::Held { start, end } => tool_axis(mix(start[0], end[0]), mix(start[1], end[1])),
     };
     ToolPosition { tip, axis }
 }

@@ -159,7 +159,7 @@ fn a_map_does_not_depend_on_slabs_or_threads() {
 
 #[test]
 fn an_empty_map_has_no_nodes() {
-    let machine = changed(|data| data.limits.rotary = [-0.1, 0.1]);
+    let machine = changed(|data| data.limits.rotary = Some([-0.1, 0.1]));
     let found = computed(&machine, &asked(-0.2, 0.2, 50.0));
     assert_eq!(found.grid.nodes(), 0);
     assert_eq!(found.offsets, [0]);
@@ -186,7 +186,7 @@ fn a_grid_of_too_many_nodes_is_refused() {
 /// The eleventh quarter of a turn divided by a quarter is less than eleven, in double precision.
 #[test]
 fn ranges_that_differ_by_whole_turns_have_the_same_grid() {
-    let machine = changed(|data| data.limits.rotary = [-7.0, 7.0]);
+    let machine = changed(|data| data.limits.rotary = Some([-7.0, 7.0]));
     let [near, far] = [0.0, 3.0 * std::f64::consts::TAU].map(|turns| {
         let request = asked(turns - 1.9, turns - 1.2, 150.0);
         Grid::new(&machine, &request, &Unobserved).unwrap()

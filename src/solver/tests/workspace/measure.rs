@@ -104,7 +104,7 @@ fn a_workspace_that_is_covered_twice_is_reported_as_folded() {
 #[test]
 fn an_empty_workspace_has_no_volume() {
     let closed = changed(|data| data.limits.slider_cone = 1e-6);
-    let narrow = changed(|data| data.limits.rotary = [-0.1, 0.1]);
+    let narrow = changed(|data| data.limits.rotary = Some([-0.1, 0.1]));
     let turned = Request { phi2: 1.0, ..request(Kind::Part, 50.0, 0.0, 1.0) };
     for (machine, request) in [(narrow, turned), (closed, request(Kind::Platform, 0.0, 0.0, 1.0))] {
         let answer = measured(&machine, &request);

@@ -235,7 +235,7 @@ fn a_surface_does_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn an_empty_workspace_has_an_empty_surface() {
-    let machine = changed(|data| data.limits.rotary = [-0.1, 0.1]);
+    let machine = changed(|data| data.limits.rotary = Some([-0.1, 0.1]));
     let question = Request { phi2: 1.0, ..request(Kind::Part, 50.0, 0.0, 1.0) };
     assert_eq!(made(&machine, &question), Surface::default());
 }

@@ -1,5 +1,5 @@
-//! A store on S3. Needs a bucket: `VERNE_S3_TEST_URL` is its address, `s3://bucket/prefix`, and the `AWS_*` variables give
-//! endpoint and credentials.
+//! A store on S3. Needs a bucket: `VERNE_S3_TEST_URL` is its address, `s3://bucket/prefix`, and the `AWS_*` variables
+//! give endpoint and credentials.
 
 use futures_util::{StreamExt, TryStreamExt};
 use verne_store::{Durability, Key, OpenError, Store};

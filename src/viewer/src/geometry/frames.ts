@@ -1,7 +1,7 @@
 /** The machine's frames as matrices; lengths in mm, angles in degrees as on the wire. */
 
 import { MathUtils, Matrix4 } from "three";
-import type { Machine, PlatformPose } from "../api/client";
+import type { Machine, PlatformPose } from "verne-client";
 
 export interface TableAngles {
   theta1: number;

@@ -1,7 +1,7 @@
 /** The ends of the six rods, as the closure equations (3)-(6) place them. */
 
 import { Vector3 } from "three";
-import type { Machine, PlatformPose } from "../api/client";
+import type { Machine, PlatformPose } from "verne-client";
 import { baseFromPlatform } from "./frames";
 
 export type RodName = "11" | "12" | "21" | "22" | "31" | "32";

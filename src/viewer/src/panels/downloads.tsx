@@ -1,7 +1,8 @@
 /** The workspace and its slice as files. */
 
-import { address, inWords, Refused, type WorkspaceSummary } from "../api/client";
-import { hasKey, send } from "../api/key";
+import type { WorkspaceSummary } from "verne-client";
+import { inWords, verne } from "../api/client";
+import { hasKey } from "../api/key";
 import { failure, section } from "../state/store";
 
 const MESHES = ["glb", "stl", "ply"] as const;
@@ -15,28 +16,22 @@ export function Downloads({ found }: { found: WorkspaceSummary }) {
       <div role="group" aria-label="Download the mesh">
         <span>Mesh</span>
         {MESHES.map((format) => (
-          <a
-            key={format}
-            href={`${address(found.links.mesh)}?format=${format}`}
-            download={`${name}.${format}`}
-            onClick={saveWithKey}
-          >
+          <File key={format} link={`${found.links.mesh}.${format}`} name={`${name}.${format}`}>
             {format.toUpperCase()}
-          </a>
+          </File>
         ))}
       </div>
       {z !== null && (
         <div role="group" aria-label="Download the slice">
           <span>Slice</span>
           {DRAWINGS.map((format) => (
-            <a
+            <File
               key={format}
-              href={`${address(found.links.self)}/slice?z=${z}&format=${format}`}
-              download={`${name}-z${z}.${format}`}
-              onClick={saveWithKey}
+              link={`${found.links.self}/slice.${format}?z=${z}`}
+              name={`${name}-z${z}.${format}`}
             >
               {format.toUpperCase()}
-            </a>
+            </File>
           ))}
         </div>
       )}
@@ -44,19 +39,23 @@ export function Downloads({ found }: { found: WorkspaceSummary }) {
   );
 }
 
-/** A link sends no key: where there is one, the file is fetched and saved from here. */
-function saveWithKey(event: MouseEvent): void {
-  const link = event.currentTarget;
-  if (!hasKey() || !(link instanceof HTMLAnchorElement)) return;
-  event.preventDefault();
-  save(link.href, link.download).catch((thrown: unknown) => (failure.value = inWords(thrown)));
+function File({ link, name, children }: { link: string; name: string; children: string }) {
+  // A link sends no key: where there is one, the file is fetched and saved from here.
+  const saveWithKey = (event: MouseEvent) => {
+    if (!hasKey()) return;
+    event.preventDefault();
+    save(link, name).catch((thrown: unknown) => (failure.value = inWords(thrown)));
+  };
+  return (
+    <a href={verne.address(link)} download={name} onClick={saveWithKey}>
+      {children}
+    </a>
+  );
 }
 
-async function save(href: string, name: string): Promise<void> {
-  const answer = await send(new Request(href));
-  if (!answer.ok) throw new Refused({ detail: `The file cannot be had: ${answer.status}.` });
+async function save(file: string, name: string): Promise<void> {
   const link = document.createElement("a");
-  link.href = URL.createObjectURL(await answer.blob());
+  link.href = URL.createObjectURL(new Blob([await verne.file(file)]));
   link.download = name;
   link.click();
   URL.revokeObjectURL(link.href);

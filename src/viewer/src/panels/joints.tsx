@@ -64,8 +64,8 @@ export function JointsPanel() {
         symbol="θ₂"
         unit="°"
         value={wanted.theta2}
-        min={limits.rotary[0] ?? -360}
-        max={limits.rotary[1] ?? 360}
+        min={limits.rotary?.[0] ?? -360}
+        max={limits.rotary?.[1] ?? 360}
         step={0.5}
         commit={(theta2) => move({ ...wanted, theta2 })}
       />

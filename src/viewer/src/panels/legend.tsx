@@ -1,6 +1,6 @@
 /** What limits each piece of the boundary, in the mesh's own colours. */
 
-import type { Schemas } from "../api/client";
+import type { Schemas } from "verne-client";
 import { surfaces, type Surface } from "../state/store";
 import { boundary } from "../words/elements";
 import { number } from "../words/numbers";

@@ -1,7 +1,8 @@
 /** Reads a machine's file and has the service examine it. */
 
 import { signal } from "@preact/signals";
-import { inWords, Refused, type Machine, type Schemas } from "../api/client";
+import { ProblemError, type Machine, type Schemas } from "verne-client";
+import { inWords } from "../api/client";
 import { takeOwn } from "../state/machines";
 
 /** A file that makes no machine. */
@@ -40,7 +41,7 @@ export async function offer(file: File): Promise<void> {
     content = machine;
     await takeOwn(machine as Machine);
   } catch (thrown) {
-    const faults = thrown instanceof Refused ? (thrown.problem.errors ?? []) : [];
+    const faults = thrown instanceof ProblemError ? thrown.errors : [];
     reject(
       inWords(thrown),
       content,

@@ -1,7 +1,7 @@
 /** The plane that cuts the workspace, and what it finds. */
 
 import { useSignal } from "@preact/signals";
-import type { Schemas, WorkspaceSummary } from "../api/client";
+import type { Schemas, WorkspaceSummary } from "verne-client";
 import { change, section, slice } from "../state/store";
 import { squareMetres } from "../words/numbers";
 import { SlideField } from "./fields";

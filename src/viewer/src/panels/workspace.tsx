@@ -1,6 +1,6 @@
 /** Which workspace, its figures, and what it takes to have it. */
 
-import type { WorkspaceKind, WorkspaceSummary } from "../api/client";
+import type { WorkspaceKind, WorkspaceSummary } from "verne-client";
 import { again, cancelComputation } from "../state/computation";
 import {
   change,

@@ -1,7 +1,7 @@
 /** The other positions of the machine, seen through, to be pointed at and picked. */
 
 import { Group, Mesh, Raycaster, Vector2 } from "three";
-import type { Machine } from "../api/client";
+import type { Machine } from "verne-client";
 import type { Position } from "../state/store";
 import { samePosition } from "../state/same";
 import type { Materials } from "./materials";

@@ -1,7 +1,7 @@
 /** What moves above the table: sliders, rods, platform and tool; the same for the machine and its ghosts. */
 
 import { ExtrudeGeometry, Group, Shape, Vector3, type Material, type Mesh } from "three";
-import type { Limit, Machine, PlatformPose } from "../api/client";
+import type { Limit, Machine, PlatformPose } from "verne-client";
 import { baseFromPlatform } from "../geometry/frames";
 import { joints, rods, type Rod, type Sliders } from "../geometry/rods";
 import type { Materials } from "./materials";

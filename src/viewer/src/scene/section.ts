@@ -1,7 +1,7 @@
 /** The slice, drawn in the frame of its workspace. */
 
 import { BufferGeometry, Group, LineLoop, Mesh, Path, Shape, ShapeGeometry, Vector2 } from "three";
-import type { Slice } from "../api/client";
+import type { Slice } from "verne-client";
 import type { Materials } from "./materials";
 
 export class Section {

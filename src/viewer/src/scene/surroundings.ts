@@ -1,7 +1,7 @@
 /** What stands still, and the table: columns with guideways, floor, cradle and turntable. */
 
 import { BufferGeometry, GridHelper, Group, LineSegments, Vector3 } from "three";
-import type { Machine } from "../api/client";
+import type { Machine } from "verne-client";
 import { baseFromCradle, baseFromTable, type TableAngles } from "../geometry/frames";
 import type { Materials } from "./materials";
 import { outwards, unitOf } from "./mechanism";

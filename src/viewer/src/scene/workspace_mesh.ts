@@ -13,8 +13,8 @@ import {
   type MeshStandardMaterial,
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import { address, Refused, type WorkspaceSummary } from "../api/client";
-import { send } from "../api/key";
+import type { WorkspaceSummary } from "verne-client";
+import { verne } from "../api/client";
 import type { Surface } from "../state/store";
 import { shares } from "../geometry/shares";
 
@@ -55,9 +55,7 @@ export class WorkspaceMesh {
       clear(this.grades[grade]);
       return [];
     }
-    const answer = await send(new Request(`${address(summary.links.mesh)}?format=glb`));
-    if (!answer.ok) throw new Refused({ detail: `The mesh cannot be loaded: ${answer.status}.` });
-    const loaded = await this.loader.parseAsync(await answer.arrayBuffer(), "");
+    const loaded = await this.loader.parseAsync(await verne.mesh(summary.id), "");
     if (this.shown[grade] !== summary.id) return null;
     clear(this.grades[grade]);
     loaded.scene.updateMatrixWorld(true);

@@ -1,6 +1,6 @@
 /** The view in the address, after the #: only what differs from the first view. */
 
-import type { Machine, PlatformPose, WorkspaceKind } from "../api/client";
+import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
 import { INITIAL, type Camera, type Ghosts, type Joints, type View } from "./view";
 import { packed, unpacked } from "./packed";
 

@@ -1,10 +1,9 @@
 /** Keeps the workspace that is shown the one that the view asks for. */
 
 import { batch, computed, effect, untracked } from "@preact/signals";
-import { inWords, type WorkspaceRequest, type WorkspaceSummary } from "../api/client";
-import { Cancelled, cancel } from "../api/jobs";
+import { CancelledError, type Watch, type WorkspaceRequest, type WorkspaceSummary } from "verne-client";
+import { inWords, verne } from "../api/client";
 import { latest } from "../api/latest";
-import { slice as fetchSlice, workspace as compute } from "../api/workspace";
 import {
   computing,
   machine,
@@ -21,6 +20,9 @@ import {
 
 /** A control that is being dragged is not asked at every step, ms. */
 const REST = 120;
+
+/** Seconds that an answer may take before it becomes a job with a progress bar. */
+const WAIT = 1;
 
 /** Triangles that a slow machine cannot move, and about as many as it can: they go with the tolerance's inverse. */
 const MANY = 12_000;
@@ -58,8 +60,9 @@ export function keepWorkspace(): void {
   keepStandIn();
   const askSlice = latest<string>(async (asked) => {
     const { id, z } = JSON.parse(asked) as { id: string; z: number };
-    const found = await fetchSlice(id, z).catch(() => null);
-    if (cut.peek() !== null) slice.value = found;
+    const params = { path: { id }, query: { z } };
+    const found = await verne.api.GET("/workspace/{id}/slice.json", { params }).catch(() => null);
+    if (cut.peek() !== null) slice.value = found?.data ?? null;
   });
   effect(() => {
     if (cut.value === null) slice.value = null;
@@ -70,8 +73,7 @@ export function keepWorkspace(): void {
 /** Where drawing is slow, a mesh of many triangles moves as a coarser one. */
 function keepStandIn(): void {
   const ask = latest<WorkspaceRequest>(async (request) => {
-    const signal = new AbortController().signal;
-    standIn.value = await compute(request, { signal, progress: () => undefined }).catch(() => null);
+    standIn.value = await compute(request).catch(() => null);
   });
   effect(() => {
     const found = workspace.value;
@@ -95,7 +97,7 @@ export function again(): void {
 /** Cancels on the operator's word. */
 export async function cancelComputation(): Promise<void> {
   const job = computing.peek()?.job;
-  if (job) await cancel(job);
+  if (job) await verne.cancel(job);
   else stop.abort();
 }
 
@@ -103,8 +105,15 @@ export async function cancelComputation(): Promise<void> {
 function abandon(): void {
   const job = computing.peek()?.job;
   stop.abort();
-  if (job) void cancel(job).catch(() => undefined);
+  if (job) void verne.cancel(job).catch(() => undefined);
   computing.value = null;
+}
+
+/** The summary of one workspace. */
+async function compute(request: WorkspaceRequest, watch: Watch = {}): Promise<WorkspaceSummary> {
+  const found = await verne.workspace(request, { ...watch, wait: WAIT });
+  if ("volume" in found) return found;
+  throw new Error("The service sent something else than the workspace's figures.");
 }
 
 async function ask(request: WorkspaceRequest): Promise<void> {
@@ -114,7 +123,7 @@ async function ask(request: WorkspaceRequest): Promise<void> {
   try {
     const found = await compute(request, {
       signal: own.signal,
-      progress: ({ id, state, progress }) => {
+      onProgress: ({ id, state, progress }) => {
         if (own === stop)
           computing.value = { progress, state: state === "queued" ? "queued" : "running", job: id };
       },
@@ -122,7 +131,7 @@ async function ask(request: WorkspaceRequest): Promise<void> {
     if (own === stop) finish(found, found.explanation ?? null);
   } catch (thrown) {
     if (own !== stop) return;
-    const cancelled = thrown instanceof Cancelled || own.signal.aborted;
+    const cancelled = thrown instanceof CancelledError || own.signal.aborted;
     finish(null, cancelled ? "Cancelled." : inWords(thrown));
   }
 }

@@ -1,25 +1,26 @@
 /** Which machine is in use: a published one, or one that was dropped on the page. */
 
 import { batch } from "@preact/signals";
-import { client, unwrap, type Machine, type MachineRef } from "../api/client";
+import { unwrap, type Machine, type MachineRef } from "verne-client";
+import { verne } from "../api/client";
 import { change, complaint, ghosts, machine, published, workspace, type InUse } from "./store";
 import { stay } from "./motion";
 import type { View } from "./view";
 
 export async function listMachines(): Promise<void> {
-  published.value = unwrap(await client.GET("/machines")).machines;
+  published.value = unwrap(await verne.api.GET("/machines")).machines;
 }
 
 /** Loads the view's machine and puts it where the view says. */
 export async function loadMachine({ machine: name, own }: View): Promise<void> {
   if (own) return use(await examined(own, own));
-  const found = unwrap(await client.GET("/machines/{name}", { params: { path: { name } } }));
+  const found = unwrap(await verne.api.GET("/machines/{name}", { params: { path: { name } } }));
   use(await examined(name, found.definition));
 }
 
 /** Takes a published machine, from its home. */
 export async function takePublished(name: string): Promise<void> {
-  const found = unwrap(await client.GET("/machines/{name}", { params: { path: { name } } }));
+  const found = unwrap(await verne.api.GET("/machines/{name}", { params: { path: { name } } }));
   const next = await examined(name, found.definition);
   change({ machine: name, own: null, joints: null, mode: null });
   use(next);
@@ -45,7 +46,7 @@ function use(next: InUse): void {
 /** Home is where everything is symmetric, with the sliders about the middle of their strokes. */
 async function examined(ref: MachineRef, definition: Machine): Promise<InUse> {
   const body = { machine: ref, frame: "platform" as const, pose: { x: 0, y: 0, z: 0 } };
-  const answer = unwrap(await client.POST("/ik", { body }));
+  const answer = unwrap(await verne.api.POST("/ik", { body }));
   const home = answer.solutions[0];
   const rho = home?.joints?.rho ?? [0, 0, 0];
   const { stroke } = definition.limits;

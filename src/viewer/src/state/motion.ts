@@ -1,7 +1,8 @@
 /** Moves the machine: what is wanted goes to /fk or /ik, what comes back is shown. */
 
 import { batch } from "@preact/signals";
-import { client, inWords, unwrap, type Answer, type PlatformPose, type Schemas } from "../api/client";
+import { unwrap, type Answer, type PlatformPose, type Schemas } from "verne-client";
+import { inWords, verne } from "../api/client";
 import { latest } from "../api/latest";
 import { broken, refusal } from "../words/limits";
 import {
@@ -65,7 +66,7 @@ async function byPose(target: Target & { by: "part" | "tool" }): Promise<Positio
   const here = position.value?.joints;
   const near = here && (target.by === "part" ? here : { rho: here.rho });
   const answer = unwrap(
-    await client.POST("/ik", {
+    await verne.api.POST("/ik", {
       body: {
         ...(target.by === "part" ? question() : withoutTable()),
         frame: target.by,
@@ -114,7 +115,7 @@ async function others({ joints, solution }: Position): Promise<Position[]> {
       return [];
     case "assembly": {
       const body = { ...question(), joints, solutions: "all" as const };
-      const answer = unwrap(await client.POST("/fk", { body }));
+      const answer = unwrap(await verne.api.POST("/fk", { body }));
       return answer.solutions.map((other) => ({ joints, solution: other }));
     }
     case "platform": {
@@ -132,14 +133,14 @@ async function others({ joints, solution }: Position): Promise<Position[]> {
 async function inverse(frame: "platform" | "part", pose: TargetPose, here: Joints): Promise<Position[]> {
   const asked = frame === "part" ? question() : withoutTable();
   const body = { ...asked, frame, pose, solutions: "all" as const };
-  const answer = unwrap(await client.POST("/ik", { body }));
+  const answer = unwrap(await verne.api.POST("/ik", { body }));
   return answer.solutions.map((solution) => ({ joints: asJoints(solution.joints, here), solution }));
 }
 
 async function forward(joints: Joints, mode: PlatformPose | null): Promise<Answer> {
   const body = { ...question(), joints };
   const more = mode ? { solutions: "all" as const, near: mode } : { solutions: "working" as const };
-  return unwrap(await client.POST("/fk", { body: { ...body, ...more } }));
+  return unwrap(await verne.api.POST("/fk", { body: { ...body, ...more } }));
 }
 
 function question() {

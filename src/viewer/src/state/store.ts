@@ -1,7 +1,7 @@
 /** What the page knows, as signals: panels and scene follow them. */
 
 import { computed, signal } from "@preact/signals";
-import type { Machine, MachineRef, Schemas, Slice, Solution, WorkspaceSummary } from "../api/client";
+import type { Machine, MachineRef, Schemas, Slice, Solution, WorkspaceSummary } from "verne-client";
 import type { Home } from "../words/margins";
 import { INITIAL, type Joints, type View } from "./view";
 

@@ -1,6 +1,6 @@
 /** The built-in machine, as GET /machines/verne has it. For tests. */
 
-import type { Machine } from "../api/client";
+import type { Machine } from "verne-client";
 
 export const VERNE: Machine = {
   name: "verne",

@@ -1,6 +1,6 @@
 /** What is looked at: everything that a colleague needs to see the same. */
 
-import type { Machine, PlatformPose, WorkspaceKind } from "../api/client";
+import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
 
 /** Solutions with the same sliders (assembly), the same platform position, or the same tool pose. */
 export type Ghosts = "none" | "assembly" | "platform" | "inverse";

@@ -1,6 +1,6 @@
 /** The parts of the machine, as an operator calls them. z points down: a slider's greatest z is its lower end. */
 
-import type { Schemas } from "../api/client";
+import type { Schemas } from "verne-client";
 
 type Constraint = Schemas["Constraint"];
 

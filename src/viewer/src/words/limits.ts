@@ -1,6 +1,6 @@
 /** Why the machine cannot be where it is wanted. */
 
-import type { Answer, Limit } from "../api/client";
+import type { Answer, Limit } from "verne-client";
 import { end, leg, lowest, rods } from "./elements";
 import { degrees, mm, number } from "./numbers";
 

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import type { Margins } from "../api/client";
+import type { Margins } from "verne-client";
 import { VERNE } from "../state/verne.fixture";
 import { refusal } from "./limits";
 import { bars } from "./margins";

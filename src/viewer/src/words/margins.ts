@@ -1,6 +1,6 @@
 /** Every margin of a pose as a bar with a sentence, worst first. */
 
-import type { Limit, Machine, Margins } from "../api/client";
+import type { Limit, Machine, Margins } from "verne-client";
 import { broken } from "./limits";
 import { degrees, mm, number } from "./numbers";
 import { end, lowest, rods } from "./elements";
@@ -64,7 +64,7 @@ export function bars(margins: Margins, machine: Machine, home: Home): Bar[] {
   const touching = worst.constraint === "rod_interference" ? worst.element : "rods";
   add("rod_interference", "mm", touching, margins.rod_interference, home.rodDistance);
   if (margins.tilt) nearest(margins.tilt, limits.tilt, "theta1", "tilt", "deg");
-  if (margins.rotary) nearest(margins.rotary, limits.rotary, "theta2", "rotary", "deg");
+  if (margins.rotary && limits.rotary) nearest(margins.rotary, limits.rotary, "theta2", "rotary", "deg");
   if (margins.table_clearance) {
     const { constraint, unit, element, value } = margins.table_clearance;
     const longest = Math.max(...limits.stroke.map(([low = 0, high = 0]) => high - low));

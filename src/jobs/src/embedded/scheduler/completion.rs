@@ -7,7 +7,7 @@ use crate::embedded::job_table::JobTable;
 use crate::embedded::queue::QueuedJob;
 use crate::embedded::records::record::Write;
 use crate::execution::stop::RunEnd;
-use crate::job::{Failure, Job, Outcome, clamp_cost};
+use crate::job::{Failure, Job, Outcome, cost_after_overrun};
 use crate::job_id::JobKey;
 
 impl Scheduler {
@@ -53,7 +53,8 @@ impl Scheduler {
         let Some(run) = table.entry(key).and_then(|entry| entry.run.clone()) else {
             return;
         };
-        let requeued = self.requeue(table, key, |job| job.cost = clamp_cost(cost.max(job.cost)));
+        let small = self.config.small_cost;
+        let requeued = self.requeue(table, key, |job| job.cost = cost_after_overrun(job.cost, cost, small));
         let Some(job) = requeued else {
             return;
         };

@@ -9,7 +9,7 @@ use crate::jetstream::record::Record;
 use crate::job::{Outcome, State};
 use crate::job_watch::JobSender;
 
-/// What a run must know of its job's record.
+/// The fields of its job's record that a run needs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RunState {
     pub(crate) generation: u64,

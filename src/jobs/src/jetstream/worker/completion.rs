@@ -9,7 +9,7 @@ use crate::error::UnavailableError;
 use crate::execution::stop::{RunEnd, StopSignal};
 use crate::jetstream::config::Config;
 use crate::jetstream::record::Record;
-use crate::job::{Failure, Outcome, State, clamp_cost};
+use crate::job::{Failure, Outcome, State, cost_after_overrun};
 
 /// Time after which a failed write is tried again.
 const RETRY: Duration = Duration::from_secs(1);
@@ -72,7 +72,7 @@ fn apply_end(record: &mut Record, end: &RunEnd, config: &Config) {
             record.end(Outcome::Failed(Failure::Work(reason.clone())));
         }
         RunEnd::Overran(cost) if may_requeue => {
-            record.job.cost = clamp_cost(cost.max(record.job.cost));
+            record.job.cost = cost_after_overrun(record.job.cost, *cost, config.small_cost);
             record.class = config.class(record.job.cost);
             record.requeue();
         }

@@ -12,7 +12,7 @@ use crate::jetstream::record::Record;
 use crate::job::{Failure, Outcome};
 use crate::job_watch::JobSender;
 
-/// What a job needs a slot for.
+/// The reason why a job needs a slot.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Phase {
     /// To ask for its subtasks, and to run if there are none.

@@ -1,4 +1,4 @@
-//! What the tasks of a worker share.
+//! The state that the tasks of a worker share.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize};

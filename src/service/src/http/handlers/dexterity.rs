@@ -1,25 +1,37 @@
 //! `/workspace/dexterity` and the points of its map.
 
+use std::io;
 use std::sync::Arc;
 
+use axum::body::{Body, Bytes};
 use axum::extract::State;
-use axum::response::Response;
+use axum::response::{IntoResponse, Response};
+use futures_util::stream;
+use verne_rows::Format;
 
-use crate::http::conditional_response::{Conditions, IMMUTABLE, Representation};
+use crate::http::conditional_response::{Conditions, IMMUTABLE, Representation, StreamedText, entity_tag};
 use crate::http::error::{HttpError, LookupError};
-use crate::http::extractors::{JsonBody, PathParameter};
+use crate::http::extractors::{JsonBody, PathParameter, QueryString};
 use crate::http::handlers::results::record;
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
+use crate::http::openapi::body_schemas::{Binary, Text};
 use crate::http::openapi::problem_responses::{CellsProblems, DexterityProblems};
+use crate::http::result_or_job::ResultOrJob;
 use crate::http::result_representation::summary_or_job;
 use crate::http::state::SharedState;
 use crate::http::wait_policy::WaitPolicy;
+use crate::limits::response_memory::UnsharedBytes;
+use crate::operations::compute_pool::run_on_pool;
 use crate::operations::dexterity_question::DexterityQuestion;
+use crate::operations::dexterity_table::DexterityTable;
 use crate::operations::question::Question;
 use crate::operations::question_text::QuestionKind;
 use crate::operations::results::CELLS;
-use crate::wire::dexterity::{DexterityBody, DexterityCells, DexteritySummary};
+use crate::wire::dexterity::{CellsQuery, DexterityBody, DexterityCells, DexteritySummary};
+use crate::wire::error::OperationError;
+use crate::wire::result_id::ResultId;
+use crate::wire::row_format::RowFormat;
 
 /// Dexterity map: the inclinations that reach each point of the part
 ///
@@ -28,7 +40,7 @@ use crate::wire::dexterity::{DexterityBody, DexterityCells, DexteritySummary};
 /// inclination) and of the dexterous points (all inclinations). The job takes long; with `Prefer: respond-async` the
 /// service returns its address immediately.
 #[utoipa::path(
-    post, path = "/workspace/dexterity", operation_id = "dexterity", tag = "workspace",
+    post, path = "/workspace/dexterity", operation_id = "post_dexterity", tag = "workspace",
     request_body(content = DexterityBody, description = "The inclinations, the tool and the grid."),
     responses(
         (status = 200, description = "The summary of the map.", body = DexteritySummary),
@@ -52,13 +64,17 @@ pub(crate) async fn post_dexterity(
 
 /// The points of a dexterity map
 ///
-/// Returns the intervals of phi1 at each point. The service supports strong ETags, conditional requests and byte
-/// ranges.
+/// Returns the intervals of phi1 at each point. For JSON the service supports strong ETags, conditional requests and
+/// byte ranges. As a table (Arrow, CSV or NDJSON) the answer has a row for each interval: the number of the point, its
+/// x, y and z in the part frame, and `from` and `to`.
 #[utoipa::path(
-    get, path = "/workspace/{id}/cells", operation_id = "dexterity_cells", tag = "workspace",
-    params(("id" = String, Path, description = "The id from an answer of /workspace/dexterity.")),
+    get, path = "/workspace/{id}/cells", operation_id = "get_dexterity_cells", tag = "workspace",
+    params(("id" = String, Path, description = "The id from an answer of /workspace/dexterity."), CellsQuery),
     responses(
-        (status = 200, description = "The points.", body = DexterityCells),
+        (status = 200, description = "The points.", content(
+            (DexterityCells = "application/json"), (Text = "application/x-ndjson"), (Text = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
+        )),
         (status = 202, description = "The service evicted the points. This job computes them again.",
             body = JobObject),
         CellsProblems
@@ -67,12 +83,16 @@ pub(crate) async fn post_dexterity(
 pub(crate) async fn get_cells(
     State(state): State<SharedState>,
     PathParameter(id): PathParameter,
+    QueryString(query): QueryString<CellsQuery>,
     accept: Accept,
     wait_policy: WaitPolicy,
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
     let record = record(&state, id).await?;
-    accept.require_json()?;
+    let format = match query.format {
+        Some(format) => format,
+        None => accept.choose(RowFormat::ALL.map(|format| (format.media(), format)))?,
+    };
     let id = record.id;
     if record.kind != QuestionKind::Dexterity {
         return Err(LookupError::Grid(id.to_string()).into());
@@ -80,7 +100,47 @@ pub(crate) async fn get_cells(
     let find = || state.results.find_blob(id, CELLS);
     let question = state.results.questions.get_or_read(id, &record.question)?;
     let cells = state.blob_or_job(&question, &wait_policy, None, find).await?;
+    let cells = match (cells, format.columns()) {
+        (ResultOrJob::Result(_), Some(format)) => {
+            let mut response = respond_table(&state, id, format, &conditions).await?;
+            wait_policy.state_preference(&mut response);
+            return Ok(response);
+        }
+        (cells, _) => cells,
+    };
     let path = format!("{}/cells", id.path());
     let cells = cells.map(|content| Representation::json(content, path).cached(IMMUTABLE));
     cells.respond(&state, wait_policy, &conditions)
+}
+
+/// The stored points as a table, which is written while it is sent.
+async fn respond_table(
+    state: &SharedState,
+    id: ResultId,
+    format: Format,
+    conditions: &Conditions,
+) -> Result<Response, HttpError> {
+    let name = format!("{id} cells {}", format.name());
+    let text = StreamedText {
+        etag: entity_tag(&blake3::hash(name.as_bytes()), None)?,
+        vary: "accept",
+        media: format.media(),
+        file_name: format!("dexterity-{id:.8}.{}", format.name()),
+    };
+    let about = match text.begin(conditions) {
+        Ok(about) => about,
+        Err(unmodified) => return Ok(*unmodified),
+    };
+    let stored = state.results.blob(id, CELLS).await.ok_or(OperationError::Internal)?.bytes;
+    // The points are parsed: some times their stored bytes.
+    let memory = 3 * stored.len() as u64;
+    let table = run_on_pool(move |_| DexterityTable::new(&stored, format)).await?;
+    let pieces = stream::try_unfold(table, |mut table| async move {
+        let piece =
+            run_on_pool(move |_| table.next().map(|piece| piece.map(|piece| (Bytes::from(piece), table))));
+        piece.await.map_err(|error: OperationError| io::Error::other(error))
+    });
+    let mut response = (about, Body::from_stream(pieces)).into_response();
+    response.extensions_mut().insert(UnsharedBytes(memory));
+    Ok(response)
 }

@@ -40,7 +40,7 @@ const KEEP_ALIVE: Duration = Duration::from_secs(15);
 /// the jobs that it requested. The service removes the records of finished jobs after a while; it stores their results
 /// separately.
 #[utoipa::path(
-    get, path = "/jobs", operation_id = "jobs", tag = "jobs", params(JobsQuery),
+    get, path = "/jobs", operation_id = "list_jobs", tag = "jobs", params(JobsQuery),
     responses((status = 200, description = "A page of jobs.", body = JobList), JobsProblems)
 )]
 pub(crate) async fn get_jobs(
@@ -65,7 +65,7 @@ pub(crate) async fn get_jobs(
 ///
 /// Returns the state of a job. The job has the same id as its result.
 #[utoipa::path(
-    get, path = "/jobs/{id}", operation_id = "job", tag = "jobs",
+    get, path = "/jobs/{id}", operation_id = "get_job", tag = "jobs",
     params(("id" = String, Path, description = "The id from an answer of /workspace.")),
     responses((status = 200, description = "The job.", body = JobObject), JobProblems)
 )]
@@ -85,7 +85,7 @@ pub(crate) async fn get_job(
 /// final job. A browser's EventSource then reconnects with the id of this event; the service answers 204, and the
 /// browser stops.
 #[utoipa::path(
-    get, path = "/jobs/{id}/events", operation_id = "job_events", tag = "jobs",
+    get, path = "/jobs/{id}/events", operation_id = "get_job_events", tag = "jobs",
     params(
         ("id" = String, Path, description = "The id from an answer of /workspace."),
         ("Last-Event-ID" = Option<String>, Header, nullable = false, description =
@@ -142,7 +142,7 @@ fn event_id(job: &Job) -> String {
 /// your list of jobs no longer has it. A key with the role admin cancels the job for all. A running computation stops
 /// within a second; a finished job stays unchanged. The answer is the resulting state of the job.
 #[utoipa::path(
-    delete, path = "/jobs/{id}", operation_id = "job_cancel", tag = "jobs",
+    delete, path = "/jobs/{id}", operation_id = "cancel_job", tag = "jobs",
     params(("id" = String, Path, description = "The id from an answer of /workspace.")),
     responses((status = 200, description = "The job.", body = JobObject), JobProblems)
 )]

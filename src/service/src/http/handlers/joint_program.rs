@@ -42,7 +42,7 @@ const GLB: &str = "model/gltf-binary";
 /// word for each joint, F, and the events of the program in their places. A program that the machine cannot run has
 /// none. The head names the machine by its hash. The service sends the program while it reads the rows.
 #[utoipa::path(
-    get, path = "/toolpath/{id}/program", operation_id = "toolpath_program", tag = "toolpath",
+    get, path = "/toolpath/{id}/program", operation_id = "get_toolpath_program", tag = "toolpath",
     params(("id" = String, Path, description = "The id from an answer of /toolpath."), JointProgramQuery),
     responses(
         (status = 200, description = "The joint program.", content((Text = "text/plain"))),
@@ -93,7 +93,7 @@ pub(crate) async fn get_joint_program(
 /// their worst margin, rapids grey. The colours are those of Cividis, which people with colour vision deficiency can
 /// tell apart. A path of more than 250,000 rows is thinned; `extras` says so.
 #[utoipa::path(
-    get, path = "/toolpath/{id}/path", operation_id = "toolpath_path", tag = "toolpath",
+    get, path = "/toolpath/{id}/path", operation_id = "get_toolpath_path", tag = "toolpath",
     params(("id" = String, Path, description = "The id from an answer of /toolpath."), PathQuery),
     responses(
         (status = 200, description = "The path.", content((Binary = "model/gltf-binary"))),

@@ -34,7 +34,7 @@ fn write(answer: &Answer) -> Result<Vec<u8>, OperationError> {
 /// Computes the poses of the platform and the tool for given slider positions. The answer has every assembly mode, the
 /// working modes, or only the feasible ones. theta1 and theta2 add the pose in the part frame.
 #[utoipa::path(
-    get, path = "/fk", operation_id = "fk", tag = "kinematics", params(FkQuery),
+    get, path = "/fk", operation_id = "get_fk", tag = "kinematics", params(FkQuery),
     responses((status = 200, description = "The solutions, or the reason why there is none.", body = Answer),
         CommonProblems)
 )]
@@ -51,7 +51,7 @@ pub(crate) async fn get_fk(
 ///
 /// Takes the parameters of GET /fk as JSON. `machine` may be a complete machine object.
 #[utoipa::path(
-    post, path = "/fk", operation_id = "fk_post", tag = "kinematics",
+    post, path = "/fk", operation_id = "post_fk", tag = "kinematics",
     request_body(content = FkRequest, description = "The joints and the options."),
     responses((status = 200, description = "The solutions, or the reason why there is none.", body = Answer),
         BodyProblems)
@@ -69,7 +69,7 @@ pub(crate) async fn post_fk(
 /// Computes the joints for a pose of the platform or the tool. The answer has every solution (up to 16 for the
 /// platform, up to 24 for the part), the working ones, or only the feasible ones.
 #[utoipa::path(
-    get, path = "/ik", operation_id = "ik", tag = "kinematics", params(IkQuery),
+    get, path = "/ik", operation_id = "get_ik", tag = "kinematics", params(IkQuery),
     responses((status = 200, description = "The solutions, or the reason why there is none.", body = Answer),
         CommonProblems)
 )]
@@ -86,7 +86,7 @@ pub(crate) async fn get_ik(
 ///
 /// Takes the parameters of GET /ik as JSON. `machine` may be a complete machine object.
 #[utoipa::path(
-    post, path = "/ik", operation_id = "ik_post", tag = "kinematics",
+    post, path = "/ik", operation_id = "post_ik", tag = "kinematics",
     request_body(content = IkRequest, description = "The pose and the options."),
     responses((status = 200, description = "The solutions, or the reason why there is none.", body = Answer),
         BodyProblems)

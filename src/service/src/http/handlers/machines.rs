@@ -16,7 +16,7 @@ use crate::wire::machine_list::{MachineAnswer, MachineList};
 ///
 /// Lists the machine names that requests may use, with the source of the numbers of each machine.
 #[utoipa::path(
-    get, path = "/machines", operation_id = "machines", tag = "machines",
+    get, path = "/machines", operation_id = "list_machines", tag = "machines",
     responses((status = 200, description = "The machines, sorted by name.", body = MachineList), CommonProblems)
 )]
 pub(crate) async fn get_machines(State(state): State<SharedState>) -> Json<MachineList> {
@@ -27,7 +27,7 @@ pub(crate) async fn get_machines(State(state): State<SharedState>) -> Json<Machi
 ///
 /// Returns all numbers of a published machine. Requests and `verne --machine FILE` accept `definition`.
 #[utoipa::path(
-    get, path = "/machines/{name}", operation_id = "machine", tag = "machines",
+    get, path = "/machines/{name}", operation_id = "get_machine", tag = "machines",
     params(("name" = String, Path, description = "Name of the machine.")),
     responses((status = 200, description = "The machine.", body = MachineAnswer), MachineProblems)
 )]
@@ -43,7 +43,7 @@ pub(crate) async fn get_machine(
 /// Editors can use the schema, and clients can validate a machine before they send it. Only the service can check
 /// whether the numbers define a valid machine.
 #[utoipa::path(
-    get, path = "/machines/schema", operation_id = "machine_schema", tag = "machines",
+    get, path = "/machines/schema", operation_id = "get_machine_schema", tag = "machines",
     responses((status = 200, description = "The schema.", body = Object), CommonProblems)
 )]
 pub(crate) async fn get_machine_schema() -> Json<Value> {

@@ -29,9 +29,10 @@ use crate::wire::result_id::ResultId;
 /// 201 for a new program, and 200 with the same id if the service has it already. The service evicts programs like
 /// results when it needs space.
 #[utoipa::path(
-    post, path = "/programs", operation_id = "programs_post", tag = "programs", params(ProgramQuery),
+    post, path = "/programs", operation_id = "post_program", tag = "programs", params(ProgramQuery),
     request_body(content(
         (Text = "text/plain"), (Text = "text/csv"), (Text = "application/x-ndjson"),
+        (Binary = "application/vnd.apache.arrow.stream"),
         (Binary = "application/octet-stream"),
     ), description = "The file."),
     responses(
@@ -49,7 +50,8 @@ pub(crate) async fn post_program(
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
     let format = query.format(body.media_type())?;
-    let received = body.receive(format, query.options()).await?;
+    let options = query.options(format)?;
+    let received = body.receive(format, options).await?;
     let StoredProgram { id, summary, is_new } = store_program(&state.results, &received.program).await?;
     drop(received);
     let mut response = summary_of(&state, id, summary).respond(&Conditions::default())?;
@@ -66,7 +68,7 @@ pub(crate) async fn post_program(
 /// Returns the answer that POST /programs gave with this id. If the service has evicted the program, send it again; the
 /// id stays the same.
 #[utoipa::path(
-    get, path = "/programs/{id}", operation_id = "program", tag = "programs",
+    get, path = "/programs/{id}", operation_id = "get_program", tag = "programs",
     params(("id" = String, Path, description = "The id from an answer of /programs.")),
     responses((status = 200, description = "The summary.", body = ProgramSummary), ProgramProblems)
 )]
@@ -84,13 +86,15 @@ pub(crate) async fn get_program(
 
 /// The file of a program
 ///
-/// Returns the bytes that the client sent, decoded. With `Accept-Encoding: gzip` the service sends them compressed.
+/// Returns the bytes that the client sent, decoded. The media type of rows is `text/csv` or `application/x-ndjson`.
+/// With `Accept-Encoding: gzip` the service sends them compressed.
 #[utoipa::path(
-    get, path = "/programs/{id}/source", operation_id = "program_source", tag = "programs",
+    get, path = "/programs/{id}/source", operation_id = "get_program_source", tag = "programs",
     params(("id" = String, Path, description = "The id from an answer of /programs.")),
     responses(
         (status = 200, description = "The file.", content(
             (Text = "text/plain"), (Text = "text/csv"), (Text = "application/x-ndjson"),
+            (Binary = "application/vnd.apache.arrow.stream"),
         )),
         ProgramProblems
     )

@@ -8,7 +8,7 @@ use crate::http::error::{HttpError, LookupError};
 use crate::http::extractors::{PathParameter, QueryString};
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
-use crate::http::openapi::body_schemas::{Binary, Summary, Text};
+use crate::http::openapi::body_schemas::{Binary, MeshObject, Summary, Text};
 use crate::http::openapi::problem_responses::{MeshProblems, SliceProblems, SummaryProblems};
 use crate::http::result_representation::{Surface, mesh_or_job, summary};
 use crate::http::state::{AppState, SharedState};
@@ -31,7 +31,7 @@ use crate::wire::workspace_query::SliceQuery;
 /// the request to /workspace, it returns the same id and the same bytes. The id is a hash of the request, so a client
 /// that knows the id knows the request. Therefore any key may read the result.
 #[utoipa::path(
-    get, path = "/workspace/{id}", operation_id = "workspace_summary", tag = "workspace",
+    get, path = "/workspace/{id}", operation_id = "get_workspace_summary", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace.")),
     responses(
         (status = 200, description = "The summary of a workspace or a dexterity map, or the table of a family.", body =
@@ -56,15 +56,15 @@ pub(crate) async fn get_summary(
 /// The mesh of a computed workspace
 ///
 /// Returns a watertight mesh within the tolerance of the true surface. Each triangle has the constraint that is active
-/// there. `format` or Accept selects the format; the default is GLB. The service supports strong ETags, conditional
-/// requests and byte ranges.
+/// there. The path without the extension selects the format by `format` or Accept; its default is GLB. The service
+/// supports strong ETags, conditional requests and byte ranges.
 #[utoipa::path(
-    get, path = "/workspace/{id}/mesh", operation_id = "workspace_mesh", tag = "workspace",
+    get, path = "/workspace/{id}/mesh", operation_id = "get_workspace_mesh", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace."), StoredMeshQuery),
     responses(
         (status = 200, description = "The mesh.", content(
             (Binary = "model/gltf-binary"), (Binary = "model/stl"), (Binary = "model/ply"),
-            (Object = "application/json"),
+            (MeshObject = "application/json"),
         )),
         (status = 202, description = "The service evicted the mesh. This job computes it again.",
             body = JobObject),
@@ -94,9 +94,10 @@ pub(crate) async fn get_mesh(
 ///
 /// Returns the cut of a workspace with a plane of constant z: polygons with holes, optionally with lines of constant
 /// alpha (for the platform the ellipses of Eq (16)), as JSON, as a drawing (SVG) or for CAD (DXF). The slice is within
-/// the workspace's tolerance of the true boundary. The service does not use the mesh for it.
+/// the workspace's tolerance of the true boundary. The service does not use the mesh for it. The path without the
+/// extension selects the format by `format` or Accept.
 #[utoipa::path(
-    get, path = "/workspace/{id}/slice", operation_id = "workspace_slice", tag = "workspace",
+    get, path = "/workspace/{id}/slice", operation_id = "get_workspace_slice", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace."), SliceQuery),
     responses(
         (status = 200, description = "The slice.", content(

@@ -1,60 +1,43 @@
 //! The service itself: OpenAPI document, probes, metrics, and the fallbacks for unknown paths and connections.
 
-use std::borrow::Cow;
-
 use axum::extract::State;
-use axum::http::{HeaderMap, HeaderValue};
+use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Response};
 use axum::{Extension, Json};
 
 use crate::http::conditional_response::Conditions;
 use crate::http::error::HttpError;
+use crate::http::extractors::QueryString;
 use crate::http::openapi::body_schemas::Text;
 use crate::http::openapi::problem_responses::{CommonProblems, ReadyProblems};
-use crate::http::proxy::BasePath;
 use crate::http::request_head::InvalidHead;
 use crate::http::state::SharedState;
-use crate::http::static_content::StaticContent;
 use crate::limits::error::LimitError;
 use crate::wire::health::{Health, HealthStatus};
-
-/// The OpenAPI document that the service sends: the committed file. A test compares it with the generated document,
-/// whose examples take too long to compute at every start.
-const DOCUMENT: &str = include_str!("../../../../../openapi/openapi.json");
-
-/// The document of a service below a base path.
-pub(crate) fn document(base: &BasePath) -> StaticContent {
-    let text = match base.as_str() {
-        "" => Cow::Borrowed(DOCUMENT),
-        base => Cow::Owned(DOCUMENT.replacen(SERVER, &SERVER.replace('/', base), 1)),
-    };
-    let hash = blake3::hash(text.as_bytes());
-    StaticContent::new(text.into_owned().into(), HeaderValue::from_static("application/json"), hash)
-}
-
-/// The URL of the service in the document.
-const SERVER: &str = "\"url\": \"/\"";
+use crate::wire::openapi_version::OpenapiQuery;
 
 /// This document
 ///
-/// OpenAPI 3.1, generated from the handlers. `/docs` displays it in a browser.
+/// OpenAPI 3.1, or 3.0.3 with `v=3.0`, generated from the handlers. `/docs` displays it in a browser.
 #[utoipa::path(
-    get, path = "/openapi.json", operation_id = "openapi", tag = "service",
+    get, path = "/openapi.json", operation_id = "get_openapi", tag = "service", params(OpenapiQuery),
     responses((status = 200, description = "The document.", body = Object), CommonProblems)
 )]
 pub(crate) async fn get_openapi(
     State(state): State<SharedState>,
+    QueryString(query): QueryString<OpenapiQuery>,
     conditions: Conditions,
     headers: HeaderMap,
 ) -> Result<Response, HttpError> {
-    Ok(state.document.respond(&headers, &conditions, "no-cache").await?)
+    let document = state.documents.version(query.v).await?;
+    Ok(document.respond(&headers, &conditions, "no-cache").await?)
 }
 
 /// Liveness
 ///
 /// The process is running.
 #[utoipa::path(
-    get, path = "/livez", operation_id = "livez", tag = "service",
+    get, path = "/livez", operation_id = "get_livez", tag = "service",
     responses((status = 200, description = "The process is running.", body = Health), CommonProblems)
 )]
 pub(crate) async fn get_livez() -> Json<Health> {
@@ -67,7 +50,7 @@ pub(crate) async fn get_livez() -> Json<Health> {
 /// or while its disk rejects writes. If a shared broker or result store does not respond, the answer names it and the
 /// status stays 200; requests that need neither still work.
 #[utoipa::path(
-    get, path = "/readyz", operation_id = "readyz", tag = "service",
+    get, path = "/readyz", operation_id = "get_readyz", tag = "service",
     responses((status = 200, description = "The service is ready.", body = Health), ReadyProblems)
 )]
 pub(crate) async fn get_readyz(State(state): State<SharedState>) -> Result<Json<Health>, HttpError> {
@@ -78,7 +61,7 @@ pub(crate) async fn get_readyz(State(state): State<SharedState>) -> Result<Json<
 ///
 /// Returns metrics in the text format of Prometheus: requests, use of every limit, jobs and results.
 #[utoipa::path(
-    get, path = "/metrics", operation_id = "metrics", tag = "service",
+    get, path = "/metrics", operation_id = "get_metrics", tag = "service",
     responses((status = 200, description = "The metrics.", content((Text = "application/openmetrics-text"))),
         CommonProblems)
 )]

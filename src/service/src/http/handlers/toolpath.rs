@@ -12,7 +12,7 @@ use crate::http::handlers::results::stored_toolpath;
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
 use crate::http::openapi::body_schemas::{Binary, Text};
-use crate::http::openapi::problem_responses::{ReportProblems, ToolpathProblems};
+use crate::http::openapi::problem_responses::{ReportProblems, ToolpathFileProblems, ToolpathProblems};
 use crate::http::program_body::ProgramInMemory;
 use crate::http::result_representation::{summary, summary_or_job};
 use crate::http::state::{AppState, SharedState};
@@ -36,14 +36,15 @@ use crate::wire::toolpath_report::ToolpathReport;
 /// limit. The report says whether the machine can run the program; if not, it names the lines, the limits, and how much
 /// is missing.
 ///
-/// The body is JSON with all fields, or the file of a program, with `format` and the other fields as parameters. If the
-/// computation takes longer than the wait, the answer is 202 with the job. The header `Prefer: wait=N` sets the wait;
-/// `Prefer: respond-async` skips it (RFC 7240).
+/// The body is JSON with all fields. It may also be the file of a program, as for /toolpath/file. If the computation
+/// takes longer than the wait, the answer is 202 with the job. The header `Prefer: wait=N` sets the wait; `Prefer:
+/// respond-async` skips it (RFC 7240).
 #[utoipa::path(
-    post, path = "/toolpath", operation_id = "toolpath", tag = "toolpath", params(ProgramQuery, ToolpathQuery),
+    post, path = "/toolpath", operation_id = "post_toolpath", tag = "toolpath", params(ProgramQuery, ToolpathQuery),
     request_body(content(
         (ToolpathRequest = "application/json"), (Text = "text/plain"), (Text = "text/csv"),
-        (Text = "application/x-ndjson"), (Binary = "application/octet-stream"),
+        (Text = "application/x-ndjson"), (Binary = "application/vnd.apache.arrow.stream"),
+        (Binary = "application/octet-stream"),
     ), description = "The program, its set-up and the tolerances as JSON; or the file of a program."),
     responses(
         (status = 200, description = "The report.", body = ToolpathReport),
@@ -67,27 +68,55 @@ pub(crate) async fn post_toolpath(
             let (checked, source) = body.read(read).await?;
             question(&state, checked, source).await?
         }
-        ToolpathBody::File(file) => {
-            let FileRequest { reading, query, body } = *file;
-            let format = reading.format(body.media_type()).map_err(with_json)?;
-            let checked = CheckedToolpath::new(&query.into_request(), &state.machines);
-            let checked = checked.map_err(point_into_toolpath_query)?;
-            let ProgramInMemory { program, memory } = body.receive(format, reading.options()).await?;
-            let question = question(&state, checked, ProgramSource::Received(Box::new(program))).await?;
-            drop(memory);
-            question
-        }
+        ToolpathBody::File(file) => question_of_file(&state, *file).await?,
     };
-    let report =
-        summary_or_job(&state, &Arc::new(Question::Toolpath(Box::new(question))), &wait_policy).await?;
-    report.respond(&state, wait_policy, &conditions)
+    report(&state, question, wait_policy, &conditions).await
+}
+
+/// The joint motion of the program in a file
+///
+/// Answers as POST /toolpath. The body is the file of a program; `format` and the other fields are parameters.
+#[utoipa::path(
+    post, path = "/toolpath/file", operation_id = "post_toolpath_file", tag = "toolpath",
+    params(ProgramQuery, ToolpathQuery),
+    request_body(content(
+        (Text = "text/plain"), (Text = "text/csv"), (Text = "application/x-ndjson"),
+        (Binary = "application/octet-stream"),
+    ), description = "The file of a program."),
+    responses(
+        (status = 200, description = "The report.", body = ToolpathReport),
+        (status = 202, description = "The job that computes the result. The header Location has its path.", body =
+            JobObject),
+        ToolpathFileProblems
+    )
+)]
+pub(crate) async fn post_toolpath_file(
+    State(state): State<SharedState>,
+    accept: Accept,
+    wait_policy: WaitPolicy,
+    conditions: Conditions,
+    file: FileRequest,
+) -> Result<Response, HttpError> {
+    accept.require_json()?;
+    let question = question_of_file(&state, file).await?;
+    report(&state, question, wait_policy, &conditions).await
+}
+
+async fn report(
+    state: &AppState,
+    question: ToolpathQuestion,
+    wait_policy: WaitPolicy,
+    conditions: &Conditions,
+) -> Result<Response, HttpError> {
+    let question = Arc::new(Question::Toolpath(Box::new(question)));
+    summary_or_job(state, &question, &wait_policy).await?.respond(state, wait_policy, conditions)
 }
 
 /// The report on a tool path
 ///
 /// Returns the answer that POST /toolpath gave with this id. If the service has evicted it, repeat the request.
 #[utoipa::path(
-    get, path = "/toolpath/{id}", operation_id = "toolpath_report", tag = "toolpath",
+    get, path = "/toolpath/{id}", operation_id = "get_toolpath", tag = "toolpath",
     params(("id" = String, Path, description = "The id from an answer of /toolpath.")),
     responses((status = 200, description = "The report.", body = ToolpathReport), ReportProblems)
 )]
@@ -100,6 +129,19 @@ pub(crate) async fn get_report(
     accept.require_json()?;
     let record = stored_toolpath(&state, id).await?;
     summary(&state, record).cached(IMMUTABLE).respond(&conditions)
+}
+
+/// The question about the program in a file.
+async fn question_of_file(state: &AppState, file: FileRequest) -> Result<ToolpathQuestion, HttpError> {
+    let FileRequest { reading, query, body } = file;
+    let format = reading.format(body.media_type()).map_err(with_json)?;
+    let options = reading.options(format)?;
+    let checked = CheckedToolpath::new(&query.into_request(), &state.machines);
+    let checked = checked.map_err(point_into_toolpath_query)?;
+    let ProgramInMemory { program, memory } = body.receive(format, options).await?;
+    let question = question(state, checked, ProgramSource::Received(Box::new(program))).await?;
+    drop(memory);
+    Ok(question)
 }
 
 /// A body without a known type may be meant as JSON.

@@ -8,27 +8,29 @@ use crate::http::error::HttpError;
 use crate::http::extractors::{PathParameter, QueryString};
 use crate::http::job_document::{JobObject, accepted};
 use crate::http::negotiation::Accept;
-use crate::http::openapi::body_schemas::Text;
+use crate::http::openapi::body_schemas::{Binary, Text};
 use crate::http::openapi::problem_responses::RowsProblems;
 use crate::http::result_or_job::ResultOrJob;
 use crate::http::state::SharedState;
 use crate::http::toolpath_rows::{RowsResponse, rows_or_job, toolpath_record};
 use crate::http::wait_policy::WaitPolicy;
-use crate::operations::toolpath_row_text::{RowText, RowTextWriter};
-use crate::wire::toolpath_row::{RowFormat, RowsQuery, ToolpathRows};
+use crate::operations::toolpath_row_text::{RowText, RowWriter};
+use crate::wire::row_format::RowFormat;
+use crate::wire::toolpath_row::{RowsQuery, ToolpathRows};
 
 /// The joint motion of a program
 ///
 /// Returns the rows of a tool path: the joints to which the machine moves, all of them linearly from the row before,
-/// with the tool's end and axis in the part frame, and the worst margin. `format` or Accept selects the format; the
-/// default is JSON. `from` and `to` select rows by their number. The service sends the rows while it reads them, and
-/// supports strong ETags.
+/// with the tool's end and axis in the part frame, and the worst margin. `from` and `to` select rows by their number.
+/// The path without the extension selects the format by `format` or Accept; its default is JSON. The service sends the
+/// rows while it reads them, and supports strong ETags.
 #[utoipa::path(
-    get, path = "/toolpath/{id}/rows", operation_id = "toolpath_rows", tag = "toolpath",
+    get, path = "/toolpath/{id}/rows", operation_id = "get_toolpath_rows", tag = "toolpath",
     params(("id" = String, Path, description = "The id from an answer of /toolpath."), RowsQuery),
     responses(
         (status = 200, description = "The rows.", content(
             (ToolpathRows = "application/json"), (Text = "application/x-ndjson"), (Text = "text/csv"),
+            (Binary = "application/vnd.apache.arrow.stream"),
         )),
         (status = 202, description = "The service evicted the rows. This job computes them again.",
             body = JobObject),
@@ -53,7 +55,7 @@ pub(crate) async fn get_rows(
     let mut response = match rows_or_job(&state, &record, range.clone(), &wait_policy).await? {
         ResultOrJob::Result(_) => {
             let (tag, media, extension) = (format.name().to_owned(), format.media(), format.name());
-            let writer: Box<dyn RowText> = Box::new(RowTextWriter::new(id, format, range.start));
+            let writer: Box<dyn RowText> = Box::new(RowWriter::new(id, format, range.start)?);
             let rows = RowsResponse { id, range, tag, media, extension };
             rows.respond(&state, &conditions, async { Ok(writer) }).await?
         }

@@ -10,7 +10,7 @@ use crate::http::error::{HttpError, LookupError};
 use crate::http::extractors::{JsonBody, QueryString};
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
-use crate::http::openapi::body_schemas::{Binary, SummaryOrMesh};
+use crate::http::openapi::body_schemas::{Binary, WorkspaceAnswer};
 use crate::http::openapi::problem_responses::{WorkspaceBodyProblems, WorkspaceQueryProblems};
 use crate::http::result_or_job::ResultOrJob;
 use crate::http::result_representation::{Surface, mesh_or_job, summary_or_job};
@@ -23,6 +23,7 @@ use crate::wire::format::MeshFormat;
 use crate::wire::query::point_into_query;
 use crate::wire::workspace::WorkspaceRequest;
 use crate::wire::workspace_query::{MeshQuery, WorkspaceQuery};
+use crate::wire::workspace_summary::WorkspaceSummary;
 
 /// The answer depends on the published machines, which change only with a restart.
 const CACHEABLE: &str = "public, max-age=300";
@@ -35,10 +36,10 @@ const CACHEABLE: &str = "public, max-age=300";
 /// computation takes longer than the wait, the answer is 202 with the job. The header `Prefer: wait=N` sets the wait;
 /// `Prefer: respond-async` skips it (RFC 7240).
 #[utoipa::path(
-    get, path = "/workspace", operation_id = "workspace", tag = "workspace", params(WorkspaceQuery),
+    get, path = "/workspace", operation_id = "get_workspace", tag = "workspace", params(WorkspaceQuery),
     responses(
         (status = 200, description = "The summary or the mesh.", content(
-            (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
+            (WorkspaceSummary = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
             (Binary = "model/ply"),
         )),
         (status = 202, description = "The job that computes the result. The header Location has its path.", body =
@@ -67,11 +68,11 @@ pub(crate) async fn get_workspace(
 /// result under its id, and GET returns it. If `tool_length`, `phi1` or `phi2` is a list or a range in steps, the
 /// answer is a table of all combinations, and each combination has an id of its own.
 #[utoipa::path(
-    post, path = "/workspace", operation_id = "workspace_post", tag = "workspace", params(MeshQuery),
+    post, path = "/workspace", operation_id = "post_workspace", tag = "workspace", params(MeshQuery),
     request_body(content = WorkspaceRequest, description = "The workspace or workspaces, and the tolerance."),
     responses(
         (status = 200, description = "The summary, the table or the mesh.", content(
-            (SummaryOrMesh = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
+            (WorkspaceAnswer = "application/json"), (Binary = "model/gltf-binary"), (Binary = "model/stl"),
             (Binary = "model/ply"),
         )),
         (status = 202, description = "The job that computes the result. The header Location has its path.", body =

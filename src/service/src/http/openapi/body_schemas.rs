@@ -1,7 +1,8 @@
 //! Schemas of bodies that have no type of their own. The schemas have no descriptions, so some types have no doc
 //! comments.
 
-use utoipa::openapi::schema::{AnyOfBuilder, ObjectBuilder, Type};
+use serde_json::Value;
+use utoipa::openapi::schema::OneOfBuilder;
 use utoipa::openapi::{Ref, RefOr, Schema};
 use utoipa::{PartialSchema, ToSchema};
 
@@ -28,26 +29,56 @@ pub(crate) struct JobEvent {
 /// The summary of a workspace, a family or a dexterity map.
 pub(crate) struct Summary;
 
-/// The summary of a workspace or a family, or with `format=json` a mesh.
-pub(crate) struct SummaryOrMesh;
+/// The summary of a workspace or a family.
+pub(crate) struct WorkspaceAnswer;
 
-fn any_of(names: &[&str]) -> AnyOfBuilder {
-    names.iter().fold(AnyOfBuilder::new(), |schemas, name| schemas.item(Ref::from_schema_name(*name)))
+// A mesh as JSON.
+#[expect(dead_code, reason = "only its schema is used")]
+#[derive(ToSchema)]
+#[schema(as = Mesh)]
+pub(crate) struct MeshObject {
+    /// Always `mm`.
+    unit: String,
+    /// Coordinates, three for each vertex.
+    positions: Vec<f64>,
+    /// Vertices, three for each triangle.
+    indices: Vec<u32>,
+    /// The tag of each vertex.
+    tags: Vec<u8>,
+    /// The tag of each triangle.
+    triangle_tags: Vec<u8>,
+    /// The meanings of the tags.
+    palette: Vec<Swatch>,
+    /// Machine, request and frame.
+    extras: serde_json::Map<String, Value>,
+}
+
+// The meaning of a tag.
+#[expect(dead_code, reason = "only its schema is used")]
+#[derive(ToSchema)]
+struct Swatch {
+    /// The name of a constraint.
+    name: String,
+    /// Red, green and blue in sRGB.
+    rgb: [u8; 3],
+}
+
+fn one_of(names: &[&str]) -> OneOfBuilder {
+    names.iter().fold(OneOfBuilder::new(), |schemas, name| schemas.item(Ref::from_schema_name(*name)))
 }
 
 impl PartialSchema for Summary {
     fn schema() -> RefOr<Schema> {
-        any_of(&["WorkspaceSummary", "FamilySummary", "DexteritySummary"]).into()
+        one_of(&["WorkspaceSummary", "FamilySummary", "DexteritySummary"]).into()
     }
 }
 
 impl ToSchema for Summary {}
 
-impl PartialSchema for SummaryOrMesh {
+impl PartialSchema for WorkspaceAnswer {
     fn schema() -> RefOr<Schema> {
-        let mesh = ObjectBuilder::new().schema_type(Type::Object).required("positions").required("indices");
-        any_of(&["WorkspaceSummary", "FamilySummary"]).item(mesh).into()
+        one_of(&["WorkspaceSummary", "FamilySummary"]).into()
     }
 }
 
-impl ToSchema for SummaryOrMesh {}
+impl ToSchema for WorkspaceAnswer {}

@@ -57,7 +57,7 @@ impl Example {
             operation["requestBody"]["content"]["application/json"]["example"] = self.request;
         } else {
             if let Some(file) = self.file {
-                operation["requestBody"]["content"]["text/plain"]["example"] = json!(file);
+                operation["requestBody"]["content"]["application/octet-stream"]["example"] = json!(file);
             }
             let parameters = operation.get_mut("parameters").and_then(Value::as_array_mut);
             for parameter in parameters.into_iter().flatten() {
@@ -151,7 +151,8 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
         ),
         post(
             "/ik/batch",
-            json!({"frame": "part", "tool_length": 50, "continuous": true, "start": [400, 450, 450, 0, 0],
+            json!({"frame": "part", "tool_length": 50, "continuous": true,
+                   "start": {"rho": [400, 450, 450], "theta1": 0, "theta2": 0},
                    "poses": [[100, 50, 150, 0, 0], [100, 50, 150, 30, 90], [100, 50, 150, 0.3, -0.4, 1.2],
                              [0, 0, 900, 0, 0], [1, 2], [5000, 0, 0, 0, 0]]}),
             |body| value_of(answer_ik_batch(body, machines, ROWS)),
@@ -167,6 +168,7 @@ fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {
         Err(error) => (String::new(), json!({"error": error.to_string()}), Value::Null),
     };
     let of_job = || json!({"id": id});
+    let of_slice = || json!({"id": id, "z": 300, "alpha": "0"});
     let dexterity = json!({"tool_length": 50, "phi1": {"from": -20, "to": 20}, "cell": 200});
     vec![
         get("/workspace", request.clone(), Some(summary.clone())),
@@ -184,8 +186,13 @@ fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {
         get("/jobs/{id}/events", of_job(), None),
         Example { method: "delete", path: "/jobs/{id}", request: of_job(), file: None, answer: None },
         get("/workspace/{id}", of_job(), Some(summary.clone())),
-        get("/workspace/{id}/mesh", json!({"id": id, "format": "glb"}), None),
-        get("/workspace/{id}/slice", json!({"id": id, "z": 300, "alpha": "0"}), Some(slice)),
+        get("/workspace/{id}/slice.json", of_slice(), Some(slice)),
+        get("/workspace/{id}/slice.svg", of_slice(), None),
+        get("/workspace/{id}/slice.dxf", of_slice(), None),
+        get("/workspace/{id}/mesh.glb", of_job(), None),
+        get("/workspace/{id}/mesh.stl", of_job(), None),
+        get("/workspace/{id}/mesh.ply", of_job(), None),
+        get("/workspace/{id}/mesh.json", of_job(), None),
         post(
             "/workspace/contains",
             json!({"kind": "part", "tool_length": 50,
@@ -213,10 +220,13 @@ fn of_programs() -> Vec<Example> {
 
 /// The summary of the program of the examples.
 fn program_summary() -> Value {
-    let mut receiver = ProgramReceiver::new(Format::Apt, &ProgramQuery::default().options());
-    // A refused program has its faults in the result.
-    let _ = receiver.push(PROGRAM.as_bytes());
-    json_of(receiver.finish().and_then(|received| received.summary().ok_or(OperationError::Internal)))
+    let received = ProgramQuery::default().options(Format::Apt).and_then(|options| {
+        let mut receiver = ProgramReceiver::new(Format::Apt, &options);
+        // A refused program has its faults in the result.
+        let _ = receiver.push(PROGRAM.as_bytes());
+        receiver.finish()
+    });
+    json_of(received.and_then(|received| received.summary().ok_or(OperationError::Internal)))
 }
 
 fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
@@ -231,11 +241,20 @@ fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
     let of_report = json!({"id": report["id"]});
     let of_path = json!({"id": report["id"], "least": 0, "greatest": 0.25});
     let of_program = json!({"id": report["id"], "axes": "X,Y,Z,A,C", "feed_word": "inverse_time"});
-    let some_rows = json!({"id": report["id"], "format": "csv", "from": 0, "to": 3});
+    let some_rows = || json!({"id": report["id"], "from": 0, "to": 3});
     vec![
         post("/toolpath", request, |_| Ok(&report)),
+        Example {
+            method: "post",
+            path: "/toolpath/file",
+            request: json!({"format": "apt", "tool_length": "120", "tip_tolerance": 0.05}),
+            file: Some(PROGRAM),
+            answer: None,
+        },
         get("/toolpath/{id}", of_report, Some(report.clone())),
-        get("/toolpath/{id}/rows", some_rows, None),
+        get("/toolpath/{id}/rows.json", some_rows(), None),
+        get("/toolpath/{id}/rows.ndjson", some_rows(), None),
+        get("/toolpath/{id}/rows.csv", some_rows(), None),
         get("/toolpath/{id}/program", of_program, None),
         get("/toolpath/{id}/path", of_path, None),
     ]

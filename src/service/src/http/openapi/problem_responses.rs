@@ -78,7 +78,7 @@ problems! {
     /// Problems of a request with a body.
     BodyProblems: BODY;
     /// Problems of a batch.
-    BatchProblems: BODY, &[Code::TooManyRows];
+    BatchProblems: BODY, &[Code::TooManyRows, Code::BadRows];
     /// Problems of a workspace in the query string.
     WorkspaceQueryProblems: JOB, &[Code::RangeNotSatisfiable];
     /// Problems of a workspace, or a family of workspaces, in the body.
@@ -100,6 +100,8 @@ problems! {
     ProgramProblems: &[Code::NotFound, Code::ProgramNotFound];
     /// Problems of a tool path.
     ToolpathProblems: BODY, JOB, PROGRAM;
+    /// Problems of a tool path whose program is the body.
+    ToolpathFileProblems: PROGRAM_BODY, JOB;
     /// Problems of the report on a tool path.
     ReportProblems: TOOLPATH;
     /// Problems of the rows of a tool path. If the store evicted them, a job computes them again, which needs a role

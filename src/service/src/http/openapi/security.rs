@@ -30,8 +30,14 @@ pub(crate) fn with_access_problems(mut paths: Paths, access: Access) -> Paths {
     for item in paths.paths.values_mut() {
         for operation in [&mut item.get, &mut item.post, &mut item.delete].into_iter().flatten() {
             match access {
-                Access::Probe => continue,
-                Access::Open => add_codes(&mut operation.responses.responses, LIMITS),
+                Access::Probe => {
+                    operation.security = Some(Vec::new());
+                    continue;
+                }
+                Access::Open => {
+                    operation.security = Some(Vec::new());
+                    add_codes(&mut operation.responses.responses, LIMITS);
+                }
                 Access::Key(role, class) => require_key(operation, role, class),
             }
             add_codes(&mut operation.responses.responses, &[Code::HostNotAllowed]);

@@ -127,6 +127,9 @@ problems! {
     InvalidRequest, "invalid_request", UNPROCESSABLE_ENTITY, "Fields or query parameters are invalid.";
         Operation(OperationError::Fields(_))
             => HttpError::field("/query/tool_length", "must be a number from 0 to 1e7 mm");
+    BadRows, "bad_rows", UNPROCESSABLE_ENTITY, "The body is not of its format of rows, or ends too early.";
+        Operation(OperationError::Rows(_))
+            => OperationError::Rows("the Arrow stream cannot be read: it ends within a message".to_owned());
     ProgramFault, "program_fault", UNPROCESSABLE_ENTITY,
         "The program has faults; `errors` lists them with line, column and word.";
         Operation(OperationError::ProgramFaults(_)) => OperationError::ProgramFaults(example_of_faults());
@@ -148,8 +151,9 @@ problems! {
         Operation(OperationError::StoreUnavailable) => OperationError::StoreUnavailable;
     JobTooLong, "job_too_long", SERVICE_UNAVAILABLE, "The job exceeded its time limit.";
         Job(JobError::DeadlinePassed) => JobError::DeadlinePassed;
-    TimedOut, "timed_out", SERVICE_UNAVAILABLE, "The request exceeded its time limit.";
-        HttpError::TimedOut => HttpError::TimedOut;
+    TimedOut, "timed_out", SERVICE_UNAVAILABLE,
+        "The request exceeded its time limit, or its body arrived too slowly.";
+        HttpError::TimedOut | Request(RequestError::SlowBody(_)) => HttpError::TimedOut;
     NoRoom, "no_room", INSUFFICIENT_STORAGE, "The result is larger than the whole storage for results.";
         Job(JobError::ResultTooLarge) => JobError::ResultTooLarge;
     ProgramTooLarge, "program_too_large", INSUFFICIENT_STORAGE,

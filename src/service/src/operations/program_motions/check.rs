@@ -1,28 +1,38 @@
 //! Faults of a program that only its motions show. They are found before a job is made.
 
-use verne_program::{Move, MoveKind, Orientation, Program, ProgramError, ProgramErrors};
+use verne_program::{Move, Orientation, Program, ProgramError, ProgramErrors};
 use verne_solver::Machine;
 use verne_solver::toolpath::{Curve, Motion, MotionKind, Motions, Turning};
 
-use crate::operations::program_motions::sections::MOST_FAULTS;
+use crate::operations::program_motions::sections::{MOST_FAULTS, Section};
 use crate::wire::field_errors::out_of_proportion;
 use crate::wire::toolpath::OrientationName;
 
 /// Sine of the angle below which two axes are opposite.
 const OPPOSITE: f64 = 1e-9;
 
+/// What the motions of a program are made of.
+pub(crate) struct Checked<'a> {
+    pub(crate) program: &'a Program,
+    pub(crate) sections: &'a [Section],
+    pub(crate) orientation: Option<OrientationName>,
+    pub(crate) machine: &'a Machine,
+}
+
+impl Checked<'_> {
+    /// Whether the tool, its length or the origin are others than in the move before.
+    fn begins_section(&self, index: usize) -> bool {
+        self.sections.binary_search_by_key(&index, |section| section.first as usize).is_ok()
+    }
+}
+
 /// Checks every motion of a program.
-pub(crate) fn check_motions(
-    program: &Program,
-    motions: &impl Motions,
-    orientation: Option<OrientationName>,
-    machine: &Machine,
-) -> Result<(), ProgramErrors> {
+pub(crate) fn check_motions(motions: &impl Motions, checked: &Checked<'_>) -> Result<(), ProgramErrors> {
     let mut faults = Vec::new();
     let mut before: Option<Motion> = None;
-    for (index, step) in program.moves().iter().enumerate() {
+    for (index, step) in checked.program.moves().iter().enumerate() {
         let motion = motions.motion(index);
-        if let Some(detail) = fault(program, orientation, index, step, &motion, before.as_ref(), machine) {
+        if let Some(detail) = fault(checked, index, step, &motion, before.as_ref()) {
             if faults.len() == MOST_FAULTS {
                 return Err(ProgramErrors { errors: faults, complete: false });
             }
@@ -34,32 +44,29 @@ pub(crate) fn check_motions(
 }
 
 fn fault(
-    program: &Program,
-    orientation: Option<OrientationName>,
+    checked: &Checked<'_>,
     index: usize,
     step: &Move,
     motion: &Motion,
     before: Option<&Motion>,
-    machine: &Machine,
 ) -> Option<String> {
-    if let Some(detail) = out_of_reach(motion, machine) {
+    if let Some(detail) = out_of_reach(motion, checked.machine) {
         return Some(detail);
     }
     let is_vector = matches!(step.orientation(), Orientation::Vector(_));
-    if orientation == Some(OrientationName::Rotary) && is_vector {
+    if checked.orientation == Some(OrientationName::Rotary) && is_vector {
         return Some(
             "orientation=rotary needs rotary words (A and C, B and C, or phi1 and phi2) in every move"
                 .to_owned(),
         );
     }
-    let arrives = motion.kind == MotionKind::Arrive;
-    if arrives && index > 0 && program.arc(step).is_some() {
+    if index > 0 && checked.begins_section(index) && checked.program.arc(step).is_some() {
         return Some(
             "an arc needs a point to begin at, after a change of tool, length or origin; put one before"
                 .to_owned(),
         );
     }
-    let before = before.filter(|_| !arrives && step.kind() == MoveKind::Feed)?;
+    let before = before.filter(|_| motion.kind == MotionKind::Feed)?;
     let could_turn_either_way =
         matches!(motion.turning, Turning::GreatCircle) && are_opposite(before.end.axis, motion.end.axis);
     could_turn_either_way.then(|| {

@@ -29,6 +29,12 @@ impl Frame {
         Self { rotation, origin: [x, y, z] }
     }
 
+    /// The angle that the frame is turned by about z, rad, if its z is that of the part frame.
+    pub(crate) fn azimuth(&self) -> f64 {
+        let [[cosine, ..], [sine, ..], _] = self.rotation;
+        sine.atan2(cosine)
+    }
+
     /// A point of the program, mm.
     pub(crate) fn point(&self, point: [f64; 3]) -> [f64; 3] {
         let turned = self.direction(point);

@@ -18,8 +18,7 @@ pub(crate) const MOST_FAULTS: usize = 20;
 /// Most characters of a statement in a fault.
 const WORD_CHARACTERS: usize = 64;
 
-/// A run of moves with one tool length and one frame. Its first move begins at an unknown place: the tool or the origin
-/// has changed, or the machine has been elsewhere.
+/// A run of moves with one tool length and one frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Section {
     /// Index of its first move.
@@ -28,6 +27,30 @@ pub(crate) struct Section {
     pub(crate) frame: u32,
     /// Distance from P to the point that the program moves, mm.
     pub(crate) tool_length: f64,
+    /// What begins it.
+    pub(crate) by: Break,
+}
+
+/// What begins a section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Break {
+    /// A change of length or origin.
+    Change,
+    /// A change of tool, perhaps at a tool changer.
+    Tool,
+    /// The beginning of the program, or the machine's home position.
+    Home,
+}
+
+impl Break {
+    /// Whether the next move begins in the joints in which the move before ends.
+    pub(crate) fn keeps_joints(self, next: MoveKind) -> bool {
+        match self {
+            Self::Change => true,
+            Self::Tool => next == MoveKind::Feed,
+            Self::Home => false,
+        }
+    }
 }
 
 /// The sections of a program.
@@ -57,48 +80,46 @@ impl Sections {
         let origins = Origins::of(request);
         let mut divider = Divider::new(program, request);
         let mut state = State { length: rule.initial(), frame: origins.get(WorkOffset::default()), by: None };
-        divider.begin(0, &state);
+        divider.begin(0, &state, Break::Home);
         for event in program.events() {
             let before = state.clone();
-            if !state.apply(event, &rule, &origins) {
-                continue;
-            }
+            let Some(by) = state.apply(event, &rule, &origins) else { continue };
             if state != before {
                 state.by = Some((event.line, event.text.as_ref().into()));
             }
-            divider.begin(event.before, &state);
+            divider.begin(event.before, &state, by);
         }
         let list = divider.end()?;
         let mut warnings = length_warnings(program, &rule);
-        warnings.extend(unchecked_ways(program, &list));
+        warnings.extend(uncertain_ways(program, &list));
         Ok(Self { list, frames: origins.frames, warnings })
     }
 }
 
 impl State {
-    /// Applies an event, and says whether the move after it begins a section.
-    fn apply(&mut self, event: &Event, rule: &LengthRule<'_>, origins: &Origins) -> bool {
+    /// Applies an event, and says whether the move after it begins a section, and by what.
+    fn apply(&mut self, event: &Event, rule: &LengthRule<'_>, origins: &Origins) -> Option<Break> {
         match event.kind {
             EventKind::Tool { number, length } => {
                 if rule.source == LengthSource::Tool {
                     self.length = rule.of_tool(number, length);
                 }
-                true
+                Some(Break::Tool)
             }
             EventKind::LengthOffset { number } => {
                 let length = rule.of_offset(number);
                 let is_same = self.length == length;
                 self.length = length;
-                !is_same
+                (!is_same).then_some(Break::Change)
             }
             EventKind::WorkOffset(offset) => {
                 let frame = origins.get(offset);
                 let is_same = self.frame == frame;
                 self.frame = frame;
-                !is_same
+                (!is_same).then_some(Break::Change)
             }
-            EventKind::Home => true,
-            _ => false,
+            EventKind::Home => Some(Break::Home),
+            _ => None,
         }
     }
 }
@@ -159,13 +180,14 @@ impl<'a> Divider<'a> {
     }
 
     /// Begins a section at a move. The last state before a move counts.
-    fn begin(&mut self, first: u32, state: &State) {
-        if self.sections.last().is_some_and(|last| last.first == first) {
-            self.sections.pop();
+    fn begin(&mut self, first: u32, state: &State, by: Break) {
+        let same = self.sections.pop_if(|last| last.first == first);
+        if same.is_some() {
             self.states.pop();
         }
         self.settle();
-        self.sections.push(Section { first, frame: 0, tool_length: 0.0 });
+        let by = same.map_or(by, |same| by.max(same.by));
+        self.sections.push(Section { first, frame: 0, tool_length: 0.0, by });
         self.states.push(state.clone());
     }
 
@@ -229,16 +251,28 @@ fn length_warnings(program: &Program, rule: &LengthRule<'_>) -> Vec<WarningObjec
     vec![warning(first.line, "the lengths of the tools are those that the program states", count)]
 }
 
-/// The feed moves whose start is not known.
-fn unchecked_ways(program: &Program, sections: &[Section]) -> Option<WarningObject> {
-    let after_change = sections.iter().filter(|section| section.first > 0);
-    let first_moves = after_change.filter_map(|section| program.moves().get(section.first as usize));
-    let mut feeds = first_moves.filter(|first| first.kind() == MoveKind::Feed);
-    let line = feeds.next()?.line();
-    let count = u32::try_from(feeds.count()).map_or(u32::MAX, |more| more.saturating_add(1));
-    let detail = "a feed move after a change of tool, length or origin has no known start: the joints move straight to \
-                  its end, and the way is not checked; put a rapid before it";
-    Some(warning(line, detail, count))
+/// The feed moves whose start is not known for sure.
+fn uncertain_ways(program: &Program, sections: &[Section]) -> impl Iterator<Item = WarningObject> {
+    let details = [
+        (
+            Break::Tool,
+            "a feed move follows a change of tool: it begins where the machine stood before the change, with the new \
+             tool; put a rapid before it",
+        ),
+        (
+            Break::Home,
+            "a feed move after the home position has no known start: the joints move straight to its end, and the way \
+             is not checked; put a rapid before it",
+        ),
+    ];
+    details.into_iter().filter_map(|(by, detail)| {
+        let after = sections.iter().filter(|section| section.first > 0 && section.by == by);
+        let first_moves = after.filter_map(|section| program.moves().get(section.first as usize));
+        let mut feeds = first_moves.filter(|first| first.kind() == MoveKind::Feed);
+        let line = feeds.next()?.line();
+        let count = u32::try_from(feeds.count()).map_or(u32::MAX, |more| more.saturating_add(1));
+        Some(warning(line, detail, count))
+    })
 }
 
 fn warning(line: u32, detail: &str, occurrences: u32) -> WarningObject {

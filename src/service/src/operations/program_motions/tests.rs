@@ -27,14 +27,14 @@ fn all(motions: &ProgramMotions) -> Vec<Motion> {
 }
 
 #[test]
-fn each_work_offset_has_its_frame_and_a_change_begins_anywhere() {
+fn each_work_offset_has_its_frame_and_a_change_begins_where_the_machine_stands() {
     let text = "G21 G90 G54\nG43.4 H1 G0 X0 Y0 Z300\nG1 X10 F500\nG55\nG0 X0 Y0 Z300\nG1 X10\n";
     let frames = json!({"setup": {"z": 5}, "offsets": {"G55": {"x": 100, "c": 90}}, "tool_length": 50});
     let motions = all(&motions_of(Format::Gcode, text, &frames).unwrap());
     let tips: Vec<_> = motions.iter().map(|motion| motion.end.tip).collect();
     assert_eq!(tips, [[0.0, 0.0, 305.0], [10.0, 0.0, 305.0], [100.0, 0.0, 300.0], [100.0, 10.0, 300.0]]);
     let kinds: Vec<_> = motions.iter().map(|motion| motion.kind).collect();
-    assert_eq!(kinds, [MotionKind::Arrive, MotionKind::Feed, MotionKind::Arrive, MotionKind::Feed]);
+    assert_eq!(kinds, [MotionKind::Arrive, MotionKind::Feed, MotionKind::Rapid, MotionKind::Feed]);
     let (line, detail) =
         motions_of(Format::Gcode, text, &json!({"offsets": {}, "tool_length": 50})).err().unwrap();
     assert!(line == 4 && detail.contains("G55"), "{line} {detail}");
@@ -46,9 +46,35 @@ fn a_cut_goes_on_when_control_of_the_tool_centre_point_begins() {
     let request = json!({"tool_length": {"1": 100}, "length_before": 1, "offsets": {"G55": {"z": 1}}});
     let motions = motions_of(Format::Gcode, text, &request).unwrap();
     let kinds: Vec<_> = all(&motions).iter().map(|motion| motion.kind).collect();
-    assert_eq!(kinds, [MotionKind::Arrive, MotionKind::Feed, MotionKind::Arrive]);
+    assert_eq!(kinds, [MotionKind::Arrive, MotionKind::Feed, MotionKind::Feed]);
+    assert!(motions.warnings.is_empty(), "{:?}", motions.warnings);
+}
+
+#[test]
+fn a_feed_move_whose_start_is_not_sure_has_a_warning() {
+    let text = "G21 G90\nT1 M6\nG43.4 H1\nG0 X0 Y0 Z300\nT2 M6\nG1 Z310 F100\nT1 M6\nG0 Z320\nG28 Z0\nG1 X0 Y0 Z300\n";
+    let motions = motions_of(Format::Gcode, text, &json!({"tool_length": 100})).unwrap();
+    let kinds: Vec<_> = all(&motions).iter().map(|motion| motion.kind).collect();
+    assert_eq!(kinds, [MotionKind::Arrive, MotionKind::Feed, MotionKind::Arrive, MotionKind::Arrive]);
     let warned: Vec<_> = motions.warnings.iter().map(|warning| (warning.line, warning.occurrences)).collect();
-    assert_eq!(warned, [(7, 1)], "the start of this feed move is unknown");
+    assert_eq!(warned, [(6, 1), (10, 1)]);
+    let is_checked = |number: usize| !motions.warnings[number].detail.contains("not checked");
+    assert!(is_checked(0) && !is_checked(1), "{:?}", motions.warnings);
+}
+
+#[test]
+fn held_words_turn_with_the_frame_about_z() {
+    let rows = "[0, 0, 300, 0, 10]\n[5, 0, 300, 0, 90]\n";
+    let held = json!({"tool_length": 50, "setup": {"c": 30}, "hold_rotary": true});
+    let motions = motions_of(Format::Ndjson, rows, &held).unwrap();
+    let degrees = |index: usize| match motions.motion(index).turning {
+        Turning::Held { start, end } => [start, end].map(|[_, phi2]| phi2.to_degrees().round()),
+        turning => panic!("{turning:?}"),
+    };
+    assert_eq!([degrees(0), degrees(1)], [[40.0, 40.0], [40.0, 120.0]]);
+    let vectors = "[0, 0, 300, 0, 0, 1]\n[5, 0, 300, 0, 0.1, 1]\n";
+    let motion = motions_of(Format::Ndjson, vectors, &held).unwrap().motion(1);
+    assert_eq!(motion.turning, Turning::GreatCircle, "vectors are no words");
 }
 
 #[test]

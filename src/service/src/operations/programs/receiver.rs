@@ -134,6 +134,10 @@ impl ReceivedFile {
     fn with_program(self, format: Format, program: Program) -> Result<ReceivedProgram, OperationError> {
         let Self { hasher, source, outcome, mut size, is_line_open } = self;
         size.lines = size.lines.saturating_add(is_line_open.into());
+        if format == Format::Arrow {
+            // A line is a row.
+            size.lines = u32::try_from(program.moves().len()).unwrap_or(u32::MAX);
+        }
         let source = outcome.and_then(|()| source.finish()).map_err(|_| OperationError::Internal)?;
         let id = hasher.finalize().into();
         Ok(ReceivedProgram { id, format, program: Arc::new(program), source: source.into(), size })

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 use std::path::Path;
+use std::process::ExitCode;
 
 use serde::Serialize;
 
@@ -9,6 +10,14 @@ use crate::wire::error::{FieldError, OperationError};
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::parse::parse_body;
 use crate::wire::query::point_into_query;
+
+/// The exit status if a question or a row has no answer, or if the machine cannot run a program.
+const NO_ANSWER: u8 = 3;
+
+/// The exit status of a command that has done its work.
+pub(crate) fn exit_status(answered: bool) -> ExitCode {
+    if answered { ExitCode::SUCCESS } else { ExitCode::from(NO_ANSWER) }
+}
 
 /// The JSON text of an answer, with line breaks if `pretty`.
 pub(crate) fn to_json(answer: &impl Serialize, pretty: bool) -> Result<String, String> {

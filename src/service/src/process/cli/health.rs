@@ -1,6 +1,5 @@
 //! `verne health`: asks a service whether it is ready. The container image has no other program for this.
 
-use std::error::Error;
 use std::time::Duration;
 
 use axum::http::Uri;
@@ -8,6 +7,8 @@ use clap::Args;
 use reqwest::StatusCode;
 use reqwest::blocking::Client;
 use reqwest::redirect::Policy;
+
+use crate::process::cli::service_address::{checked, root_cause};
 
 /// How long the service may take to answer.
 const TIMEOUT: Duration = Duration::from_secs(3);
@@ -23,9 +24,7 @@ pub(crate) struct HealthCommand {
 impl HealthCommand {
     /// Fails if the service is not ready, and names the reason.
     pub(crate) fn run(&self) -> Result<(), String> {
-        if !matches!(self.url.scheme_str(), Some("http" | "https")) {
-            return Err(format!("{}: not an http:// or https:// address", self.url));
-        }
+        checked(&self.url)?;
         match self.status() {
             Ok(StatusCode::OK) => Ok(()),
             Ok(status) => Err(format!("{}: {status}", self.url)),
@@ -39,12 +38,4 @@ impl HealthCommand {
         let client = client.timeout(TIMEOUT).no_proxy().redirect(Policy::none()).build()?;
         Ok(client.get(self.url.to_string()).send()?.status())
     }
-}
-
-/// The innermost error; the outer ones only repeat the address.
-fn root_cause<'a>(mut error: &'a (dyn Error + 'static)) -> &'a (dyn Error + 'static) {
-    while let Some(source) = error.source() {
-        error = source;
-    }
-    error
 }

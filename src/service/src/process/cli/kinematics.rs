@@ -1,37 +1,65 @@
-//! `verne fk`, `verne ik` and `verne openapi`: the answers of the HTTP service without a server.
+//! `verne fk`, `verne ik` and `verne contains`: the answers of the HTTP service without a server.
+
+use std::io::Write;
+use std::process::ExitCode;
 
 use clap::Subcommand;
 
-use crate::http::router::document;
 use crate::operations::forward::answer_fk;
 use crate::operations::inverse::answer_ik;
 use crate::operations::machine_registry::MachineRegistry;
-use crate::process::cli::answer::{machine, to_json, with_flags};
+use crate::process::cli::answer::{exit_status, machine, to_json, with_flags};
+use crate::process::cli::batch::BatchCommand;
+use crate::process::cli::one_or_batch::OneOrBatch;
 use crate::wire::answer::Answer;
 use crate::wire::query::{FkQuery, IkQuery};
 use crate::wire::request::{FkRequest, IkRequest};
+use crate::wire::row_query::{ContainsRowsQuery, FkRowsQuery, IkRowsQuery};
 
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum KinematicsCommand {
-    /// Solve the forward kinematics, like GET /fk.
+    /// Solve the forward kinematics, like GET /fk; with --batch for each row of a file.
+    ///
+    /// The columns of a file are rho1, rho2, rho3 and perhaps theta1 and theta2. The exit status is 3 if there is no
+    /// solution, or if a row is not `ok`.
     #[command(name = "fk")]
-    Forward(FkQuery),
-    /// Solve the inverse kinematics, like GET /ik.
+    Forward(Box<OneOrBatch<FkQuery, FkRowsQuery>>),
+    /// Solve the inverse kinematics, like GET /ik; with --batch for each row of a file.
+    ///
+    /// The columns of a file are x, y, z and phi1, phi2 or i, j, k. The exit status is 3 if there is no solution, or if
+    /// a row is not `ok`.
     #[command(name = "ik")]
-    Inverse(IkQuery),
-    /// Print the OpenAPI document.
-    Openapi,
+    Inverse(Box<OneOrBatch<IkQuery, IkRowsQuery>>),
+    /// Test whether the points of a file belong to a workspace.
+    ///
+    /// The columns of the file are x, y and z. The exit status is 3 if a row is not a point.
+    Contains(BatchCommand<ContainsRowsQuery>),
 }
 
 impl KinematicsCommand {
-    /// The JSON that the HTTP service would answer, with line breaks if `pretty`.
-    pub(crate) fn answer(self, pretty: bool) -> Result<String, String> {
-        match self {
-            Self::Forward(query) => to_json(&forward(query)?, pretty),
-            Self::Inverse(query) => to_json(&inverse(query)?, pretty),
-            Self::Openapi => to_json(&document(), true),
-        }
+    /// Writes the JSON that the HTTP service would answer to `out`, with line breaks if `pretty`, or the answers to
+    /// rows.
+    pub(crate) fn run(
+        self,
+        out: &mut impl Write,
+        err: &mut impl Write,
+        pretty: bool,
+    ) -> Result<ExitCode, String> {
+        let (answer, pretty) = match self {
+            Self::Forward(command) => match *command {
+                OneOrBatch::One(question) => (forward(question.query)?, pretty || question.pretty),
+                OneOrBatch::Batch(batch) => return batch.run(out, err, pretty),
+            },
+            Self::Inverse(command) => match *command {
+                OneOrBatch::One(question) => (inverse(question.query)?, pretty || question.pretty),
+                OneOrBatch::Batch(batch) => return batch.run(out, err, pretty),
+            },
+            Self::Contains(batch) => return batch.run(out, err, pretty),
+        };
+        let text = to_json(&answer, pretty)?;
+        writeln!(out, "{text}").map_err(|error| format!("cannot write the answer: {error}"))?;
+        Ok(exit_status(!answer.solutions.is_empty()))
     }
 }
 

@@ -16,6 +16,36 @@ impl TerminalProgress {
     }
 }
 
+/// The bytes read from a file or a pipe, on standard error; invisible if that is no terminal.
+pub(crate) struct ReadProgress(ProgressBar);
+
+impl ReadProgress {
+    /// Shows which part of `total` bytes is read; if `total` is not known, how many are.
+    pub(crate) fn new(total: Option<u64>) -> Self {
+        let template =
+            if total.is_some() { "{wide_bar} {percent} % {elapsed}" } else { "{bytes} read {elapsed}" };
+        let style = ProgressStyle::with_template(template);
+        let bar = total.map_or_else(ProgressBar::no_length, ProgressBar::new);
+        Self(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
+    }
+
+    /// Shows nothing.
+    pub(crate) fn hidden() -> Self {
+        Self(ProgressBar::hidden())
+    }
+
+    /// Adds bytes.
+    pub(crate) fn add(&self, bytes: usize) {
+        self.0.inc(bytes as u64);
+    }
+}
+
+impl Drop for ReadProgress {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
+
 impl Drop for TerminalProgress {
     fn drop(&mut self) {
         self.0.finish_and_clear();

@@ -3,8 +3,7 @@
 mod output;
 mod summary;
 
-use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -19,10 +18,11 @@ use crate::operations::programs::receiver::{ProgramReceiver, ReceivedProgram};
 use crate::operations::toolpath::compute_toolpath;
 use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
 use crate::operations::toolpath_report::is_feasible;
-use crate::operations::toolpath_row_text::{RowText, RowTextWriter};
-use crate::process::cli::answer::{flags_of_query, machine};
+use crate::operations::toolpath_row_text::{RowText, RowWriter};
+use crate::process::cli::answer::{exit_status, flags_of_query, machine};
+use crate::process::cli::files::{is_standard, name_of, refuse_equal_files, remove, source};
 use crate::process::cli::progress::TerminalProgress;
-use crate::process::cli::toolpath::output::{OutputFormat, RowsOutput, is_standard};
+use crate::process::cli::toolpath::output::{OutputFormat, RowsOutput};
 use crate::process::cli::toolpath::summary::Summary;
 use crate::wire::error::OperationError;
 use crate::wire::joint_program::JointProgramQuery;
@@ -32,9 +32,6 @@ use crate::wire::toolpath_query::{ToolpathQuery, point_into_toolpath_query};
 
 /// Bytes that are read at once.
 const PIECE_BYTES: usize = 256 * 1024;
-
-/// The exit status if the machine cannot run the program.
-const FAILS: u8 = 3;
 
 /// The command.
 #[derive(Debug, Args)]
@@ -72,7 +69,11 @@ impl ToolpathCommand {
         if rows_take_standard_output && self.report.as_deref().is_some_and(is_standard) {
             return Err("--output and --report cannot both be standard output".to_owned());
         }
-        self.refuse_equal_files()?;
+        let machine_file = Some(Path::new(&self.query.machine)).filter(|path| path.is_file());
+        refuse_equal_files(
+            &[("the program", Some(&*self.file)), ("the machine", machine_file)],
+            &[("--output", output), ("--report", self.report.as_deref())],
+        )?;
         // Before the computation: the extension may be unknown.
         let format = output.map(output::format).transpose()?;
         let file = name_of(&self.file);
@@ -95,7 +96,7 @@ impl ToolpathCommand {
         if let Some(path) = joint_program
             && !planned.as_ref().is_ok_and(|report| is_feasible(report))
         {
-            output::remove(path);
+            remove(path);
         }
         let report = planned?;
         match self.report.as_deref() {
@@ -105,23 +106,7 @@ impl ToolpathCommand {
         let summary = Summary::read(&report)?;
         // If standard error is closed, report and exit status still tell the verdict.
         drop(summary.write(err));
-        Ok(if summary.is_ok() { ExitCode::SUCCESS } else { ExitCode::from(FAILS) })
-    }
-
-    /// Refuses to write over a file that the command reads, or one output over the other.
-    fn refuse_equal_files(&self) -> Result<(), String> {
-        let machine = Some(Path::new(&self.query.machine)).filter(|path| path.is_file());
-        let read = [("the program", Some(&*self.file)), ("the machine", machine)];
-        let read = read.into_iter().filter_map(|(name, path)| path.map(|path| (name, path)));
-        let written = [("--output", self.output.as_deref()), ("--report", self.report.as_deref())];
-        let written = written.into_iter().filter_map(|(flag, path)| path.map(|path| (flag, path)));
-        for (index, (flag, path)) in written.clone().enumerate() {
-            let mut others = read.clone().chain(written.clone().take(index));
-            if let Some((other, _)) = others.find(|(_, other)| output::is_same_file(path, other)) {
-                return Err(format!("{flag} {} would overwrite {other}; name another file", path.display()));
-            }
-        }
-        Ok(())
+        Ok(exit_status(summary.is_ok()))
     }
 }
 
@@ -133,7 +118,7 @@ fn writer(
     received: &ReceivedProgram,
 ) -> Result<Box<dyn RowText>, OperationError> {
     Ok(match format {
-        OutputFormat::Rows(format) => Box::new(RowTextWriter::new(question.id, format, 0)),
+        OutputFormat::Rows(format) => Box::new(RowWriter::new(question.id, format, 0)?),
         OutputFormat::JointProgram => Box::new(JointProgramText::new(options, question, &received.program)?),
     })
 }
@@ -146,6 +131,9 @@ fn plan(
     faults: impl Fn(OperationError) -> String,
 ) -> Result<Vec<u8>, String> {
     let texts = |lines: &[u32]| {
+        if received.format == Format::Arrow {
+            return Ok(Vec::new());
+        }
         let source = io::BufReader::new(GzDecoder::new(&*received.source));
         Ok(line_texts(source, lines).unwrap_or_default())
     };
@@ -181,12 +169,8 @@ fn receive(
         other => format!("{}: {other}", name_of(path)),
     })?;
     let unreadable = |error: io::Error| format!("{}: {error}", name_of(path));
-    let mut source: Box<dyn Read> = if is_standard(path) {
-        Box::new(io::stdin().lock())
-    } else {
-        Box::new(File::open(path).map_err(unreadable)?)
-    };
-    let mut receiver = ProgramReceiver::new(format, &reading.options());
+    let mut source = source(path)?;
+    let mut receiver = ProgramReceiver::new(format, &reading.options(format).map_err(&faults)?);
     let mut piece = vec![0; PIECE_BYTES];
     loop {
         let count = source.read(&mut piece).map_err(unreadable)?;
@@ -194,11 +178,6 @@ fn receive(
             return receiver.finish().map_err(faults);
         }
     }
-}
-
-/// A file as messages name it.
-fn name_of(path: &Path) -> String {
-    if is_standard(path) { "standard input".to_owned() } else { path.display().to_string() }
 }
 
 /// An error as a message: faults of the program with the places in the file, invalid fields with their flags.

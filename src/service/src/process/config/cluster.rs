@@ -6,6 +6,7 @@ use clap::{Args, value_parser};
 
 /// The job broker.
 #[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Several processes")]
 pub struct BrokerConfig {
     /// Job broker, NATS with `JetStream`: nats://HOST:4222 or tls://HOST:4222. Separate the servers of a cluster with
     /// commas. `verne serve` submits jobs to the broker, and each `verne worker` runs jobs from it. Needs --store.
@@ -37,6 +38,7 @@ pub struct BrokerConfig {
 
 /// The shared result store.
 #[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Several processes")]
 pub struct StoreConfig {
     /// Result store that all processes share: s3://BUCKET/PREFIX (endpoint, region and credentials come from the
     /// `AWS_*` variables) or file:///SHARED/DIRECTORY, which `verne store init` prepares. The service removes no intact

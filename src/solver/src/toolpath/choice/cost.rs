@@ -18,6 +18,16 @@ pub(super) struct Cost {
 }
 
 impl Cost {
+    /// Before the first place.
+    pub(super) const START: Self = Self {
+        failing: 0.0,
+        retracts: 0,
+        turning: 0.0,
+        rotary_margin: f64::INFINITY,
+        start: 0.0,
+        is_turned: false,
+    };
+
     /// The cost of a sequence with one more place, which is `turning` away.
     pub(super) fn and(&self, place: &Self, turning: f64) -> Self {
         Self {

@@ -15,6 +15,7 @@ const MOST_TURNS: f64 = 8.0;
 /// Adds to the states of a place those that whole turns of theta2 lead to, each with the index of its parent. `None`
 /// if none of them is better than the state with the same turns.
 pub(super) fn rewound(states: &[State], setting: &Setting<'_>, weights: [f64; 2]) -> Option<Vec<State>> {
+    let range = setting.machine.limits().rotary?;
     if states.iter().any(|state| state.h[0] != state.h[1]) {
         return None;
     }
@@ -25,7 +26,7 @@ pub(super) fn rewound(states: &[State], setting: &Setting<'_>, weights: [f64; 2]
         let same = |&(index, other): &(usize, &State)| index == root || other.twin == Some(root);
         let group = states.iter().enumerate().filter(same);
         let Some((parent, from)) = group.min_by(|(_, a), (_, b)| a.cost.compare(&b.cost)) else { continue };
-        for h in windings(state, setting) {
+        for h in windings(state, range) {
             let Some(to) = turned(from, h, setting, weights) else { continue };
             let to = State { parent, ..to };
             let existing = states.iter().enumerate().filter(same).find(|(_, other)| other.h == to.h);
@@ -43,7 +44,7 @@ pub(super) fn rewound(states: &[State], setting: &Setting<'_>, weights: [f64; 2]
         }
     }
     let least = found.iter().map(|state| state.cost.failing).fold(f64::INFINITY, f64::min);
-    let [low, high] = setting.machine.limits().rotary;
+    let [low, high] = range;
     // A state outside the range is of no use if another one serves the cut.
     found.retain(|state| {
         let is_inside = state.node.is_none_or(|node| (low..=high).contains(&node.table.theta2));
@@ -53,9 +54,8 @@ pub(super) fn rewound(states: &[State], setting: &Setting<'_>, weights: [f64; 2]
 }
 
 /// h of the windings of a state within the rotary range.
-fn windings(state: &State, setting: &Setting<'_>) -> impl Iterator<Item = i32> {
+fn windings(state: &State, [low, high]: [f64; 2]) -> impl Iterator<Item = i32> {
     let range = state.node.map(|node| {
-        let [low, high] = setting.machine.limits().rotary;
         let turns = |theta2: f64| ((theta2 - node.table.theta2) / TAU).clamp(-MOST_TURNS, MOST_TURNS);
         [turns(low).ceil(), turns(high).floor()]
     });

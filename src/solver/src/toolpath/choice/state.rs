@@ -1,8 +1,13 @@
 //! The states at one place: their joints, limits and costs.
 
+use std::cmp::Ordering;
+use std::f64::consts::PI;
+
 use super::cost::Cost;
-use crate::margins::Margins;
+use crate::limit::Constraint;
+use crate::margins::lesser_margins::{ClosedPosture, Reference, worst_and_lesser};
 use crate::toolpath::node::{Node, Setting, Target};
+use crate::toolpath::start::Start;
 
 /// How far the machine may move for a worst margin of the whole range until the limits are examined again.
 const WAY: f64 = 1.0 / 32.0;
@@ -19,6 +24,14 @@ pub(super) struct State {
     pub(super) twin: Option<usize>,
 }
 
+impl State {
+    /// The state before the program. Its limits are examined at the next place.
+    pub(super) fn of_start(start: Start) -> Self {
+        let reserve = Reserve { holds: false, way: 0.0, reference: None };
+        Self { h: [0; 2], node: Some(start.node()), reserve, cost: Cost::START, parent: 0, twin: None }
+    }
+}
+
 /// The limits but the rotary axis'.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reserve {
@@ -26,15 +39,28 @@ pub(super) struct Reserve {
     holds: bool,
     /// How far the machine may move until they are examined again, as [`Node::way_from`].
     way: f64,
+    reference: Option<Reference>,
 }
 
 impl Reserve {
     pub(super) fn of(setting: &Setting<'_>, node: Option<&Node>, tool_length: f64) -> Self {
+        Self::near(setting, node, tool_length, None)
+    }
+
+    /// The same near the place of a reference.
+    fn near(
+        setting: &Setting<'_>,
+        node: Option<&Node>,
+        tool_length: f64,
+        mut reference: Option<Reference>,
+    ) -> Self {
         let fraction = node.map_or(-1.0, |node| {
-            let margins = Margins { rotary: None, ..setting.margins(node, tool_length) };
-            margins.worst_with_fraction(setting.machine).1
+            let rods = node.closed_rods(setting.machine);
+            let posture = ClosedPosture { theta2: None, ..setting.closed(node, &rods, tool_length) };
+            let mut known = [f64::NEG_INFINITY; Constraint::COUNT];
+            worst_and_lesser(setting.machine, &posture, (&mut known, &mut reference), |_| {}).1
         });
-        Self { holds: fraction >= 0.0, way: WAY * fraction }
+        Self { holds: fraction >= 0.0, way: WAY * fraction, reference }
     }
 
     /// The reserve after the machine has moved.
@@ -44,15 +70,15 @@ impl Reserve {
         {
             let way = self.way - node.way_from(before, setting.machine.longest());
             if way > 0.0 {
-                return Self { holds: true, way };
+                return Self { holds: true, way, ..self };
             }
         }
-        Self::of(setting, node, tool_length)
+        Self::near(setting, node, tool_length, self.reference)
     }
 
     /// The cost of a place with these limits.
     pub(super) fn place_cost(self, setting: &Setting<'_>, node: Option<&Node>) -> Cost {
-        let [low, high] = setting.machine.limits().rotary;
+        let [low, high] = setting.machine.limits().rotary.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
         let rotary_margin =
             node.map_or(f64::NEG_INFINITY, |node| (node.table.theta2 - low).min(high - node.table.theta2));
         let failing = if self.holds && rotary_margin >= 0.0 { 0.0 } else { 1.0 };
@@ -88,6 +114,48 @@ pub(super) fn advance(
         let cost = state.cost.and(&own, turning);
         let state = &mut states[i];
         (state.node, state.reserve, state.cost) = (node, reserve, cost);
+    }
+}
+
+/// The range of theta2 in which windings of the next place are of use: that of the machine, or without one, half a turn
+/// to both sides of the states.
+pub(super) fn useful_range(states: &[State], setting: &Setting<'_>) -> [f64; 2] {
+    setting.machine.limits().rotary.unwrap_or_else(|| {
+        let theta2 = states.iter().filter_map(|state| Some(state.node?.table.theta2));
+        let ends = theta2.fold(None, |ends: Option<[f64; 2]>, theta2| {
+            let [low, high] = ends.unwrap_or([theta2; 2]);
+            Some([low.min(theta2), high.max(theta2)])
+        });
+        let [low, high] = ends.unwrap_or_default();
+        [low - PI, high + PI]
+    })
+}
+
+/// Keeps the best of the states that differ by whole turns only: without a limit of the rotary axis they have the same
+/// future.
+pub(super) fn keep_best_windings(states: &mut Vec<State>) {
+    for index in (0..states.len()).rev() {
+        let state = &states[index];
+        let is_better = |(number, other): (usize, &State)| match other.cost.compare(&state.cost) {
+            Ordering::Less => true,
+            Ordering::Equal => number < index,
+            Ordering::Greater => false,
+        };
+        let same = |&(_, other): &(usize, &State)| {
+            (other.h[1] - state.h[1]) % 2 == 0 && has_same_posture(other, state)
+        };
+        if states.iter().enumerate().filter(same).any(is_better) {
+            states.remove(index);
+        }
+    }
+}
+
+/// Whether the platform is at the same place in two states, or nowhere.
+pub(super) fn has_same_posture(a: &State, b: &State) -> bool {
+    match (a.node, b.node) {
+        (Some(a), Some(b)) => (a.pose.alpha - b.pose.alpha).abs() < 1e-6,
+        (None, None) => true,
+        _ => false,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The margins between rows.
 
-use super::{Row, Rower};
+use super::Rower;
 use crate::limit::{Constraint, Margin};
 use crate::machine::Machine;
 use crate::margins::Margins;
@@ -9,7 +9,7 @@ use crate::toolpath::differential::Differential;
 use crate::toolpath::golden_section::{STEPS, beside, least};
 use crate::toolpath::joint_segment::{JointSegment, Track};
 use crate::toolpath::meridian::Span;
-use crate::toolpath::node::Node;
+use crate::toolpath::node::{ClosedRods, Node};
 use crate::toolpath::path::places;
 
 /// Fraction of a margin's range below which a segment's margins are examined between its ends.
@@ -21,7 +21,7 @@ const NEAR: f64 = 0.002;
 /// Number of intervals between the places from which that search begins.
 const INTERVALS: u32 = 8;
 
-impl<F: FnMut(&Row)> Rower<'_, F> {
+impl Rower<'_> {
     /// Examines the places of a path that has no rows, for the report.
     pub(super) fn survey(&mut self, index: usize, track: &Track<'_>) {
         let Span { from, to, .. } = track.span;
@@ -30,8 +30,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             let s = from + (to - from) * f64::from(place) / f64::from(count);
             match track.node(s, None) {
                 Ok(node) => {
-                    let margins = self.setting.margins(&node, track.tool_length);
-                    self.meet(index, (&node, track.tool_length), &margins);
+                    self.meet(index, (&node, track.tool_length));
                 }
                 Err(refusal) => self.refuse(index, track.target(s).pose, refusal),
             }
@@ -78,8 +77,8 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
 
     /// Examines the margins between the ends of a segment.
     pub(super) fn examine(&mut self, index: usize, segment: &JointSegment<'_>, tool_length: f64) {
-        let Some((node, margins)) = segment.worst(&self.setting, tool_length) else { return };
-        let (_, fraction) = self.meet(index, (&node, tool_length), &margins);
+        let Some(node) = segment.worst(&self.setting, tool_length) else { return };
+        let (_, fraction) = self.meet(index, (&node, tool_length));
         if fraction < PATH_GUARD {
             let machine = self.setting.machine;
             self.refine(index, tool_length, |t| segment.node(machine, t));
@@ -89,8 +88,8 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
     /// Finds the least margin of every constraint that is near its limit, between the places of parameters 0 and 1.
     fn refine(&mut self, index: usize, tool_length: f64, at: impl Fn(f64) -> Option<Node>) {
         let setting = self.setting;
-        let margins = |t: f64| at(t).map(|node| (node, setting.margins(&node, tool_length)));
-        let fractions = |t: f64| margins(t).map(|(_, margins)| fractions(setting.machine, &margins));
+        let fractions =
+            |t: f64| at(t).map(|node| fractions(setting.machine, &setting.margins(&node, tool_length)));
         let mut lowest = [(f64::INFINITY, 0); Constraint::COUNT];
         for place in 0..=INTERVALS {
             let Some(found) = fractions(f64::from(place) / f64::from(INTERVALS)) else { continue };
@@ -103,8 +102,8 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         for (constraint, (fraction, place)) in lowest.into_iter().enumerate() {
             if fraction.abs() < NEAR {
                 let value = |t: f64| fractions(t).map_or(f64::INFINITY, |found| found[constraint]);
-                if let Some((node, margins)) = margins(least(beside(place, INTERVALS), STEPS, value)) {
-                    self.meet(index, (&node, tool_length), &margins);
+                if let Some(node) = at(least(beside(place, INTERVALS), STEPS, value)) {
+                    self.meet(index, (&node, tool_length));
                 }
             }
         }
@@ -112,12 +111,22 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
 
     /// Notes the margins of a place, which is given by its joints and the tool's length; those of limits that are
     /// broken are failures. The answer is the worst margin and its fraction of its constraint's range.
-    pub(super) fn meet(&mut self, index: usize, place: (&Node, f64), margins: &Margins) -> (Margin, f64) {
-        let (margin, fraction) = self.least.meet(self.setting.machine, index, margins);
+    pub(super) fn meet(&mut self, index: usize, (node, tool_length): (&Node, f64)) -> (Margin, f64) {
+        self.meet_closed(index, (node, &node.closed_rods(self.setting.machine)), tool_length)
+    }
+
+    /// The same with the rods.
+    pub(super) fn meet_closed(
+        &mut self,
+        index: usize,
+        (node, rods): (&Node, &ClosedRods),
+        tool_length: f64,
+    ) -> (Margin, f64) {
+        let posture = self.setting.closed(node, rods, tool_length);
+        let (margin, fraction) = self.least.meet(self.setting.machine, index, &posture);
         if margin.value < 0.0 {
-            let (node, tool_length) = place;
             let pose = part_pose(self.setting.machine, &node.pose, node.table, tool_length);
-            self.report.fail(index, pose, margin, fraction);
+            self.report.fail(index, (pose, Some(node)), (margin, fraction));
         }
         (margin, fraction)
     }

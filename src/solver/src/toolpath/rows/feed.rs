@@ -1,6 +1,6 @@
 //! Feed motions.
 
-use super::{Row, RowKind, RowPlace, Rower};
+use super::{RowKind, RowPlace, Rower};
 use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
 use crate::toolpath::joint_segment::{Stop, Track};
@@ -10,7 +10,10 @@ use crate::toolpath::motion::Motion;
 use crate::toolpath::path::Path;
 use crate::toolpath::stretches::Place;
 
-impl<F: FnMut(&Row)> Rower<'_, F> {
+/// Least turn at the pole for which the tool stands still, rad: the edge of a cap rounds azimuths by less.
+const LEAST_TURN: f64 = 1e-6;
+
+impl Rower<'_> {
     pub(super) fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
         self.report.length[0] += path.length();
         for span in spans {
@@ -49,6 +52,9 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let turning = span.turning();
         let track = self.track(&held, turning, motion.tool_length);
         let Ok(end) = track.node(1.0, Some(&now)) else { return };
+        if (end.table.theta2 - now.table.theta2).abs() < LEAST_TURN {
+            return;
+        }
         let stops = [Stop { s: 0.0, node: now }, Stop { s: 1.0, node: end }];
         self.rows_between(index, motion, &track, stops, RowKind::Turn);
     }
@@ -91,18 +97,19 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             return;
         }
         let mut from = start;
-        let result = linearise(track, stops[0], &stops[1], &feed, &mut bend, |stop, segment, deviation| {
-            let kind = kind_at(kind, stop.s);
-            self.report.deviation = self.report.deviation.with(deviation);
-            let (before, start) = (self.now.zip(self.margin), from);
-            let mut place = RowPlace::on(track.path, from, stop.s, end);
-            if let (RowKind::Turn, Some(way), Some(now)) = (kind, &mut place.way, &self.now) {
-                way.angle = (stop.node.table.theta2 - now.table.theta2).abs();
-            }
-            from = stop.s;
-            self.row(index, kind, &place, &stop.node, motion.tool_length);
-            self.examine_way(index, track, before, [start, stop.s], segment);
-        });
+        let result =
+            linearise(track, stops[0], &stops[1], &feed, &mut bend, |stop, rods, segment, deviation| {
+                let kind = kind_at(kind, stop.s);
+                self.report.deviation = self.report.deviation.with(deviation);
+                let (before, start) = (self.now.zip(self.margin), from);
+                let mut place = RowPlace::on(track.path, from, stop.s, end);
+                if let (RowKind::Turn, Some(way), Some(now)) = (kind, &mut place.way, &self.now) {
+                    way.angle = (stop.node.table.theta2 - now.table.theta2).abs();
+                }
+                from = stop.s;
+                self.closed_row(index, kind, &place, (&stop.node, rods), motion.tool_length);
+                self.examine_way(index, track, before, [start, stop.s], segment);
+            });
         self.bends[0] = bend;
         match result {
             Ok(()) => {}
@@ -131,7 +138,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
     ) {
         self.survey(index, track);
         self.refuse(index, track.target(s).pose, refusal);
-        let place = RowPlace::of_arrival(track.path.at(end.s));
+        let place = RowPlace::of_arrival(track.path.tip_at(end.s));
         self.row(index, kind_at(kind, end.s), &place, &end.node, motion.tool_length);
     }
 }

@@ -1,6 +1,6 @@
 //! Rapids, and positions that are reached from anywhere.
 
-use super::{Row, RowKind, RowPlace, Rower};
+use super::{RowKind, RowPlace, Rower};
 use crate::pose::PartPose;
 use crate::table::part_pose;
 use crate::toolpath::choice::Chosen;
@@ -13,13 +13,13 @@ use crate::toolpath::node::Node;
 use crate::toolpath::path::Path;
 use crate::toolpath::report::{Departure, MOST_DEPARTURES};
 
-impl<F: FnMut(&Row)> Rower<'_, F> {
+impl Rower<'_> {
     /// A motion whose path is not the program's.
     pub(super) fn arrive(&mut self, index: usize, motion: &Motion, spans: &[Span]) {
         let chosen = self.next_choice();
         self.change_to(chosen);
         self.now = None;
-        self.go_straight(index, motion, spans, &RowPlace::of_arrival(motion.end), chosen);
+        self.go_straight(index, motion, spans, &RowPlace::of_arrival(motion.end.tip), chosen);
     }
 
     /// Moves all joints straight to the end of a motion.
@@ -75,7 +75,7 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
             let Ok(end) = track.node(span.to, Some(&now)) else { return false };
             let stops = [Stop { s: span.from, node: now }, Stop { s: span.to, node: end }];
             let result =
-                linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _| {
+                linearise(&track, stops[0], &stops[1], &self.settings.rapid, &mut bend, |stop, _, _, _| {
                     rows.push((stop.s, *span, stop.node));
                 });
             if result.is_err() {
@@ -104,18 +104,20 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
 
     /// Notes how far a rapid with straight joints leaves its line.
     fn depart(&mut self, index: usize, motion: &Motion, path: &Path, before: &Node, after: &Node) {
-        self.report.departure_count += 1;
-        if self.report.departures.len() >= MOST_DEPARTURES {
-            return;
-        }
         let machine = self.setting.machine;
         let differentials = [before, after].map(|node| Differential::of(machine, &node.rods(machine)));
         let segment = match &differentials {
             [Some(first), Some(last)] => JointSegment::new(machine, [before, after], [first, last]),
             _ => None,
         };
+        if let Some(segment) = &segment {
+            self.examine(index, segment, motion.tool_length);
+        }
+        self.report.departure_count += 1;
+        if self.report.departures.len() >= MOST_DEPARTURES {
+            return;
+        }
         let greatest = segment.map(|segment| {
-            self.examine(index, &segment, motion.tool_length);
             let of =
                 |node: &Node| part_pose(self.setting.machine, &node.pose, node.table, motion.tool_length);
             let farthest = segment.farthest(machine, |node| from_line(path, &of(node)).0);

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Retraction, Row, RowKind, RowPlace, Rower, Way};
+use super::{Retraction, RowKind, RowPlace, Rower, Way};
 use crate::error::KinematicsError;
 use crate::limit::{Constraint, Element, Margin};
 use crate::toolpath::choice::Chosen;
@@ -17,7 +17,7 @@ use crate::toolpath::tool_motion::ToolMotion;
 /// Least cosine of theta1 with which the base's vertical leads away from the table.
 const LEAST_COSINE: f64 = 0.05;
 
-impl<F: FnMut(&Row)> Rower<'_, F> {
+impl Rower<'_> {
     /// Changes to another winding off the part.
     pub(super) fn retract(&mut self, index: usize, motion: &Motion, chosen: Chosen) {
         let half_turns = self.h[1] - chosen.h[1];
@@ -93,10 +93,16 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         }
         let end = track.node(1.0, Some(now)).map_err(|refusal| (1.0, refusal))?;
         let stops = [Stop { s: 0.0, node: *now }, Stop { s: 1.0, node: end }];
-        let result =
-            linearise(track, stops[0], &stops[1], &self.settings.feed, &mut Bend::default(), |stop, _, _| {
+        let result = linearise(
+            track,
+            stops[0],
+            &stops[1],
+            &self.settings.feed,
+            &mut Bend::default(),
+            |stop, _, _, _| {
                 away.push(stop.node);
-            });
+            },
+        );
         result.map_err(|error| match error {
             LineariseError::Refused(s, refusal) => (s, refusal),
             LineariseError::Jump(s) => (s, no_way(Constraint::ParallelSingularity, Element::Platform)),
@@ -108,12 +114,12 @@ impl<F: FnMut(&Row)> Rower<'_, F> {
         let [before, at] = [from, to].map(|node| position(self, node, tool_length));
         let length = (Vector3::from(at.tip) - Vector3::from(before.tip)).norm();
         let way = Some(Way { fraction: 0.0, length, angle: (to.table.theta2 - from.table.theta2).abs() });
-        self.row(index, kind, &RowPlace { at, way, ends_track: true }, to, tool_length);
+        self.row(index, kind, &RowPlace { tip: at.tip, way, ends_track: true }, to, tool_length);
         self.examine_between(index, [from, to], tool_length);
     }
 }
 
-fn position<F>(rower: &Rower<'_, F>, node: &Node, tool_length: f64) -> ToolPosition {
+fn position(rower: &Rower<'_>, node: &Node, tool_length: f64) -> ToolPosition {
     let [tip, axis] = ToolMotion::at(rower.setting.machine, node, tool_length).position();
     ToolPosition { tip: tip.into(), axis: axis.into() }
 }

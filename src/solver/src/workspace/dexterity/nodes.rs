@@ -34,25 +34,42 @@ impl MapInput<'_> {
                 let mut row = Row { counts: Vec::new(), intervals: Vec::new(), inside: Vec::new() };
                 for k in 0..up {
                     check_cancelled(self.observer)?;
-                    self.node([layer, j, k], section, &mut row);
+                    self.node([layer, j, k], section, &mut row)?;
                 }
                 Ok(row)
             })
             .collect()
     }
 
-    fn node(&self, number: [u32; 3], section: &[MonotonePiece], row: &mut Row) {
+    fn node(&self, number: [u32; 3], section: &[MonotonePiece], row: &mut Row) -> Result<(), WorkspaceError> {
         let [_, v1, z] = self.grid.node(number);
         let found = intervals_at(self.tool, section, [v1, z], self.request.phi1);
-        let count = u8::try_from(found.len()).unwrap_or(u8::MAX);
-        row.counts.push(count);
-        row.intervals.extend(found.iter().take(usize::from(count)).map(|interval| interval.ends));
-        let inside = self.inside(&row.intervals[row.intervals.len() - usize::from(count)..]);
+        row.counts.push(counted(found.len())?);
+        row.intervals.extend(found.iter().map(|interval| interval.ends));
+        let inside = self.inside(&row.intervals[row.intervals.len() - found.len()..]);
         row.inside.push(inside.map(|inside| inside && !self.grid.outermost(number)));
+        Ok(())
     }
 
     /// Whether a point with these intervals is reachable, and whether it is dexterous.
     pub(super) fn inside(&self, intervals: &[[f64; 2]]) -> [bool; 2] {
         [!intervals.is_empty(), intervals == [self.request.phi1]]
+    }
+}
+
+/// The number of a node's intervals, as a slab stores it.
+fn counted(intervals: usize) -> Result<u8, WorkspaceError> {
+    u8::try_from(intervals).map_err(|_| WorkspaceError::TooManyIntervals { intervals })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::counted;
+    use crate::workspace::request::WorkspaceError;
+
+    #[test]
+    fn no_interval_is_dropped() {
+        assert_eq!([counted(0), counted(255)], [Ok(0), Ok(255)]);
+        assert_eq!(counted(256), Err(WorkspaceError::TooManyIntervals { intervals: 256 }));
     }
 }

@@ -38,6 +38,7 @@ pub struct Slab {
 ///
 /// - [`WorkspaceError::OutOfDomain`]: a number is not finite or beyond [`MAX_INPUT`](crate::MAX_INPUT), the range of
 ///   phi1 is not ordered or longer than a revolution, or the cell is below 0.1 mm.
+/// - [`WorkspaceError::TooManyIntervals`]: a node is reached in more than 255 intervals.
 /// - [`WorkspaceError::Cancelled`]: the observer asked to stop.
 ///
 /// # References

@@ -75,6 +75,8 @@ async fn options_change_the_program_or_are_refused_by_name() {
         ("numbers=0", "/query/numbers"),
         ("head=%C3%9C", "/query/head"),
         ("feed_word=g93", "/query/feed_word"),
+        // The machine has no drives, so its rapids have no durations.
+        ("rapid_word=g1", "/query/rapid_word"),
     ] {
         let (status, problem) = refusal(&service, &format!("{path}?{query}")).await;
         assert_eq!(status, StatusCode::UNPROCESSABLE_ENTITY, "{query}: {problem}");

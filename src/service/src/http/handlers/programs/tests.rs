@@ -118,6 +118,11 @@ async fn bodies_that_are_no_program_are_refused() {
         ("", FILE.into(), 422, "state format="),
         ("format=apt&units=furlong", FILE.into(), 422, "`inch`"),
         ("format=apt&unit=mm", FILE.into(), 422, "`unit` is unknown"),
+        ("format=apt&tcp=true", FILE.into(), 422, "/query/tcp"),
+        ("format=apt&tcp_on=M428&tcp_off=M429", FILE.into(), 422, "is for the format gcode"),
+        ("format=apt&rapid_feed=5000", FILE.into(), 422, "/query/rapid_feed"),
+        ("format=csv&rotary_sense=table", FILE.into(), 422, "in the format csv does not use it"),
+        ("format=ndjson&compensation=refuse", FILE.into(), 422, "is for the format apt or gcode"),
     ] {
         let answer = post(&limited, query, body).await;
         assert_eq!(answer.status, status, "{detail}: {}", answer.json);

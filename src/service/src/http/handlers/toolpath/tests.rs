@@ -1,7 +1,5 @@
 //! What users of `/toolpath` rely on.
 
-mod time;
-
 use axum::body::Body;
 use axum::http::header::{CONTENT_TYPE, LOCATION};
 use axum::http::{HeaderMap, Request, StatusCode};
@@ -12,7 +10,10 @@ use crate::operations::toolpath_rows::{chunk_count, chunk_name, read_chunk};
 use crate::process::service::Service;
 use crate::test_service;
 
+mod failures;
 mod limits;
+mod semantics;
+mod time;
 
 const JSON: &str = "application/json";
 const FORM: &str = "application/x-www-form-urlencoded";
@@ -100,58 +101,6 @@ async fn equal_requests_have_equal_ids_in_every_form() {
     }
 }
 
-/// Asserts that a margin of an answer is that of a failure.
-fn assert_reproduced(found: &Value, failure: &Value) {
-    for name in ["constraint", "element", "unit"] {
-        assert_eq!(found[name], failure[name], "{found} {failure}");
-    }
-    let [found, stated] = [&found["value"], &failure["margin"]].map(|value| value.as_f64().unwrap());
-    assert!((found - stated).abs() <= 1e-6 * stated.abs().max(1.0), "{found} {failure}");
-}
-
-#[tokio::test]
-async fn ik_reproduces_a_failure() {
-    let service = service().await;
-    let programs = [
-        // Past a stroke, out of reach, past a range of the tilting axis.
-        json!([[0, 0, 300], [0, 0, 2000]]),
-        json!([[0, 0, 300], [900, 0, 300]]),
-        json!([[0, 0, 300, 0, 0, 1], [0, 0, 300, 0, -0.9, -0.4]]),
-    ];
-    for points in programs {
-        let request = json!({"program": {"points": points}, "tool_length": 80, "table_clearance": 0});
-        let report = plan(&service, &request).await;
-        assert_eq!(report["verdict"], "fails", "{report}");
-        for failure in report["failures"].as_array().unwrap() {
-            let at = &failure["at"];
-            let pose =
-                json!({"x": at["x"], "y": at["y"], "z": at["z"], "phi1": at["phi1"], "phi2": at["phi2"]});
-            let request = json!({"pose": pose, "tool_length": at["tool_length"], "table_clearance": 0});
-            let (_, answer) = post(&service, "/ik", JSON, request.to_string()).await;
-            let worst = answer.pointer("/solutions/0/margins/worst").unwrap_or(&answer["constraint"]);
-            assert_reproduced(worst, failure);
-        }
-    }
-}
-
-/// /ik takes another winding of theta2.
-#[tokio::test]
-async fn fk_reproduces_a_failure_of_the_rotary_axis() {
-    let service = service().await;
-    let points = json!([[100, 0, 400, 20, 0], [100, 0, 400, 20, 900]]);
-    let report = plan(&service, &json!({"program": {"points": points}, "tool_length": 80})).await;
-    let failure = &report["failures"][0];
-    assert_eq!((&failure["constraint"], &report["failure_count"]), (&json!("rotary"), &json!(1)), "{report}");
-    let at = &failure["at"];
-    let pose = json!({"x": at["x"], "y": at["y"], "z": at["z"], "phi1": at["phi1"], "phi2": at["phi2"]});
-    let (_, answer) = post(&service, "/ik", JSON, json!({"pose": pose, "tool_length": 80}).to_string()).await;
-    let mut joints = answer["solutions"][0]["joints"].clone();
-    joints["theta2"] = json!(-at["phi2"].as_f64().unwrap());
-    let (_, answer) =
-        post(&service, "/fk", JSON, json!({"joints": joints, "tool_length": 80}).to_string()).await;
-    assert_reproduced(&answer["solutions"][0]["margins"]["worst"], failure);
-}
-
 #[tokio::test]
 async fn faults_of_a_program_name_their_line_before_a_job_is_made() {
     let service = service().await;
@@ -186,7 +135,7 @@ async fn fields_that_cannot_be_used_are_named() {
     let service = service().await;
     let request = json!({"program": {"points": [[0, 0, 300]]}, "tool_length": {"1": -5}, "length_before": 2,
         "setup": {"x": 1e9, "c": 1e9}, "offsets": {"G60": {}, "G54": {}}, "tolerance": {"tip": 0, "rapid": 1e4},
-        "pole": 1, "table_clearance": -1, "start": {"theta1": 1e9, "theta2": 0}});
+        "pole": 1, "table_clearance": -1, "start": {"rho": [500, 1e9, 500], "theta1": 1e9, "theta2": 0}});
     let (status, problem) = post(&service, "/toolpath", JSON, request.to_string()).await;
     assert_eq!(status, StatusCode::UNPROCESSABLE_ENTITY);
     let mut named: Vec<&str> = problem["errors"]
@@ -205,6 +154,7 @@ async fn fields_that_cannot_be_used_are_named() {
             "/pole",
             "/setup/c",
             "/setup/x",
+            "/start/rho/1",
             "/start/theta1",
             "/table_clearance",
             "/tolerance/rapid",
@@ -239,6 +189,22 @@ async fn fields_that_cannot_be_used_are_named() {
         let (status, problem) = post(&service, path, media, body).await;
         assert_eq!(status, StatusCode::UNPROCESSABLE_ENTITY, "{path} {problem}");
         assert_eq!(named(&problem, 0), pointer, "{path} {problem}");
+    }
+}
+
+#[tokio::test]
+async fn points_state_their_orientations_in_their_own_ways() {
+    let service = service().await;
+    let points = json!([[0, 0, 300], [10, 0, 300, 10, 30], [20, 0, 300, 0, -0.1, 1],
+        {"x": 30, "y": 0, "z": 300, "phi1": 5, "phi2": 0, "feed": 500}, [40, 0, 300]]);
+    let report = plan(&service, &json!({"program": {"points": points}, "tool_length": 50})).await;
+    assert_eq!(report["verdict"], "ok", "{report}");
+    assert!(report["warnings"].to_string().contains("its axis is (0, 0, 1)"), "{report}");
+    let rows = rows_of(&service, &report).await;
+    let axis = rows.iter().rev().find(|row| row.line == 4).unwrap().position.axis;
+    let [sine, cosine] = [5_f64.to_radians().sin(), 5_f64.to_radians().cos()];
+    for (axis, expected) in axis.into_iter().zip([0.0, -sine, cosine]) {
+        assert!((axis - expected).abs() < 1e-9, "{axis} {expected}");
     }
 }
 

@@ -1,7 +1,6 @@
 //! The files of `verne toolpath`.
 
-use std::fs::{self, File};
-use std::io::{BufWriter, ErrorKind, Write};
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use clap::ValueEnum;
@@ -10,28 +9,8 @@ use serde_json::Value;
 use crate::operations::toolpath_row_text::RowText;
 use crate::operations::toolpath_rows::read_chunk;
 use crate::process::cli::answer::to_json;
-use crate::wire::toolpath_row::RowFormat;
-
-/// Whether a path means standard input or output.
-pub(super) fn is_standard(path: &Path) -> bool {
-    path == Path::new("-")
-}
-
-/// Whether two paths name one file. A file that does not exist yet counts as the one that would be created.
-pub(super) fn is_same_file(first: &Path, second: &Path) -> bool {
-    let file = |path: &Path| {
-        if is_standard(path) {
-            return None;
-        }
-        let existing = path.canonicalize();
-        let created = || {
-            let directory = path.parent().filter(|directory| !directory.as_os_str().is_empty());
-            Some(directory.unwrap_or(Path::new(".")).canonicalize().ok()?.join(path.file_name()?))
-        };
-        existing.ok().or_else(created)
-    };
-    file(first).is_some_and(|first| file(second) == Some(first))
-}
+use crate::process::cli::files::{destination, is_standard};
+use crate::wire::row_format::RowFormat;
 
 /// What is written to the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,26 +30,9 @@ pub(super) fn format(path: &Path) -> Result<OutputFormat, String> {
     if ["ngc", "nc"].iter().any(|known| extension.eq_ignore_ascii_case(known)) {
         return Ok(OutputFormat::JointProgram);
     }
-    RowFormat::from_str(extension, true)
-        .map(OutputFormat::Rows)
-        .map_err(|_| format!("--output {} must end in .csv, .ndjson, .json, .ngc or .nc", path.display()))
-}
-
-/// Removes a joint program that is not complete, or that the machine cannot run.
-pub(super) fn remove(path: &Path) {
-    if fs::remove_file(path).is_err() {
-        // Nobody should run what is left of it.
-        drop(File::create(path));
-    }
-}
-
-/// A file, or standard output for `-`.
-fn destination<'a>(path: &Path, out: &'a mut dyn Write) -> Result<Box<dyn Write + 'a>, String> {
-    if is_standard(path) {
-        return Ok(Box::new(out));
-    }
-    let file = File::create(path).map_err(|error| format!("{}: {error}", path.display()))?;
-    Ok(Box::new(BufWriter::new(file)))
+    RowFormat::from_str(extension, true).map(OutputFormat::Rows).map_err(|_| {
+        format!("--output {} must end in .arrow, .csv, .ndjson, .json, .ngc or .nc", path.display())
+    })
 }
 
 /// The file of the rows, which is written while they are planned.
@@ -122,32 +84,4 @@ pub(super) fn write_report(
         return Ok(());
     }
     written.map_err(|error| format!("{}: {error}", path.display()))
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
-mod tests {
-    use std::fs;
-
-    use super::is_same_file;
-
-    #[test]
-    fn a_file_has_many_paths_whether_it_exists_or_not() {
-        let directory = tempfile::tempdir().unwrap();
-        let path = |name: &str| directory.path().join(name);
-        fs::create_dir(path("inside")).unwrap();
-        fs::write(path("part.csv"), "").unwrap();
-        for (first, second, same) in [
-            ("part.csv", "part.csv", true),
-            ("part.csv", "inside/../part.csv", true),
-            ("new.csv", "inside/../new.csv", true),
-            ("part.csv", "inside/part.csv", false),
-            ("part.csv", "new.csv", false),
-            ("part.csv", "missing/part.csv", false),
-        ] {
-            assert_eq!(is_same_file(&path(first), &path(second)), same, "{first} {second}");
-        }
-        assert!(is_same_file("new.csv".as_ref(), "./new.csv".as_ref()));
-        assert!(!is_same_file("-".as_ref(), "-".as_ref()));
-    }
 }

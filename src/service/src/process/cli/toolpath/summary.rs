@@ -4,11 +4,10 @@ use std::io::{self, Write};
 
 use serde::Deserialize;
 
+use crate::process::cli::limit_words::{NamedLimit, rounded};
+
 /// Most failing stretches, most warnings, and most rapids that leave their lines, that the summary names.
 const MOST_LISTED: usize = 10;
-
-/// A margin worse than this is no distance: the position is out of proportion to the machine.
-const OUT_OF_PROPORTION: f64 = 1e9;
 
 /// A rapid that stays this close to its line does not leave it, mm.
 const ON_THE_LINE: f64 = 0.01;
@@ -24,6 +23,7 @@ pub(super) struct Summary {
     warnings: Vec<Warning>,
     warning_count: u64,
     retracts: u64,
+    dwell_mark_count: u64,
     departures: Vec<Departure>,
     departure_count: u64,
 }
@@ -32,14 +32,14 @@ pub(super) struct Summary {
 struct Failure {
     lines: [u32; 2],
     #[serde(flatten)]
-    limit: Limit,
+    limit: NamedLimit,
 }
 
 #[derive(Debug, Deserialize)]
 struct Margin {
     line: u32,
     #[serde(flatten)]
-    limit: Limit,
+    limit: NamedLimit,
 }
 
 #[derive(Debug, Deserialize)]
@@ -55,14 +55,6 @@ struct Warning {
 struct Departure {
     line: u32,
     distance: Option<f64>,
-}
-
-#[derive(Debug, Deserialize)]
-struct Limit {
-    constraint: String,
-    element: String,
-    margin: f64,
-    unit: String,
 }
 
 impl Summary {
@@ -86,6 +78,15 @@ impl Summary {
             writeln!(
                 err,
                 "warning: within a cut the tool leaves the part {times}, so that the table can turn back."
+            )?;
+        }
+        if self.dwell_mark_count > 0 {
+            let places = if self.dwell_mark_count == 1 { "place" } else { "places" };
+            writeln!(
+                err,
+                "warning: the tool stands on the part while the table turns, at {} {places}; the report lists them in \
+                 dwell_marks.",
+                self.dwell_mark_count
             )?;
         }
         self.write_verdict(err)
@@ -137,7 +138,7 @@ impl Summary {
             writeln!(err, "The machine can run the program: {} rows.", self.rows)?;
             let least = |margin: &&Margin| ["mm", "deg"].contains(&margin.limit.unit.as_str());
             for Margin { line, limit } in self.margins.iter().filter(least) {
-                let Limit { constraint, element, margin, unit } = limit;
+                let NamedLimit { constraint, element, margin, unit } = limit;
                 let (name, margin) = (constraint.replace('_', " "), rounded(*margin));
                 writeln!(err, "  least margin of {name}: {margin} {unit} ({element}, line {line})")?;
             }
@@ -157,91 +158,12 @@ impl Summary {
     }
 }
 
-impl Limit {
-    /// What is wrong, as a clause.
-    fn in_words(&self) -> String {
-        let (missing, element) = (-self.margin, self.element.as_str());
-        if missing > OUT_OF_PROPORTION {
-            return "the position is far out of reach".to_owned();
-        }
-        let amount = match self.unit.as_str() {
-            "1" => rounded(missing),
-            unit => format!("{} {}", rounded(missing), if unit == "deg" { "degrees" } else { unit }),
-        };
-        let (part, end) = element.split_once('.').unwrap_or((element, ""));
-        let end = if end == "max" { "high" } else { "low" };
-        match self.constraint.as_str() {
-            "stroke" => format!("slider {} is {amount} past the {end} end of its stroke", number(part)),
-            "leg_length" => format!("leg {} is {amount} too short", number(part)),
-            "slider_joint" => format!("the slider joint of rod {} is {amount} beyond its cone", number(part)),
-            "platform_joint" => {
-                format!("the platform joint of rod {} is {amount} beyond its cone", number(part))
-            }
-            "rod_crossing" => format!("the rods of leg I are crossed by {amount}"),
-            "rod_interference" => format!("the rods {} are {amount} too close", number(part)),
-            "tilt" | "rotary" => format!("{part} is {amount} past the {end} end of its range"),
-            "table_clearance" if part == "tool" => format!("the tool is {amount} too close to the table"),
-            "table_clearance" => format!("the joint {} is {amount} too close to the table", number(part)),
-            "serial_singularity" => {
-                format!("rod {} is too close to a serial singularity, by {amount}", number(part))
-            }
-            "parallel_singularity" => {
-                format!("the platform is too close to a parallel singularity, by {amount}")
-            }
-            other => format!("{other} ({element}) is exceeded by {amount}"),
-        }
-    }
-}
-
-/// The number in a name: `2` in `slider2`, `11-31` in `rods11-31`.
-fn number(part: &str) -> &str {
-    part.trim_start_matches(|c: char| c.is_ascii_alphabetic())
-}
-
-/// A number with three significant digits, or its whole part.
-fn rounded(number: f64) -> String {
-    let digits = if number.abs() >= 100.0 {
-        0
-    } else if number.abs() >= 10.0 {
-        1
-    } else if number.abs() >= 1.0 {
-        2
-    } else if number.abs() >= 0.001 {
-        4
-    } else {
-        return if number == 0.0 { "0".to_owned() } else { format!("{number:.1e}") };
-    };
-    format!("{number:.digits$}")
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 mod tests {
     use serde_json::json;
 
-    use super::{Limit, Summary};
-
-    #[test]
-    fn limits_are_said_in_words() {
-        for (constraint, element, margin, unit, words) in [
-            ("stroke", "slider2.min", -12.34, "mm", "slider 2 is 12.3 mm past the low end of its stroke"),
-            ("rotary", "theta2.max", -5.0, "deg", "theta2 is 5.00 degrees past the high end of its range"),
-            ("rod_interference", "rods11-31", -0.5, "mm", "the rods 11-31 are 0.5000 mm too close"),
-            ("leg_length", "leg3", -1234.5, "mm", "leg 3 is 1234 mm too short"),
-            ("leg_length", "leg1", f64::MIN, "mm", "the position is far out of reach"),
-            ("table_clearance", "joint21", -2e-5, "mm", "the joint 21 is 2.0e-5 mm too close to the table"),
-            (
-                "parallel_singularity",
-                "platform",
-                -0.02,
-                "1",
-                "the platform is too close to a parallel singularity, by 0.0200",
-            ),
-        ] {
-            let [constraint, element, unit] = [constraint, element, unit].map(str::to_owned);
-            assert_eq!(Limit { constraint, element, margin, unit }.in_words(), words);
-        }
-    }
+    use super::Summary;
 
     #[test]
     fn rapids_that_leave_their_lines_and_retracts_are_named() {
@@ -253,7 +175,7 @@ mod tests {
         departures.extend((0..10).map(|i| json!({"line": 100 + i, "distance": 10 - i})));
         let report = json!({
             "verdict": "ok", "failures": [], "failure_count": 0, "rows": 9, "margins": [], "warnings": [],
-            "warning_count": 0, "retracts": 2, "departures": departures, "departure_count": 13
+            "warning_count": 0, "retracts": 2, "dwell_mark_count": 3, "departures": departures, "departure_count": 13
         });
         let mut text = Vec::new();
         Summary::read(report.to_string().as_bytes()).unwrap().write(&mut text).unwrap();
@@ -262,9 +184,10 @@ mod tests {
         assert_eq!(lines[0], "warning: line 75: in a rapid the tool leaves its line by 62.8 mm");
         let singular =
             "warning: line 80: in a rapid the tool leaves its line and the platform passes a singularity";
-        assert_eq!((lines[1], lines.len()), (singular, 13));
+        assert_eq!((lines[1], lines.len()), (singular, 14));
         assert_eq!(lines[10], "warning: in 2 more rapids the tool leaves its line; the report lists them.");
         assert!(lines[11].contains("leaves the part 2 times"), "{text}");
-        assert_eq!(lines[12], "The machine can run the program: 9 rows.");
+        assert!(lines[12].contains("while the table turns, at 3 places"), "{text}");
+        assert_eq!(lines[13], "The machine can run the program: 9 rows.");
     }
 }

@@ -1,0 +1,60 @@
+"""Client of the verne service: kinematics, workspaces and tool paths of a five-axis machine tool.
+
+Lengths are millimetres and angles degrees.
+"""
+
+from verne.answers.machine import Machine, MachineEntry, MachineId
+from verne.answers.solution import ForwardResult, InverseResult, Joints, Limit, PartPose, PlatformPose, Solution
+from verne.answers.toolpath import ProgramSummary, ToolpathFailure, ToolpathReport
+from verne.answers.workspace import DexteritySummary, FamilySummary, Slice, WorkspaceSummary
+from verne.async_client import AsyncClient
+from verne.async_job import AsyncDexterityJob, AsyncFamilyJob, AsyncJob, AsyncToolpathJob, AsyncWorkspaceJob
+from verne.batch import JointBatch, Membership, PoseBatch
+from verne.client import Client
+from verne.decoding import DecodingError
+from verne.job import DexterityJob, FamilyJob, Job, ToolpathJob, WorkspaceJob
+from verne.local_service import LocalService, find_binary, local
+from verne.problem import Problem, ProblemError
+from verne.table import Table
+
+__all__ = [
+    "AsyncClient",
+    "AsyncDexterityJob",
+    "AsyncFamilyJob",
+    "AsyncJob",
+    "AsyncToolpathJob",
+    "AsyncWorkspaceJob",
+    "Client",
+    "DecodingError",
+    "DexterityJob",
+    "DexteritySummary",
+    "FamilyJob",
+    "FamilySummary",
+    "ForwardResult",
+    "InverseResult",
+    "Job",
+    "JointBatch",
+    "Joints",
+    "Limit",
+    "LocalService",
+    "Machine",
+    "MachineEntry",
+    "MachineId",
+    "Membership",
+    "PartPose",
+    "PlatformPose",
+    "PoseBatch",
+    "Problem",
+    "ProblemError",
+    "ProgramSummary",
+    "Slice",
+    "Solution",
+    "Table",
+    "ToolpathFailure",
+    "ToolpathJob",
+    "ToolpathReport",
+    "WorkspaceJob",
+    "WorkspaceSummary",
+    "find_binary",
+    "local",
+]

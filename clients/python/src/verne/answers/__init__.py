@@ -1,0 +1,1 @@
+"""The service's answers as dataclasses. Lengths are millimetres and angles degrees."""

@@ -1,0 +1,1 @@
+"""Operations of the service: each makes requests and reads their answers. See ``verne.session``."""

@@ -1,0 +1,25 @@
+/** The types of the service's requests and answers, from its OpenAPI document. */
+
+import type { components } from "../generated/openapi.js";
+
+export type { paths } from "../generated/openapi.js";
+
+export type Schemas = components["schemas"];
+export type Answer = Schemas["Answer"];
+export type DexterityBody = Schemas["DexterityBody"];
+export type DexteritySummary = Schemas["DexteritySummary"];
+export type FamilySummary = Schemas["FamilySummary"];
+export type Job = Schemas["Job"];
+export type Limit = Schemas["Limit"];
+export type Machine = Schemas["Machine"];
+export type MachineRef = Schemas["MachineRef"];
+export type Margins = Schemas["Margins"];
+export type PlatformPose = Schemas["PlatformPose"];
+export type Problem = Schemas["Problem"];
+export type Slice = Schemas["Slice"];
+export type Solution = Schemas["Solution"];
+export type ToolpathReport = Schemas["ToolpathReport"];
+export type ToolpathRequest = Schemas["ToolpathRequest"];
+export type WorkspaceKind = Schemas["WorkspaceKind"];
+export type WorkspaceRequest = Schemas["WorkspaceRequest"];
+export type WorkspaceSummary = Schemas["WorkspaceSummary"];

@@ -1,0 +1,118 @@
+/** The client and a real service. */
+
+import assert from "node:assert/strict";
+import { suite, test } from "node:test";
+import { CancelledError, ProblemError, unwrap, Verne, type Job } from "verne-client";
+import { serve } from "./service.js";
+
+const verne = new Verne(await serve());
+
+suite("a client of a service", () => {
+  test("inverse kinematics needs the position only", async () => {
+    const body = { pose: { x: 100, y: 50, z: 150 }, tool_length: 50 };
+    const { solutions } = unwrap(await verne.api.POST("/ik", { body }));
+    assert.equal(solutions.length, 1);
+    const query = { x: 100, y: 50, z: 150, tool_length: 50 };
+    const same = unwrap(await verne.api.GET("/ik", { params: { query } }));
+    assert.deepEqual(same.solutions, solutions);
+  });
+
+  test("a batch answers each row", async () => {
+    const poses = [[100, 50, 150, 0, 0], null, [0, 0, 9000, 0, 0]];
+    const { status, joints } = unwrap(
+      await verne.api.POST("/ik/batch", { body: { poses, tool_length: 50 } }),
+    );
+    assert.deepEqual(status, ["ok", "invalid", "infeasible"]);
+    assert.equal(joints[0]?.length, 5);
+  });
+
+  test("a problem has its code and the pointers of its fields", async () => {
+    const body = { pose: { x: 100, y: 50, z: 150 }, tool_length: -1 };
+    const answer = await verne.api.POST("/ik", { body });
+    assert.throws(
+      () => unwrap(answer),
+      (error: unknown) => {
+        assert.ok(error instanceof ProblemError);
+        assert.deepEqual([error.status, error.code], [422, "invalid_request"]);
+        const [fault] = error.errors;
+        assert.ok(fault && "pointer" in fault && fault.pointer === "/tool_length");
+        return true;
+      },
+    );
+    await assert.rejects(verne.mesh("nothing"), { code: "workspace_not_found" });
+  });
+
+  test("a workspace reports its progress, and has a mesh", async () => {
+    const states: Job[] = [];
+    const onProgress = (job: Job) => void states.push(job);
+    const request = { kind: "part" as const, tool_length: 50, tolerance: 2 };
+    const summary = await verne.workspace(request, { wait: 0, onProgress });
+    assert.ok("volume" in summary && summary.volume !== null && summary.volume > 0);
+    assert.equal(states.at(-1)?.state, "succeeded");
+    const progress = states.map((job) => job.progress);
+    assert.deepEqual(
+      progress,
+      [...progress].sort((a, b) => a - b),
+    );
+    // The result is stored, so there is no job.
+    states.length = 0;
+    assert.deepEqual(await verne.workspace(request, { onProgress }), summary);
+    assert.equal(states.length, 0);
+
+    const glb = new DataView(await verne.mesh(summary.id));
+    assert.deepEqual([glb.getUint32(0, true), glb.getUint32(8, true)], [0x46546c67, glb.byteLength]);
+    const stl = await verne.mesh(summary.id, "stl");
+    assert.equal(new DataView(stl).getUint32(80, true), summary.triangles);
+  });
+
+  test("a job that is cancelled ends the wait", async () => {
+    const request = { kind: "part" as const, tool_length: 50, tolerance: 0.02 };
+    const cancelled = verne.workspace(request, {
+      wait: 0,
+      onProgress: (job) => {
+        if (job.state === "running") void verne.cancel(job.id);
+      },
+    });
+    await assert.rejects(cancelled, CancelledError);
+  });
+
+  test("an aborted wait leaves the job", async () => {
+    const abort = new AbortController();
+    let job: Job | undefined;
+    const request = { kind: "tool" as const, tool_length: 50, tolerance: 0.02 };
+    const aborted = verne.workspace(request, {
+      wait: 0,
+      signal: abort.signal,
+      onProgress: (state) => {
+        job = state;
+        abort.abort();
+      },
+    });
+    await assert.rejects(aborted, { name: "AbortError" });
+    assert.ok(job);
+    const { state } = await verne.cancel(job.id);
+    assert.notEqual(state, "succeeded");
+  });
+
+  test("a family and a dexterity map are results, too", async () => {
+    const family = await verne.workspace({ kind: "tool", tool_length: [0, 100], tolerance: 20 }, { wait: 0 });
+    assert.ok("members" in family && family.members.length === 2);
+    const phi1 = { from: -20, to: 20 };
+    const map = await verne.dexterity({ tool_length: 50, phi1, cell: 400 }, { wait: 0 });
+    assert.ok((await verne.mesh(map.id, "ply", { set: "dexterous" })).byteLength > 0);
+  });
+
+  test("a tool path has a report, rows and a program", async () => {
+    const start = { x: 0, y: 0, i: 0, j: 0, k: 1, feed: 800 };
+    const end = { x: 80, y: 0, z: 300, i: 0, j: 0.6, k: 0.8, feed: 800 };
+    const program = { points: [{ ...start, z: 350 }, { ...start, z: 300 }, end] };
+    const report = await verne.toolpath({ program, tool_length: 120 });
+    assert.equal(report.failure_count, 0);
+    const path = { id: report.id };
+    const answer = unwrap(await verne.api.GET("/toolpath/{id}/rows.json", { params: { path } }));
+    assert.ok("rows" in answer && answer.rows.length === report.rows);
+    assert.ok(report.links.program);
+    const text = new TextDecoder().decode(await verne.file(report.links.program));
+    assert.ok(text.includes("G1 "));
+  });
+});

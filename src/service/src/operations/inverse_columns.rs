@@ -1,0 +1,81 @@
+//! `/ik/batch` with rows in columns.
+
+use verne_rows::{Chunk, Column};
+use verne_solver::workspace::Observer;
+
+use crate::operations::column_rows::{Group, RowColumns, RowNames, refuse, row_names};
+use crate::operations::inverse_batch::PoseBatch;
+use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
+use crate::operations::outcome_columns::{OutcomeColumns, number_columns};
+use crate::operations::row_stream::RowAnswer;
+use crate::operations::row_tally::RowTally;
+use crate::wire::batch::IkBatchNumbers;
+use crate::wire::error::OperationError;
+use crate::wire::request::Frame;
+
+/// The columns that a row may have.
+const NUMBERS: Group = &["x", "y", "z", "phi1", "phi2", "i", "j", "k"];
+
+/// The columns that every row has.
+const POSITION: Group = &["x", "y", "z"];
+
+/// The columns of an orientation.
+const ORIENTATIONS: &[Group] = &[&["phi1", "phi2"], &["i", "j", "k"]];
+
+/// The columns of joints; only frame `part` has the last two.
+const JOINTS: Group = &["rho1", "rho2", "rho3", "theta1", "theta2"];
+
+/// Answers poses.
+pub(crate) struct InverseColumns {
+    batch: PoseBatch,
+    outcomes: OutcomeColumns,
+    names: RowNames,
+}
+
+impl InverseColumns {
+    /// Checks the request, which has no rows.
+    pub(crate) fn new(request: &IkBatchNumbers, machines: &MachineRegistry) -> Result<Self, OperationError> {
+        let batch = PoseBatch::new(request, machines, 0)?;
+        Ok(Self { batch, outcomes: OutcomeColumns::new()?, names: RowNames::new() })
+    }
+}
+
+impl RowAnswer for InverseColumns {
+    fn numbers(&self) -> Group {
+        NUMBERS
+    }
+
+    fn begin(&mut self, columns: &[Column]) -> Result<(), OperationError> {
+        let has_orientation = self.batch.frame == Frame::Part;
+        if !has_orientation {
+            refuse(columns, &NUMBERS[POSITION.len()..], "is allowed only in frame part")?;
+        }
+        self.names = row_names(columns, POSITION, ORIENTATIONS, has_orientation)?;
+        Ok(())
+    }
+
+    fn answer(&mut self, chunk: &Chunk, _: &dyn Observer) -> Result<Vec<Column>, OperationError> {
+        let rows = RowColumns::of(chunk, &self.names)?;
+        let answered = self.batch.answer(&rows.rows());
+        let joints: Vec<_> = answered.iter().map(|row| row.joints.as_ref()).collect();
+        let outcomes: Vec<_> = answered.iter().map(|row| &row.outcome).collect();
+        let names = if self.batch.frame == Frame::Part { JOINTS } else { &JOINTS[..3] };
+        let (mut columns, outcomes) = rayon::join(
+            || number_columns(names, &joints).collect::<Vec<_>>(),
+            || self.outcomes.of(chunk, &outcomes),
+        );
+        if self.batch.continuous {
+            columns.push(Column::flags("jump", answered.iter().map(|row| row.jump)));
+        }
+        columns.extend(outcomes?);
+        Ok(columns)
+    }
+
+    fn tally(&self) -> &RowTally {
+        self.outcomes.tally()
+    }
+
+    fn machine(&self) -> &IdentifiedMachine {
+        &self.batch.machine
+    }
+}
