@@ -24,11 +24,9 @@ impl Kernel for PartRows {
         let mechanism = &machine.mechanism;
         for i in 0..ROWS {
             let [x, y, z, phi1, phi2] = targets.each_ref().map(|row| row[i]);
-            let turns = [phi1, phi2].map(|angle| {
-                let (sine, cosine) = sin_cos_of_turn(angle);
-                [sine, cosine]
-            });
-            let locus = table_locus(machine, &PartPose { x, y, z, phi1, phi2 }, turns, *tool_length);
+            let ((s1, c1), (s2, c2)) = (sin_cos_of_turn(phi1), sin_cos_of_turn(phi2));
+            let target = PartPose { x, y, z, phi1, phi2 };
+            let locus = table_locus(machine, &target, [[s1, c1], [s2, c2]], *tool_length);
             let accepted = are_accepted(mechanism, &[x, y, z, *tool_length], &[phi1, phi2])
                 & is_in_proportion(mechanism, &locus.y[1..]);
             let few_turns = (phi1.abs() < MAX_ANGLE) & (phi2.abs() < MAX_ANGLE);
