@@ -193,6 +193,20 @@ fn margins_of_any_posture_are_those_of_a_single_row() {
 }
 
 #[test]
+fn rows_of_an_unlimited_rotary_table_have_no_margin_of_its_range() {
+    let mut data = Machine::verne().data().clone();
+    data.limits.rotary = None;
+    let machine = Machine::new(data).unwrap();
+    let table = Some(TableAngles { theta1: 0.1, theta2: 40.0 });
+    let rows: Vec<_> =
+        postures(&mut Random::new(0x0005_EED9), &machine, 40).into_iter().map(|row| (row, table)).collect();
+    compare_margins(&machine, &rows);
+    margin_rows(&machine, &rows, None, Registers::Widest, |_, margins| {
+        assert!(margins.tilt.is_some() && margins.rotary.is_none());
+    });
+}
+
+#[test]
 fn every_number_of_rows_is_answered() {
     let mut random = Random::new(0x0005_EED8);
     let machine = Machine::verne();
