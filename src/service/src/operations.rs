@@ -37,6 +37,7 @@ pub(crate) mod forward_columns;
 pub(crate) mod inverse;
 pub(crate) mod inverse_batch;
 pub(crate) mod inverse_columns;
+pub(crate) mod inverse_rows;
 pub(crate) mod job_executor;
 pub(crate) mod joint_program;
 pub(crate) mod machine_hash;

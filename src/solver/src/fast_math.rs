@@ -5,7 +5,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, PI, TAU};
 
 /// Angle up to which its quarter turns are split off exactly.
-const MAX_ANGLE: f64 = 1e5;
+pub(crate) const MAX_ANGLE: f64 = 1e5;
 /// A quarter of a turn: its first 33 bits, and the rest.
 const QUARTER: [f64; 2] = [1.570_796_326_734_125_6, 6.077_100_506_506_192e-11];
 /// A constant that, added to a number below 2^51, leaves the nearest integer in the last bits.
@@ -38,7 +38,7 @@ const DENOMINATOR: [[f64; 2]; 3] = [
 
 /// The polynomial's value, coefficients in pairs from the lowest power: two short chains of
 /// dependent operations in place of a long one.
-#[inline]
+#[inline(always)]
 fn polynomial<const N: usize>(pairs: &[[f64; 2]; N], x: f64) -> f64 {
     let square = x * x;
     let pair = |i: usize| pairs[i][0] + pairs[i][1] * x;
@@ -46,13 +46,13 @@ fn polynomial<const N: usize>(pairs: &[[f64; 2]; N], x: f64) -> f64 {
 }
 
 /// sin and cos of an angle, to about a unit in the last place.
-#[inline]
+#[inline(always)]
 pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
     if angle.abs() < MAX_ANGLE { sin_cos_of_turn(angle) } else { angle.sin_cos() }
 }
 
 /// [`sin_cos`] of an angle that is known to be within some turns.
-#[inline]
+#[inline(always)]
 pub(crate) fn sin_cos_of_turn(angle: f64) -> (f64, f64) {
     let shifted = angle * FRAC_2_PI + ROUND;
     let (quarters, count) = (shifted - ROUND, shifted.to_bits());
@@ -73,14 +73,14 @@ pub(crate) fn is_odd(number: f64) -> bool {
 }
 
 /// asin x for x² <= 1/2, to two units in the last place; `square` is x².
-#[inline]
+#[inline(always)]
 pub(crate) fn asin(x: f64, square: f64) -> f64 {
     x + x * (square * polynomial(&NUMERATOR, square) / polynomial(&DENOMINATOR, square))
 }
 
 /// The angle of a direction, in (-π, π], from its sine or its cosine, whichever is the steeper
 /// function there.
-#[inline]
+#[inline(always)]
 pub(crate) fn angle_of(c: f64, s: f64) -> f64 {
     let steep = if c.abs() > FRAC_1_SQRT_2 { s } else { c };
     let arc = asin(steep, steep * steep);
@@ -95,7 +95,7 @@ pub(crate) fn angle_of(c: f64, s: f64) -> f64 {
 }
 
 /// An angle that is at most a turn outside (-π, π], shifted into it.
-#[inline]
+#[inline(always)]
 pub(crate) fn wrapped(angle: f64) -> f64 {
     if angle > PI {
         angle - TAU
@@ -107,19 +107,19 @@ pub(crate) fn wrapped(angle: f64) -> f64 {
 }
 
 /// The greater of two numbers: a single instruction, unlike `f64::max`, which looks for NaNs.
-#[inline]
+#[inline(always)]
 pub(crate) fn greater(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
 /// The lesser of two numbers.
-#[inline]
+#[inline(always)]
 pub(crate) fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
 /// The angle of a vector that need not have unit length, in (-π, π]; zero for a vector of no length.
-#[inline]
+#[inline(always)]
 pub(crate) fn angle_of_vector(x: f64, y: f64) -> f64 {
     let length = (x * x + y * y).sqrt();
     if length > 0.0 { angle_of(x / length, y / length) } else { 0.0 }

@@ -2,6 +2,7 @@
 
 mod elimination;
 mod infeasibility;
+mod rows;
 
 use std::f64::consts::PI;
 
@@ -12,6 +13,8 @@ use crate::mechanism::Mechanism;
 use crate::posture::{Posture, Postures, postures_or_error};
 use crate::request_range::check_numbers;
 use elimination::AssemblyClosure;
+
+pub use rows::forward_working_rows;
 
 /// Finds all assembly modes (up to 8) for slider positions `rho`.
 ///
@@ -122,7 +125,7 @@ fn working_among_all(
 }
 
 /// Whether det_P has the sign of home. The closure's determinant is det_P times a factor that has the sign of e1 - e2.
-#[inline]
+#[inline(always)]
 fn on_home_side(machine: &Machine, closure: &AssemblyClosure, root: &Root) -> bool {
     let factor = machine.mechanism.e1 - machine.mechanism.e2;
     determinant(closure, root) * factor * machine.home.det > 0.0

@@ -102,6 +102,12 @@
 //! it. That search reuses a posture that is already known, so a posture is the same to the last bit whichever
 //! function returns it.
 //!
+//! # Many rows
+//!
+//! [`part_working_rows`], [`tool_working_rows`], [`platform_working_rows`], [`forward_working_rows`] and
+//! [`margin_rows`] answer many requests at once, with the vector registers that the processor has ([`Registers`]). The
+//! answers are those of one request to the last bit, on every processor.
+//!
 //! # Singularities
 //!
 //! Differentiating (3)-(6) gives, for a rod B - A = b, the row (b, ± R cos a · bz ∓ R sin a · by) against (x, y, z,
@@ -133,6 +139,8 @@ mod mechanism;
 mod parallel_matrix;
 mod pose;
 mod posture;
+mod posture_rows;
+mod registers;
 mod request_range;
 mod residual;
 mod rods;
@@ -143,15 +151,16 @@ pub mod workspace;
 
 pub use clearance::Clearance;
 pub use error::KinematicsError;
-pub use forward::{forward, forward_working};
+pub use forward::{forward, forward_working, forward_working_rows};
 pub use inverse::{
-    part, part_every_working, part_working, platform, platform_working, tool, tool_every_working,
-    tool_working,
+    part, part_every_working, part_working, part_working_rows, platform, platform_working,
+    platform_working_rows, tool, tool_every_working, tool_working, tool_working_rows,
 };
 pub use limit::{Constraint, Element, Margin};
 pub use machine::{Machine, MachineData, MachineError};
-pub use margins::Margins;
+pub use margins::{Margins, margin_rows};
 pub use pose::{PartPose, PlatformPose, Point, TableAngles};
 pub use posture::{MAX_POSTURES, Mode, Posture, Postures, Side};
+pub use registers::Registers;
 pub use request_range::{MAX_INPUT, MAX_LENGTH_RATIO};
 pub use table::{SplitAngle, Winding, part_pose, rotary_windings, table_angles, table_windings, tool_point};

@@ -12,8 +12,10 @@ mod branch_intervals;
 mod double_root;
 mod equations;
 mod newton;
+mod newton_rows;
 mod search;
 
 pub(crate) use equations::{CONVERGED_STEP, Equations, LoopClosure, Root, Roots};
 pub(crate) use newton::{determinant, from_level_platform, polish};
+pub(crate) use newton_rows::RootRows;
 pub(crate) use search::find_roots;

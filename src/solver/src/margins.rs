@@ -4,8 +4,10 @@ pub(crate) mod cone;
 pub(crate) mod interference;
 pub(crate) mod lesser_margins;
 pub(crate) mod margin_batch;
+mod margin_rows;
 pub(crate) mod normalization;
 mod posture_margins;
 mod worst;
 
+pub use margin_rows::margin_rows;
 pub use posture_margins::Margins;

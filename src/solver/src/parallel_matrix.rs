@@ -10,7 +10,7 @@ use crate::rods::Rods;
 pub type ParallelMatrix = [[f64; 4]; 4];
 
 /// The dimensionless parallel matrix.
-#[inline]
+#[inline(always)]
 pub(crate) fn matrix(g: &Geometry, rods: &Rods) -> ParallelMatrix {
     let ratio = g.R2 / g.R1;
     let arms = [1.0, -1.0, -ratio, ratio];
@@ -22,7 +22,7 @@ pub(crate) fn matrix(g: &Geometry, rods: &Rods) -> ParallelMatrix {
 }
 
 /// Determinant by complementary 2×2 minors, of numbers or of their ranges.
-#[inline]
+#[inline(always)]
 pub(crate) fn determinant<T>(m: &[[T; 4]; 4]) -> T
 where
     T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>,

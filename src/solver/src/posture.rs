@@ -17,12 +17,13 @@ pub enum Side {
 
 impl Side {
     /// The side of a slider whose platform end lies `height` below it (z points down).
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of(height: f64) -> Self {
         if height < 0.0 { Self::Below } else { Self::Above }
     }
 
     /// +1 for above, -1 for below.
+    #[inline(always)]
     pub(crate) fn sign(self) -> f64 {
         match self {
             Self::Above => 1.0,

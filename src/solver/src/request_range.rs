@@ -19,13 +19,33 @@ pub(crate) fn check_numbers(
     lengths: &[f64],
     angles: &[f64],
 ) -> Result<(), KinematicsError> {
-    let inside = lengths.iter().chain(angles).all(|n| n.abs() <= MAX_INPUT);
-    if inside { check_proportion(mechanism, lengths) } else { Err(KinematicsError::OutOfDomain) }
+    if within(MAX_INPUT, lengths) && within(MAX_INPUT, angles) {
+        check_proportion(mechanism, lengths)
+    } else {
+        Err(KinematicsError::OutOfDomain)
+    }
 }
 
 /// Refuses lengths out of proportion to the machine.
 #[inline]
 pub(crate) fn check_proportion(mechanism: &Mechanism, lengths: &[f64]) -> Result<(), KinematicsError> {
-    let most = MAX_LENGTH_RATIO * mechanism.longest;
-    if lengths.iter().all(|n| n.abs() <= most) { Ok(()) } else { Err(KinematicsError::OutOfProportion) }
+    if is_in_proportion(mechanism, lengths) { Ok(()) } else { Err(KinematicsError::OutOfProportion) }
+}
+
+/// Whether [`check_numbers`] accepts them.
+#[inline(always)]
+pub(crate) fn are_accepted(mechanism: &Mechanism, lengths: &[f64], angles: &[f64]) -> bool {
+    within(MAX_INPUT, lengths) & within(MAX_INPUT, angles) & is_in_proportion(mechanism, lengths)
+}
+
+/// Whether [`check_proportion`] accepts them.
+#[inline(always)]
+pub(crate) fn is_in_proportion(mechanism: &Mechanism, lengths: &[f64]) -> bool {
+    within(MAX_LENGTH_RATIO * mechanism.longest, lengths)
+}
+
+/// Whether no number is greater than another. A NaN is.
+#[inline(always)]
+fn within(most: f64, numbers: &[f64]) -> bool {
+    numbers.iter().fold(true, |within, number| within & (number.abs() <= most))
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use crate::fast_math::{greater, sin_cos, wrapped};
+use crate::fast_math::{greater, sin_cos_of_turn, wrapped};
 use crate::mechanism::Mechanism;
 use crate::parallel_matrix::matrix;
 use crate::pose::PlatformPose;
@@ -31,11 +31,18 @@ pub(crate) struct CheckedPose {
 /// corrects the pose.
 #[inline]
 pub(crate) fn checked(mechanism: &Mechanism, pose: PlatformPose, rho: [f64; 3]) -> CheckedPose {
+    let (found, is_rounded) = checked_once(mechanism, pose, rho);
+    if is_rounded { corrected(mechanism, pose, rho) } else { found }
+}
+
+/// The pose with its error, and whether [`checked`] corrects it.
+#[inline(always)]
+pub(crate) fn checked_once(mechanism: &Mechanism, pose: PlatformPose, rho: [f64; 3]) -> (CheckedPose, bool) {
     let residual = largest(&errors(mechanism, &pose, rho));
     let magnitude = magnitude(mechanism, pose.z);
     // A larger error is not rounding: a correction would find another solution.
-    let rounded = residual > CORRECTION_THRESHOLD * magnitude && residual < MAX_CORRECTED * magnitude;
-    if rounded { corrected(mechanism, pose, rho) } else { CheckedPose { pose, residual } }
+    let is_rounded = (residual > CORRECTION_THRESHOLD * magnitude) & (residual < MAX_CORRECTED * magnitude);
+    (CheckedPose { pose, residual }, is_rounded)
 }
 
 /// Newton's method on (3)-(6) in (x, y, z, a), as long as the error decreases.
@@ -63,10 +70,10 @@ fn corrected(mechanism: &Mechanism, pose: PlatformPose, rho: [f64; 3]) -> Checke
 }
 
 /// The rods' length errors in Eqs (3)-(6), mm.
-#[inline]
+#[inline(always)]
 pub(crate) fn errors(mechanism: &Mechanism, pose: &PlatformPose, rho: [f64; 3]) -> [f64; 4] {
     let g = &mechanism.geometry;
-    let (s, c) = sin_cos(pose.alpha);
+    let (s, c) = sin_cos_of_turn(pose.alpha);
     let vectors = vectors_of(mechanism, pose, rho, [c, s]);
     let error = |i: usize, length: f64| {
         let [x, y, z] = vectors[i];
@@ -75,14 +82,14 @@ pub(crate) fn errors(mechanism: &Mechanism, pose: &PlatformPose, rho: [f64; 3]) 
     [error(0, g.L1), error(1, g.L1), error(2, g.L2), error(3, g.L3)]
 }
 
-#[inline]
+#[inline(always)]
 pub(crate) fn largest(errors: &[f64; 4]) -> f64 {
     let [a, b, c, d] = errors.map(f64::abs);
     greater(greater(a, b), greater(c, d))
 }
 
 /// The magnitude of a pose's numbers, which scales all rounding. A pose far along z is rounded with its z.
-#[inline]
+#[inline(always)]
 pub(crate) fn magnitude(mechanism: &Mechanism, z: f64) -> f64 {
     mechanism.longest + z.abs()
 }

@@ -21,13 +21,13 @@ pub(crate) struct Rods {
 }
 
 impl Rods {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of(mechanism: &Mechanism, pose: &PlatformPose, rho: [f64; 3]) -> Self {
         Self::with_angle(mechanism, pose, rho, sin_cos(pose.alpha))
     }
 
     /// The same from the sine and cosine of alpha.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn with_angle(
         mechanism: &Mechanism,
         pose: &PlatformPose,
@@ -38,7 +38,7 @@ impl Rods {
         Self::from_vectors(vectors, &mechanism.inverse_lengths, [c, s])
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(
         g: &Geometry,
         inverse: &[f64; 4],
@@ -50,7 +50,7 @@ impl Rods {
         Self::from_vectors(vectors(g, x, y, w, [c, s]), inverse, [c, s])
     }
 
-    #[inline]
+    #[inline(always)]
     fn from_vectors(vectors: [[f64; 3]; 4], inverse: &[f64; 4], [c, s]: [f64; 2]) -> Self {
         let scaled = |i: usize| vectors[i].map(|component| component * inverse[i]);
         let directions = [scaled(0), scaled(1), scaled(2), scaled(3)];
@@ -58,7 +58,7 @@ impl Rods {
     }
 
     /// Platform ends B of the six rods from P, in the base frame's directions.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn platform_ends(&self, g: &Geometry) -> [[f64; 3]; 6] {
         let half = g.parallelogram_half_width;
         let (first, others) = ([g.R1 * self.c, g.R1 * self.s], [g.R2 * self.c, g.R2 * self.s]);
@@ -74,7 +74,7 @@ impl Rods {
 }
 
 /// B - A by family, from the platform's direction (c, s).
-#[inline]
+#[inline(always)]
 pub(crate) fn vectors_of(
     mechanism: &Mechanism,
     pose: &PlatformPose,
@@ -86,7 +86,7 @@ pub(crate) fn vectors_of(
     vectors(&mechanism.geometry, [pose.x + e1, pose.x + e2], pose.y, w, direction)
 }
 
-#[inline]
+#[inline(always)]
 fn vectors(g: &Geometry, x: [f64; 2], y: f64, w: [f64; 3], [c, s]: [f64; 2]) -> [[f64; 3]; 4] {
     let (u, v) = (g.R1 * c - g.r1, g.R1 * s);
     let (p, q) = (g.R2 * c - g.r4, g.R2 * s);

@@ -11,7 +11,8 @@ use crate::wire::field_errors::{FieldErrors, LARGEST_ANGLE, is_angle, is_length,
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::tool::Tool;
 
-/// Least rows of one task on the compute pool: enough to outweigh the cost of handing them over.
+/// Least rows of one task on the compute pool: enough to outweigh the cost of handing them over. A multiple of the rows
+/// that the solver computes at once.
 pub(crate) const MIN_CHUNK: usize = 64;
 
 /// About the bytes of an answered row.
@@ -150,7 +151,11 @@ pub(crate) fn outcome_of_solution(
     table: Option<TableAngles>,
     clearance: Option<&Clearance>,
 ) -> RowOutcome {
-    let margins = Margins::above_table(machine, posture, table, clearance);
+    outcome_of_margins(machine, &Margins::above_table(machine, posture, table, clearance))
+}
+
+/// The outcome of a row with a solution that has these margins.
+pub(crate) fn outcome_of_margins(machine: &Machine, margins: &Margins) -> RowOutcome {
     let worst = margins.worst(machine);
     if margins.feasible() { RowOutcome::Ok(worst) } else { RowOutcome::Infeasible(worst) }
 }

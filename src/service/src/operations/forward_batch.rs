@@ -5,11 +5,14 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use serde_json::value::RawValue;
 use verne_solver::axis::tool_axis;
-use verne_solver::{Clearance, Machine, PartPose, TableAngles, forward_working, part_pose};
+use verne_solver::{
+    Clearance, Machine, PartPose, PlatformPose, Registers, TableAngles, forward_working_rows, margin_rows,
+    part_pose,
+};
 
 use crate::operations::batch_rows::{
-    BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_refusal,
-    outcome_of_solution, row_report,
+    BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_margins,
+    outcome_of_refusal, row_report,
 };
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Orientation, Row};
@@ -39,6 +42,12 @@ pub(crate) struct AnsweredJoints {
 }
 
 impl AnsweredJoints {
+    fn with_solution(pose: &PlatformPose, part: Option<Row>, outcome: RowOutcome) -> Self {
+        let has_theta1 = part.is_some();
+        let pose = [pose.x, pose.y, pose.z, to_degrees(pose.alpha)].into_iter().collect();
+        Self { pose: Some(pose), part, outcome, has_theta1 }
+    }
+
     fn without_solution(outcome: RowOutcome, has_theta1: bool) -> Self {
         Self { pose: None, part: None, outcome, has_theta1 }
     }
@@ -103,39 +112,62 @@ impl JointBatch {
     /// Answers some rows.
     pub(crate) fn answer<R: BatchRow>(&self, rows: &[R]) -> Vec<AnsweredJoints> {
         let Self { machine, tool, clearance, orientation } = self;
-        let rows = rows.par_iter().with_min_len(MIN_CHUNK);
-        rows.map(|row| answer_row(machine, *tool, clearance.as_ref(), *orientation, row)).collect()
+        let chunks = rows.par_chunks(MIN_CHUNK);
+        chunks
+            .flat_map_iter(|rows| answer_rows(machine, *tool, clearance.as_ref(), *orientation, rows))
+            .collect()
     }
 }
 
-fn answer_row(
+/// Sliders, and theta1 and theta2 if the row gives them.
+type Joints = ([f64; 3], Option<TableAngles>);
+
+/// Answers rows: first it reads all of them, then it solves them, then it computes the margins.
+fn answer_rows(
     machine: &Machine,
     tool: Tool,
     clearance: Option<&Clearance>,
     orientation: Orientation,
-    row: &impl BatchRow,
-) -> AnsweredJoints {
+    rows: &[impl BatchRow],
+) -> Vec<AnsweredJoints> {
     let format = if tool.table_clearance.is_none() { JOINTS } else { JOINTS_WITH_TABLE };
-    let row = match row.numbers(format) {
-        Ok(row) => row,
-        Err(detail) => return AnsweredJoints::without_solution(RowOutcome::Invalid(detail), true),
-    };
+    let read: Vec<Result<Joints, String>> =
+        rows.iter().map(|row| row.numbers(format).map(|row| joints(&row))).collect();
+    let joints = || read.iter().filter_map(|row| row.as_ref().ok());
+    let sliders: Vec<_> = joints().map(|(rho, _)| *rho).collect();
+    let mut solved = Vec::with_capacity(sliders.len());
+    forward_working_rows(machine, &sliders, Registers::Widest, |_, answer| solved.push(answer));
+    let postures: Vec<_> =
+        joints().zip(&solved).filter_map(|((_, table), answer)| Some((answer.ok()?, *table))).collect();
+    let mut outcomes = Vec::with_capacity(postures.len());
+    margin_rows(machine, &postures, clearance, Registers::Widest, |_, margins| {
+        outcomes.push(outcome_of_margins(machine, &margins));
+    });
+    let (mut solved, mut outcomes) = (solved.into_iter(), outcomes.into_iter());
+    let answered = read.into_iter().map(|row| {
+        let table = match row {
+            Ok((_, table)) => table,
+            Err(detail) => return Some(AnsweredJoints::without_solution(RowOutcome::Invalid(detail), true)),
+        };
+        Some(match solved.next()? {
+            Ok(posture) => {
+                let part = table.map(|table| {
+                    part_row(&part_pose(machine, &posture.pose, table, tool.length), orientation)
+                });
+                AnsweredJoints::with_solution(&posture.pose, part, outcomes.next()?)
+            }
+            Err(refusal) => {
+                AnsweredJoints::without_solution(outcome_of_refusal(machine, refusal), table.is_some())
+            }
+        })
+    });
+    answered.flatten().collect()
+}
+
+fn joints(row: &Row) -> Joints {
     let table =
         (row.len() == 5).then(|| TableAngles { theta1: from_degrees(row[3]), theta2: from_degrees(row[4]) });
-    let posture = match forward_working(machine, [row[0], row[1], row[2]]) {
-        Ok(posture) => posture,
-        Err(refusal) => {
-            return AnsweredJoints::without_solution(outcome_of_refusal(machine, refusal), table.is_some());
-        }
-    };
-    let pose = &posture.pose;
-    let part = table.map(|table| part_row(&part_pose(machine, pose, table, tool.length), orientation));
-    AnsweredJoints {
-        pose: Some([pose.x, pose.y, pose.z, to_degrees(pose.alpha)].into_iter().collect()),
-        part,
-        outcome: outcome_of_solution(machine, &posture, table, clearance),
-        has_theta1: table.is_some(),
-    }
+    ([row[0], row[1], row[2]], table)
 }
 
 fn part_row(part: &PartPose, orientation: Orientation) -> Row {

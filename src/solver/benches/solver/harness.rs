@@ -27,6 +27,12 @@ impl<'a> Candidate<'a> {
         Self { name, target: None, calls: inputs.len(), run: Box::new(run), times: Vec::new() }
     }
 
+    /// A function of all inputs at once.
+    pub(crate) fn whole<T>(name: &'static str, inputs: &'a [T], answer: impl Fn(&[T]) + 'a) -> Self {
+        let run = move || answer(black_box(inputs));
+        Self { name, target: None, calls: inputs.len(), run: Box::new(run), times: Vec::new() }
+    }
+
     /// The same with the most that its ratio should be.
     pub(crate) fn at_most(self, target: f64) -> Self {
         Self { target: Some(target), ..self }

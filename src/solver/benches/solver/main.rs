@@ -22,6 +22,7 @@ mod polynomial;
 mod random;
 mod report;
 mod root_finders;
+mod rows;
 
 use std::hint::black_box;
 
@@ -55,6 +56,9 @@ fn main() {
         inputs.len()
     );
     report::print(&candidates, &found);
+    if chosen("rows") {
+        rows::print(&machine, &inputs, rounds);
+    }
     if chosen("batch") {
         batches::print(&machine, &inputs, rounds.div_ceil(8));
     }

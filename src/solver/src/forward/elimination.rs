@@ -1,11 +1,12 @@
 //! The loop closure of the forward problem in (a, λ), its polynomial of degree four, and the postures of its roots.
 
-use crate::fast_math::wrapped;
+use crate::fast_math::{greater, lesser, wrapped};
 use crate::loop_closure::{CONVERGED_STEP, Equations, LoopClosure, Root};
 use crate::mechanism::Mechanism;
 use crate::pose::PlatformPose;
 use crate::posture::{Mode, Posture, Side};
-use crate::residual::{CheckedPose, RESIDUAL_TOLERANCE, checked, magnitude};
+use crate::registers::ROWS;
+use crate::residual::{CheckedPose, RESIDUAL_TOLERANCE, checked, checked_once, magnitude};
 use crate::trig_polynomial::{TrigPolynomial, linear};
 
 /// With (y, w1) = λ (-v, u), which satisfies the difference of Eqs (3) and (4), and x from their
@@ -34,6 +35,7 @@ pub(super) struct AssemblyClosure {
 }
 
 impl AssemblyClosure {
+    #[inline(always)]
     pub(super) fn new(mechanism: &Mechanism, rho: [f64; 3]) -> Self {
         let g = &mechanism.geometry;
         let [a, b] = [rho[0] - rho[1], rho[0] - rho[2]];
@@ -60,15 +62,18 @@ impl AssemblyClosure {
         }
     }
 
+    #[inline(always)]
     fn d(&self) -> TrigPolynomial<2> {
         linear(-self.d_gap * self.r1_slider, self.d_gap * self.r1_platform, self.d_sin)
     }
 
+    #[inline(always)]
     fn n(&self) -> TrigPolynomial<2> {
         linear(self.n0, 0.0, self.n_sin)
     }
 
     /// Whether D and N vanish at every angle. Then λ is undetermined, and the platform can move.
+    #[inline(always)]
     pub(super) fn has_self_motion(&self, scale: f64) -> bool {
         self.d().bound(0) + self.n().bound(0) <= 1e-13 * scale * scale
     }
@@ -81,7 +86,7 @@ impl AssemblyClosure {
     }
 
     /// The quadratic equation at an angle: a2 λ² + 2 a1 λ + a0.
-    #[inline]
+    #[inline(always)]
     fn quadratic(&self, c: f64, s: f64) -> [f64; 3] {
         let u = self.r1_platform * c - self.r1_slider;
         let spread = self.c - self.k * c;
@@ -91,7 +96,7 @@ impl AssemblyClosure {
     }
 
     /// X1 = x + D1 - d1.
-    #[inline]
+    #[inline(always)]
     pub(super) fn x1(&self, c: f64, s: f64, lambda: f64) -> f64 {
         let u = self.r1_platform * c - self.r1_slider;
         (lambda * u * self.s + self.t[0] + self.t[1] * c + self.t[2] * s) * self.inverse_d
@@ -100,23 +105,79 @@ impl AssemblyClosure {
     /// The posture of a root; `None` if it does not satisfy Eqs (3)-(6).
     #[inline]
     pub(super) fn posture(&self, mechanism: &Mechanism, rho: [f64; 3], root: &Root) -> Option<Posture> {
+        let found = checked(mechanism, self.pose(mechanism, rho, root), rho);
+        let (posture, holds) = labelled(mechanism, rho, root, found);
+        holds.then_some(posture)
+    }
+
+    /// The posture of a root by the elimination alone, and whether it is that of [`Self::posture`].
+    #[inline(always)]
+    pub(super) fn uncorrected_posture(
+        &self,
+        mechanism: &Mechanism,
+        rho: [f64; 3],
+        root: &Root,
+    ) -> (Posture, bool) {
+        let (found, is_rounded) = checked_once(mechanism, self.pose(mechanism, rho, root), rho);
+        let (posture, holds) = labelled(mechanism, rho, root, found);
+        (posture, holds & !is_rounded)
+    }
+
+    /// The platform's pose at a root.
+    #[inline(always)]
+    fn pose(&self, mechanism: &Mechanism, rho: [f64; 3], root: &Root) -> PlatformPose {
         let g = &mechanism.geometry;
-        let (u, v) = (g.R1 * root.c - g.r1, g.R1 * root.s);
-        let w1 = root.w * u;
-        let pose = PlatformPose {
+        PlatformPose {
             x: self.x1(root.c, root.s, root.w) - mechanism.e1,
-            y: -root.w * v,
-            z: rho[0] + w1,
+            y: -root.w * (g.R1 * root.s),
+            z: rho[0] + root.w * (g.R1 * root.c - g.r1),
             alpha: wrapped(root.a),
-        };
-        let CheckedPose { pose, residual } = checked(mechanism, pose, rho);
-        let q = g.R2 * root.s;
-        let heights = [w1, pose.z - q - rho[1], pose.z + q - rho[2]];
-        let working = u > 0.0 && w1 > v.abs() && heights[1] > 0.0 && heights[2] > 0.0;
-        let mode = Mode { legs: heights.map(Side::of), crossed: u < 0.0 };
-        // A NaN satisfies no equation.
-        let holds = residual <= RESIDUAL_TOLERANCE * magnitude(mechanism, pose.z);
-        holds.then_some(Posture { pose, rho, mode, working, merged: root.merged, residual })
+        }
+    }
+}
+
+/// The posture of a pose with its labels, and whether it satisfies Eqs (3)-(6).
+#[inline(always)]
+fn labelled(mechanism: &Mechanism, rho: [f64; 3], root: &Root, found: CheckedPose) -> (Posture, bool) {
+    let CheckedPose { pose, residual } = found;
+    let g = &mechanism.geometry;
+    let (u, v, q) = (g.R1 * root.c - g.r1, g.R1 * root.s, g.R2 * root.s);
+    let w1 = root.w * u;
+    let heights = [w1, pose.z - q - rho[1], pose.z + q - rho[2]];
+    let working = (u > 0.0) & (w1 > v.abs()) & (heights[1] > 0.0) & (heights[2] > 0.0);
+    let mode = Mode { legs: heights.map(Side::of), crossed: u < 0.0 };
+    // A NaN satisfies no equation.
+    let holds = residual <= RESIDUAL_TOLERANCE * magnitude(mechanism, pose.z);
+    (Posture { pose, rho, mode, working, merged: root.merged, residual }, holds)
+}
+
+/// The closures of many rows: the numbers that differ, by coordinate.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AssemblyClosureRows {
+    /// S, d_gap, n0, n_sin, and the first and the last number of T.
+    numbers: [[f64; ROWS]; 6],
+}
+
+impl AssemblyClosureRows {
+    pub(super) fn new() -> Self {
+        Self { numbers: [[0.0; ROWS]; 6] }
+    }
+
+    /// Sets a row's closure.
+    #[inline(always)]
+    pub(super) fn set(&mut self, i: usize, mechanism: &Mechanism, rho: [f64; 3]) {
+        let AssemblyClosure { s, d_gap, n0, n_sin, t: [t0, _, t_sin], .. } =
+            AssemblyClosure::new(mechanism, rho);
+        for (row, number) in self.numbers.iter_mut().zip([s, d_gap, n0, n_sin, t0, t_sin]) {
+            row[i] = number;
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn closure(&self, mechanism: &Mechanism, i: usize) -> AssemblyClosure {
+        let [s, d_gap, n0, n_sin, t0, t_sin] = self.numbers.each_ref().map(|row| row[i]);
+        let common = AssemblyClosure::new(mechanism, [0.0; 3]);
+        AssemblyClosure { s, d_gap, n0, n_sin, t: [t0, common.t[1], t_sin], ..common }
     }
 }
 
@@ -137,7 +198,7 @@ impl LoopClosure<5> for AssemblyClosure {
         (poly, magnitude)
     }
 
-    #[inline]
+    #[inline(always)]
     fn equations(&self, c: f64, s: f64, w: f64) -> Equations {
         let u = self.r1_platform * c - self.r1_slider;
         let du = -self.r1_platform * s;
@@ -156,6 +217,7 @@ impl LoopClosure<5> for AssemblyClosure {
         }
     }
 
+    #[inline(always)]
     fn branches(&self, c: f64, s: f64) -> Option<[f64; 2]> {
         let [a2, a1, a0] = self.quadratic(c, s);
         let disc = a1 * a1 - a2 * a0;
@@ -163,8 +225,8 @@ impl LoopClosure<5> for AssemblyClosure {
             let root = disc.sqrt();
             // The larger root first, the other by Vieta: no cancellation.
             let far = -(a1 + root.copysign(a1));
-            let [x, y] = if far == 0.0 { [0.0, 0.0] } else { [far / a2, a0 / far] };
-            if x > y { [x, y] } else { [y, x] }
+            let (x, y) = if far == 0.0 { (0.0, 0.0) } else { (far / a2, a0 / far) };
+            [greater(x, y), lesser(x, y)]
         })
     }
 
@@ -175,6 +237,7 @@ impl LoopClosure<5> for AssemblyClosure {
         (self.n0 + self.n_sin * s) / d
     }
 
+    #[inline(always)]
     fn w_scale(&self) -> f64 {
         1.0
     }
@@ -189,6 +252,7 @@ impl LoopClosure<5> for AssemblyClosure {
         2.0 * RESIDUAL_TOLERANCE * self.l1_square
     }
 
+    #[inline(always)]
     fn converged_step(&self, _: &Root) -> f64 {
         CONVERGED_STEP
     }

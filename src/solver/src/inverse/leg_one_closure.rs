@@ -1,9 +1,12 @@
 //! Leg I's loop closure along a locus of P.
 
-use super::leg_one_height::{is_nearly_level, signed_root, square_at_pi, square_at_zero};
+use super::leg_one_height::{
+    is_nearly_level, rounded_square_at_pi, rounded_square_at_zero, signed_root, square_at_pi, square_at_zero,
+};
 use super::platform_locus::PlatformLocus;
 use crate::loop_closure::{CONVERGED_STEP, Equations, LoopClosure, Root};
 use crate::mechanism::Mechanism;
+use crate::registers::ROWS;
 use crate::residual::RESIDUAL_TOLERANCE;
 use crate::trig_polynomial::{TrigPolynomial, linear};
 
@@ -32,38 +35,43 @@ pub(super) struct LegOneClosure {
 impl LegOneClosure {
     #[inline]
     pub(super) fn new(mechanism: &Mechanism, locus: &PlatformLocus) -> Self {
-        let g = &mechanism.geometry;
         let at_zero = square_at_zero(mechanism, locus.x);
         let ends = [at_zero, square_at_pi(mechanism, locus.x, at_zero)];
+        let nearly_level = ends.iter().any(|end| is_nearly_level(mechanism, *end));
+        Self { nearly_level, ..Self::of_parts(mechanism, locus.y, ends, converged_step(mechanism, locus)) }
+    }
+
+    /// The closure from y of the locus, E + k and E - k, and the last step, where leg I is not nearly level.
+    #[inline(always)]
+    fn of_parts(mechanism: &Mechanism, y: [f64; 3], ends: [f64; 2], converged_step: f64) -> Self {
+        let g = &mechanism.geometry;
         Self {
-            y: locus.y,
+            y,
             r1_platform: g.R1,
             r1_slider: g.r1,
             c: mechanism.c,
             k: mechanism.k,
             e: ends[0] - mechanism.k,
             ends,
-            nearly_level: ends.iter().any(|end| is_nearly_level(mechanism, *end)),
+            nearly_level: false,
             scale: mechanism.longest,
-            // A long arm bends the closure by as much as it is longer than the machine.
-            converged_step: CONVERGED_STEP * mechanism.longest
-                / (mechanism.longest + locus.y[1].abs() + locus.y[2].abs()),
+            converged_step,
         }
     }
 
     /// u and v.
-    #[inline]
+    #[inline(always)]
     fn arm(&self, c: f64, s: f64) -> [f64; 2] {
         [self.r1_platform * c - self.r1_slider, self.r1_platform * s]
     }
 
-    #[inline]
+    #[inline(always)]
     fn y(&self, c: f64, s: f64) -> f64 {
         self.y[0] + self.y[1] * c + self.y[2] * s
     }
 
     /// w1², from the nearer of the angles 0 and π, where it may be small.
-    #[inline]
+    #[inline(always)]
     fn height_square(&self, y: f64, c: f64, s: f64) -> f64 {
         let bend = self.k * s * s;
         let end = if c > 0.0 { self.ends[0] - bend / (1.0 + c) } else { self.ends[1] + bend / (1.0 - c) };
@@ -81,6 +89,46 @@ impl LegOneClosure {
     }
 }
 
+/// [`LoopClosure::converged_step`]. A long arm bends the closure by as much as it is longer than the machine.
+#[inline(always)]
+fn converged_step(mechanism: &Mechanism, locus: &PlatformLocus) -> f64 {
+    CONVERGED_STEP * mechanism.longest / (mechanism.longest + locus.y[1].abs() + locus.y[2].abs())
+}
+
+/// The closures of many rows, by coordinate.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LegOneClosureRows {
+    y: [[f64; ROWS]; 3],
+    at_zero: [f64; ROWS],
+    converged_step: [f64; ROWS],
+}
+
+impl LegOneClosureRows {
+    pub(super) fn new() -> Self {
+        Self { y: [[0.0; ROWS]; 3], at_zero: [0.0; ROWS], converged_step: [0.0; ROWS] }
+    }
+
+    /// Prepares a row. Returns whether [`Self::closure`] is [`LegOneClosure::new`]: whether leg I is not nearly level.
+    #[inline(always)]
+    pub(super) fn set(&mut self, i: usize, mechanism: &Mechanism, locus: &PlatformLocus) -> bool {
+        let at_zero = rounded_square_at_zero(mechanism, locus.x);
+        let at_pi = rounded_square_at_pi(mechanism, at_zero);
+        for (row, number) in self.y.iter_mut().zip(locus.y) {
+            row[i] = number;
+        }
+        self.at_zero[i] = at_zero;
+        self.converged_step[i] = converged_step(mechanism, locus);
+        !(is_nearly_level(mechanism, at_zero) | is_nearly_level(mechanism, at_pi))
+    }
+
+    #[inline(always)]
+    pub(super) fn closure(&self, mechanism: &Mechanism, i: usize) -> LegOneClosure {
+        let at_zero = self.at_zero[i];
+        let ends = [at_zero, rounded_square_at_pi(mechanism, at_zero)];
+        LegOneClosure::of_parts(mechanism, self.y.each_ref().map(|row| row[i]), ends, self.converged_step[i])
+    }
+}
+
 impl LoopClosure<4> for LegOneClosure {
     #[inline]
     fn polynomial(&self) -> (TrigPolynomial<4>, f64) {
@@ -94,7 +142,7 @@ impl LoopClosure<4> for LegOneClosure {
         (poly, magnitude)
     }
 
-    #[inline]
+    #[inline(always)]
     fn equations(&self, c: f64, s: f64, w: f64) -> Equations {
         let ([u, v], y) = (self.arm(c, s), self.y(c, s));
         let dy = self.y[2] * c - self.y[1] * s;
@@ -110,6 +158,7 @@ impl LoopClosure<4> for LegOneClosure {
         }
     }
 
+    #[inline(always)]
     fn branches(&self, c: f64, s: f64) -> Option<[f64; 2]> {
         let square = self.discriminant(c, s);
         (square >= 0.0).then(|| [square.sqrt(), -square.sqrt()])
@@ -124,10 +173,12 @@ impl LoopClosure<4> for LegOneClosure {
         if square > 0.01 * (self.e.abs() + self.k) { square.sqrt().copysign(moment) } else { -y * u / v }
     }
 
+    #[inline(always)]
     fn w_scale(&self) -> f64 {
         self.scale
     }
 
+    #[inline(always)]
     fn discriminant(&self, c: f64, s: f64) -> f64 {
         self.height_square(self.y(c, s), c, s)
     }
@@ -143,7 +194,7 @@ impl LoopClosure<4> for LegOneClosure {
         2.0 * RESIDUAL_TOLERANCE * size
     }
 
-    #[inline]
+    #[inline(always)]
     fn converged_step(&self, root: &Root) -> f64 {
         // Near a level leg the closure bends within a and w1 themselves.
         let bend =

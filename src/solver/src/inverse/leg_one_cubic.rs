@@ -13,21 +13,22 @@
 //! cancellation. There E + k, the square of the height at a = 0 and y = 0, is computed with twice
 //! the digits, for a rounding of L1² would decide whether the leg reaches.
 
+mod cubic;
+mod rows;
+
 use arrayvec::ArrayVec;
 
-use super::leg_one_height::{is_nearly_level, square_at_pi, square_at_zero};
+use super::leg_one_height::{is_nearly_level, rounded_square_at_zero, square_at_pi, square_at_zero};
+use crate::fast_math::greater;
 use crate::mechanism::Mechanism;
 use crate::residual::RESIDUAL_TOLERANCE;
+use cubic::Cubic;
 
-/// Newton steps. Near a double root convergence is linear, with one bit a step.
-const STEPS: usize = 60;
-/// Relative size of the next step at which the iteration has converged.
-const CONVERGED: f64 = 1e-16;
+pub(super) use rows::CubicRows;
+
 /// Distance below which two roots are one: the square root of the rounding error. It is relative to the roots if both
 /// are near c = 1.
 const RESOLUTION: f64 = 4e-8;
-/// Constant terms of the cubic below this have lost digits to underflow: y is zero.
-const UNDERFLOW: f64 = 1e-280;
 /// Fraction of L1² above which the root of w1² is the better formula for w1. Below it y u / v is.
 const LARGE: f64 = 0.01;
 
@@ -40,10 +41,6 @@ pub(crate) struct LegOneAngle {
     pub(crate) w1: f64,
     pub(crate) merged: bool,
 }
-
-/// g/R1² as a cubic in t, t = 1 - c (`k` positive) or t = 1 + c (`k` negative).
-#[derive(Clone, Copy, Debug)]
-struct Cubic([f64; 4]);
 
 /// Leg I at given x and y of P.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +56,12 @@ impl<'a> LegOneCubic<'a> {
     #[inline]
     pub(crate) fn new(mechanism: &'a Mechanism, x: f64, y: f64) -> Self {
         Self { mechanism, x, y, at_zero: square_at_zero(mechanism, x) }
+    }
+
+    /// The same where leg I is not nearly level.
+    #[inline(always)]
+    fn rounded(mechanism: &'a Mechanism, x: f64, y: f64) -> Self {
+        Self { mechanism, x, y, at_zero: rounded_square_at_zero(mechanism, x) }
     }
 
     /// The angle nearest to zero, where the working mode usually is.
@@ -138,12 +141,12 @@ impl<'a> LegOneCubic<'a> {
     }
 
     /// w1² + y² at c = `sign`.
-    #[inline]
+    #[inline(always)]
     fn square_at(&self, sign: f64) -> f64 {
         if sign > 0.0 { self.at_zero } else { square_at_pi(self.mechanism, self.x, self.at_zero) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn cubic(&self, sign: f64) -> Cubic {
         let d = self.mechanism;
         let k = sign * d.k;
@@ -154,92 +157,20 @@ impl<'a> LegOneCubic<'a> {
     }
 
     /// The angle of c = `sign` (1 - t).
-    #[inline]
+    #[inline(always)]
     fn angle(&self, sign: f64, t: f64, merged: bool) -> LegOneAngle {
         let g = &self.mechanism.geometry;
         let c = sign * (1.0 - t);
-        let sine = (t * (2.0 - t)).max(0.0).sqrt();
+        let sine = greater(t * (2.0 - t), 0.0).sqrt();
         let u = g.R1 * c - g.r1;
         let s = -sine.copysign(self.y * u);
         let square = self.square_at(sign) - sign * self.mechanism.k * t - self.y * self.y;
         let v = g.R1 * sine;
-        let w1 = if square > LARGE * g.L1 * g.L1 || v == 0.0 {
-            square.max(0.0).sqrt()
+        let w1 = if (square > LARGE * g.L1 * g.L1) | (v == 0.0) {
+            greater(square, 0.0).sqrt()
         } else {
             (self.y * u / v).abs()
         };
         LegOneAngle { c, s, w1, merged }
-    }
-}
-
-impl Cubic {
-    #[inline]
-    fn value(&self, t: f64) -> f64 {
-        let [a0, a1, a2, a3] = self.0;
-        a0 + t * (a1 + t * (a2 + t * a3))
-    }
-
-    /// The sum of the terms' magnitudes.
-    fn magnitude(&self, t: f64) -> f64 {
-        let [a0, a1, a2, a3] = self.0.map(f64::abs);
-        a0 + t * (a1 + t * (a2 + t * a3))
-    }
-
-    /// The zero without the cubic term, which is small: where Newton's method begins.
-    #[inline]
-    fn start(&self) -> f64 {
-        let [a0, a1, a2, _] = self.0;
-        let disc = a1 * a1 - 4.0 * a0 * a2;
-        if disc > 0.0 && a1 > 0.0 { -2.0 * a0 / (a1 + disc.sqrt()) } else { 0.0 }
-    }
-
-    /// The least zero, if there is one up to 2.
-    #[inline]
-    fn nearest(&self) -> Option<f64> {
-        self.newton(self.start()).or_else(|| self.newton(0.0))
-    }
-
-    /// The second zero from the first, t, and the quadratic that is left. Its terms all have one
-    /// sign but for the constant, so that nothing cancels unless the zeros are about to merge.
-    #[inline]
-    fn other(&self, t: f64) -> f64 {
-        let [a0, a1, a2, a3] = self.0;
-        let constant = if a0 < -UNDERFLOW { -a0 / t } else { a1 + t * (a2 + t * a3) };
-        let linear = -(a2 + a3 * t);
-        2.0 * constant / (linear + (linear * linear - 4.0 * a3 * constant).max(0.0).sqrt())
-    }
-
-    #[inline]
-    fn slope(&self, t: f64) -> f64 {
-        let [_, a1, a2, a3] = self.0;
-        a1 + t * (2.0 * a2 + t * (3.0 * a3))
-    }
-
-    #[inline]
-    fn newton(&self, start: f64) -> Option<f64> {
-        let [_, _, a2, a3] = self.0;
-        let mut t = start;
-        for _ in 0..STEPS {
-            let slope = self.slope(t);
-            // Behind the maximum: g has no root between.
-            if !(slope > 0.0 && t <= 2.0) {
-                return None;
-            }
-            let step = self.value(t) / slope;
-            t -= step;
-            // The size of the next step, if convergence is quadratic.
-            let next = step * step * (a2 + 3.0 * a3 * t).abs();
-            if next <= CONVERGED * t * slope {
-                break;
-            }
-        }
-        (0.0..=2.0).contains(&t).then_some(t)
-    }
-
-    /// The local maximum: the lesser zero of the slope in t = 1 - c.
-    fn maximum(&self) -> Option<f64> {
-        let [_, a1, a2, a3] = self.0;
-        let disc = a2 * a2 - 3.0 * a3 * a1;
-        (disc >= 0.0).then(|| a1 / (-a2 + disc.sqrt()))
     }
 }

@@ -6,24 +6,36 @@
 
 use crate::mechanism::Mechanism;
 
+/// E + k at a given x, mm², in double precision.
+#[inline(always)]
+pub(super) fn rounded_square_at_zero(mechanism: &Mechanism, x: f64) -> f64 {
+    let x1 = x + mechanism.e1;
+    let length = mechanism.geometry.L1;
+    (length - x1) * (length + x1) - mechanism.gap_square
+}
+
+/// E - k, mm², in double precision, from E + k.
+#[inline(always)]
+pub(super) fn rounded_square_at_pi(mechanism: &Mechanism, at_zero: f64) -> f64 {
+    at_zero - 2.0 * mechanism.k
+}
+
 /// E + k at a given x, mm².
 #[inline]
 pub(super) fn square_at_zero(mechanism: &Mechanism, x: f64) -> f64 {
-    let x1 = x + mechanism.e1;
-    let length = mechanism.geometry.L1;
-    let found = (length - x1) * (length + x1) - mechanism.gap_square;
+    let found = rounded_square_at_zero(mechanism, x);
     if is_nearly_level(mechanism, found) { precise_square(mechanism, x, -1.0) } else { found }
 }
 
 /// E - k at a given x, mm², from E + k.
 #[inline]
 pub(super) fn square_at_pi(mechanism: &Mechanism, x: f64, at_zero: f64) -> f64 {
-    let found = at_zero - 2.0 * mechanism.k;
+    let found = rounded_square_at_pi(mechanism, at_zero);
     if is_nearly_level(mechanism, found) { precise_square(mechanism, x, 1.0) } else { found }
 }
 
 /// Whether the value is so small that leg I may be level.
-#[inline]
+#[inline(always)]
 pub(super) fn is_nearly_level(mechanism: &Mechanism, square: f64) -> bool {
     square.abs() <= mechanism.nearly_level
 }

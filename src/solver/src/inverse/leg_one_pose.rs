@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::fast_math::{greater, sin_cos, wrapped};
+use crate::fast_math::{greater, sin_cos_of_turn, wrapped};
 use crate::loop_closure::Root;
 use crate::mechanism::Mechanism;
 use crate::pose::Point;
@@ -37,10 +37,10 @@ pub(super) struct ClosedLeg {
 
 impl LegOnePose {
     /// The platform at `p` with leg I at a root. `magnitude` is that of the numbers from which both were computed.
-    #[inline]
+    #[inline(always)]
     pub(super) fn new(mechanism: &Mechanism, p: Point, root: &Root, magnitude: f64) -> Self {
         let alpha = wrapped(root.a);
-        let (s, c) = sin_cos(alpha);
+        let (s, c) = sin_cos_of_turn(alpha);
         let leg_one = close_leg_one(mechanism, p, [c, s], root.w);
         let Root { c: root_c, s: root_s, w: w1, merged, .. } = *root;
         Self { p, alpha, c: root_c, s: root_s, checked: [c, s], w1, leg_one, merged, magnitude }
@@ -48,7 +48,7 @@ impl LegOnePose {
 
     /// Leg I closed from the other side, if P does not depend on the angle: (c, -s, -w1) satisfies (A) if (c, s, w1)
     /// does.
-    #[inline]
+    #[inline(always)]
     pub(super) fn mirrored(&self, mechanism: &Mechanism) -> Self {
         let alpha = if self.alpha == PI { PI } else { -self.alpha };
         let checked = [self.checked[0], -self.checked[1]];
@@ -57,20 +57,20 @@ impl LegOnePose {
     }
 
     /// Whether a leg's rod-length error is small enough for a solution. A NaN is not.
-    #[inline]
+    #[inline(always)]
     pub(super) fn accepts(&self, leg: &ClosedLeg) -> bool {
         leg.error <= RESIDUAL_TOLERANCE * self.magnitude
     }
 
     /// Whether leg I closes within the last digits.
-    #[inline]
+    #[inline(always)]
     pub(super) fn is_precise(&self) -> bool {
         self.leg_one.error <= CORRECTION_THRESHOLD * self.magnitude
     }
 }
 
 /// Leg I with the returned direction (c, s) of the platform.
-#[inline]
+#[inline(always)]
 fn close_leg_one(mechanism: &Mechanism, [x, y, z]: Point, [c, s]: [f64; 2], w1: f64) -> ClosedLeg {
     let g = &mechanism.geometry;
     let rho = z - w1;

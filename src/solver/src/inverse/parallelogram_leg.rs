@@ -30,7 +30,7 @@ pub(super) struct LegHeight {
 
 impl<'a> ParallelogramLeg<'a> {
     /// Legs II and III.
-    #[inline]
+    #[inline(always)]
     pub(super) fn both(mechanism: &Mechanism, pose: &'a LegOnePose) -> [Self; 2] {
         let g = &mechanism.geometry;
         let [c, s] = pose.checked;
@@ -45,19 +45,20 @@ impl<'a> ParallelogramLeg<'a> {
     }
 
     /// The square of the leg's height.
-    #[inline]
+    #[inline(always)]
     pub(super) fn height_square(&self) -> f64 {
         let y = self.pose.p[1] + self.root[0];
         (self.length - self.x) * (self.length + self.x) - y * y
     }
 
     /// The rounding error of that square.
+    #[inline(always)]
     pub(super) fn rounding(&self) -> f64 {
         ZERO_HEIGHT * self.length * self.length
     }
 
     /// The leg's height; `None` if it does not reach.
-    #[inline]
+    #[inline(always)]
     pub(super) fn height(&self) -> Option<LegHeight> {
         let (square, rounding) = (self.height_square(), self.rounding());
         let merged = square <= rounding;
@@ -65,12 +66,12 @@ impl<'a> ParallelogramLeg<'a> {
     }
 
     /// The leg with its slider above, and below.
-    #[inline]
+    #[inline(always)]
     pub(super) fn sides(&self, height: f64) -> [ClosedLeg; 2] {
         [self.close(Side::Above, height), self.close(Side::Below, height)]
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn close(&self, side: Side, height: f64) -> ClosedLeg {
         let [_, y, z] = self.pose.p;
         let rho = z + self.root[1] - side.sign() * height;

@@ -146,22 +146,34 @@ fn locus(machine: &Machine, target: &PartPose, tool_length: f64) -> Result<Platf
     turned_locus(machine, target, turns, tool_length)
 }
 
-/// Eq (26) solved for P with theta2 = -phi2 (9) and theta1 = a - phi1 (14).
 fn turned_locus(
     machine: &Machine,
     target: &PartPose,
-    [[s1, c1], [s2, c2]]: [[f64; 2]; 2],
+    turns: [[f64; 2]; 2],
     tool_length: f64,
 ) -> Result<PlatformLocus, KinematicsError> {
     let PartPose { x, y, z, phi1, phi2 } = *target;
     check_numbers(&machine.mechanism, &[x, y, z, tool_length], &[phi1, phi2])?;
+    let locus = table_locus(machine, target, turns, tool_length);
+    check_proportion(&machine.mechanism, &locus.y[1..])?;
+    Ok(locus)
+}
+
+/// Eq (26) solved for P with theta2 = -phi2 (9) and theta1 = a - phi1 (14). P moves on a circle about the tilting axis,
+/// with the radius of the last two numbers of y. `turns` are sine and cosine of phi1 and phi2.
+#[inline(always)]
+pub(super) fn table_locus(
+    machine: &Machine,
+    target: &PartPose,
+    [[s1, c1], [s2, c2]]: [[f64; 2]; 2],
+    tool_length: f64,
+) -> PlatformLocus {
+    let PartPose { x, y, z, .. } = *target;
     let table = machine.table();
     // theta2 = -phi2.
     let v1 = y * c2 - x * s2;
     let a = tool_length * s1 - v1;
     let b = table.dt - z - tool_length * c1;
     let (along, across) = (a * c1 + b * s1, a * s1 - b * c1);
-    // P moves on a circle about the tilting axis, with the radius of (along, across).
-    check_proportion(&machine.mechanism, &[along, across])?;
-    Ok(PlatformLocus { x: x * c2 + y * s2, y: [0.0, along, across], z: [table.da, -across, along] })
+    PlatformLocus { x: x * c2 + y * s2, y: [0.0, along, across], z: [table.da, -across, along] }
 }

@@ -123,10 +123,23 @@ fn working_at_either_root(
 
 #[inline]
 fn pose(mechanism: &Mechanism, p: Point, angle: &LegOneAngle) -> LegOnePose {
-    let LegOneAngle { c, s, w1, merged } = *angle;
-    let root = Root { a: angle_of(c, s), c, s, w: w1, merged };
-    let pose = LegOnePose::new(mechanism, p, &root, magnitude(mechanism, p[2]));
-    if merged || pose.is_precise() { pose } else { polished(mechanism, p, &root).unwrap_or(pose) }
+    let pose = pose_at(mechanism, p, angle);
+    if angle.merged || pose.is_precise() {
+        pose
+    } else {
+        polished(mechanism, p, &root(angle)).unwrap_or(pose)
+    }
+}
+
+/// The pose at an angle from the cubic alone.
+#[inline(always)]
+pub(super) fn pose_at(mechanism: &Mechanism, p: Point, angle: &LegOneAngle) -> LegOnePose {
+    LegOnePose::new(mechanism, p, &root(angle), magnitude(mechanism, p[2]))
+}
+
+#[inline(always)]
+fn root(&LegOneAngle { c, s, w1, merged }: &LegOneAngle) -> Root {
+    Root { a: angle_of(c, s), c, s, w: w1, merged }
 }
 
 /// Newton's method on (A) itself, if the cubic has lost digits because w1 and y are both near zero.

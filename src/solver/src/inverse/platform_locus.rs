@@ -24,7 +24,7 @@ impl PlatformLocus {
     }
 
     /// P at an angle.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, c: f64, s: f64) -> Point {
         let ([y0, yc, ys], [z0, zc, zs]) = (self.y, self.z);
         [self.x, y0 + yc * c + ys * s, z0 + zc * c + zs * s]
@@ -32,11 +32,18 @@ impl PlatformLocus {
 
     /// The point, if P does not depend on the angle.
     pub(super) fn fixed_point(&self) -> Option<Point> {
-        (self.y[1..] == [0.0, 0.0] && self.z[1..] == [0.0, 0.0]).then_some([self.x, self.y[0], self.z[0]])
+        (!self.moves()).then_some([self.x, self.y[0], self.z[0]])
+    }
+
+    /// Whether P depends on the angle.
+    #[inline(always)]
+    pub(super) fn moves(&self) -> bool {
+        let ([_, yc, ys], [_, zc, zs]) = (self.y, self.z);
+        (yc != 0.0) | (ys != 0.0) | (zc != 0.0) | (zs != 0.0)
     }
 
     /// The platform's pose at a root of leg I's closure.
-    #[inline]
+    #[inline(always)]
     pub(super) fn pose(&self, mechanism: &Mechanism, root: &Root) -> LegOnePose {
         let p = self.at(root.c, root.s);
         let magnitude = magnitude(mechanism, p[2]) + self.y[1].abs() + self.y[2].abs();

@@ -5,6 +5,7 @@ use super::leg_one_pose::{ClosedLeg, LegOnePose};
 use super::parallelogram_leg::{LegHeight, ParallelogramLeg};
 use crate::error::KinematicsError;
 use crate::fast_math::greater;
+use crate::limit::Margin;
 use crate::machine::Machine;
 use crate::mechanism::Mechanism;
 use crate::pose::PlatformPose;
@@ -87,17 +88,17 @@ fn add_accepted(
 }
 
 /// The posture of a closed leg I and these two.
-#[inline]
+#[inline(always)]
 fn posture(mechanism: &Mechanism, pose: &LegOnePose, [leg2, leg3]: [&ClosedLeg; 2], merged: bool) -> Posture {
     let g = &mechanism.geometry;
     let (u, v) = (g.R1 * pose.c - g.r1, g.R1 * pose.s);
-    let above = leg2.side == Side::Above && leg3.side == Side::Above;
+    let above = (leg2.side == Side::Above) & (leg3.side == Side::Above);
     let [x, y, z] = pose.p;
     Posture {
         pose: PlatformPose { x, y, z, alpha: pose.alpha },
         rho: [pose.leg_one.rho, leg2.rho, leg3.rho],
         mode: Mode { legs: [pose.leg_one.side, leg2.side, leg3.side], crossed: u < 0.0 },
-        working: above && !merged && u > 0.0 && pose.w1 > v.abs(),
+        working: above & !merged & (u > 0.0) & (pose.w1 > v.abs()),
         merged: merged || pose.merged,
         residual: greater(pose.leg_one.error, greater(leg2.error, leg3.error)),
     }
@@ -106,21 +107,31 @@ fn posture(mechanism: &Mechanism, pose: &LegOnePose, [leg2, leg3]: [&ClosedLeg; 
 /// The posture with all sliders above, if it is in the working mode; otherwise the constraint that prevents it.
 #[inline]
 pub(super) fn working_posture(machine: &Machine, pose: &LegOnePose) -> Result<Posture, KinematicsError> {
-    let [second, third] = ParallelogramLeg::both(&machine.mechanism, pose);
+    let (posture, is_solution) = posture_above(&machine.mechanism, pose);
+    if is_solution { Ok(posture) } else { Err(KinematicsError::Unreachable(not_working(machine, pose))) }
+}
+
+/// The posture with all sliders above, and whether it is a solution in the working mode.
+#[inline(always)]
+pub(super) fn posture_above(mechanism: &Mechanism, pose: &LegOnePose) -> (Posture, bool) {
+    let [second, third] = ParallelogramLeg::both(mechanism, pose);
     let (square2, square3) = (second.height_square(), third.height_square());
     // A leg whose two sides have merged belongs to no mode.
-    if square2 <= second.rounding() || square3 <= third.rounding() {
-        let margin = infeasibility::leg_length(square2 - second.rounding(), square3 - third.rounding());
-        return Err(KinematicsError::Unreachable(margin));
-    }
+    let apart = (square2 > second.rounding()) & (square3 > third.rounding());
     let (leg2, leg3) = (second.close(Side::Above, square2.sqrt()), third.close(Side::Above, square3.sqrt()));
-    let posture = posture(&machine.mechanism, pose, [&leg2, &leg3], false);
-    let accepted = [pose.leg_one, leg2, leg3].iter().all(|leg| pose.accepts(leg));
-    if posture.working && accepted {
-        return Ok(posture);
+    let accepted = pose.accepts(&pose.leg_one) & pose.accepts(&leg2) & pose.accepts(&leg3);
+    let posture = posture(mechanism, pose, [&leg2, &leg3], false);
+    (posture, apart & accepted & posture.working)
+}
+
+/// The constraint that keeps the posture with all sliders above out of the working mode.
+#[cold]
+fn not_working(machine: &Machine, pose: &LegOnePose) -> Margin {
+    let legs = ParallelogramLeg::both(&machine.mechanism, pose);
+    let [excess2, excess3] = legs.map(|leg| leg.height_square() - leg.rounding());
+    if excess2 <= 0.0 || excess3 <= 0.0 {
+        return infeasibility::leg_length(excess2, excess3);
     }
     // A posture in the working mode whose legs close with too large an error is at the limit of their lengths.
-    let margin =
-        infeasibility::out_of_mode(machine, pose).unwrap_or_else(|| infeasibility::leg_length(-0.0, -0.0));
-    Err(KinematicsError::Unreachable(margin))
+    infeasibility::out_of_mode(machine, pose).unwrap_or_else(|| infeasibility::leg_length(-0.0, -0.0))
 }

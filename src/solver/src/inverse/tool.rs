@@ -111,8 +111,13 @@ pub fn tool_every_working(
     every_working(machine, &locus(machine, u, tool_length)?)
 }
 
-/// Eq (27) solved for P.
 fn locus(machine: &Machine, [x, y, z]: Point, tool_length: f64) -> Result<PlatformLocus, KinematicsError> {
     check_numbers(&machine.mechanism, &[x, y, z, tool_length], &[])?;
-    Ok(PlatformLocus { x, y: [y, 0.0, tool_length], z: [z, -tool_length, 0.0] })
+    Ok(tool_locus([x, y, z], tool_length))
+}
+
+/// Eq (27) solved for P.
+#[inline(always)]
+pub(super) fn tool_locus([x, y, z]: Point, tool_length: f64) -> PlatformLocus {
+    PlatformLocus { x, y: [y, 0.0, tool_length], z: [z, -tool_length, 0.0] }
 }

@@ -23,7 +23,7 @@ pub(crate) struct Equations {
 
 impl Equations {
     /// The determinant of the derivatives.
-    #[inline]
+    #[inline(always)]
     pub(super) fn determinant(&self) -> f64 {
         self.da[0] * self.dw[1] - self.da[1] * self.dw[0]
     }
@@ -69,7 +69,7 @@ pub(crate) type Roots = ArrayVec<Root, 8>;
 
 impl Root {
     /// A simple root, or a start for Newton's method.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn at(a: f64, [c, s]: [f64; 2], w: f64) -> Self {
         Self { a, c, s, w, merged: false }
     }

@@ -14,14 +14,14 @@ const ROUNDING: f64 = 1e-12;
 pub(crate) type Columns = [[f64; 4]; 3];
 
 /// Vectors by coordinate.
-#[inline]
+#[inline(always)]
 pub(crate) fn columns(vectors: &[[f64; 3]; 4]) -> Columns {
     let column = |axis: usize| [0, 1, 2, 3].map(|i: usize| vectors[i][axis]);
     [column(0), column(1), column(2)]
 }
 
 /// Rotates the columns back by alpha about x: from the base frame into the platform frame.
-#[inline]
+#[inline(always)]
 pub(super) fn in_platform(rods: &Rods, [x, y, z]: &Columns) -> Columns {
     let (c, s) = (rods.c, rods.s);
     let (mut turned_y, mut turned_z) = ([0.0; 4], [0.0; 4]);
@@ -37,7 +37,7 @@ pub(super) fn in_platform(rods: &Rods, [x, y, z]: &Columns) -> Columns {
 /// The angle between two unit vectors follows from their chord. Unlike the arc cosine of their product, this keeps
 /// its digits near home, where the angle is zero. For vectors more than a right angle apart the chord to the opposite
 /// of one vector is used, and the angle is subtracted from half a turn.
-#[inline]
+#[inline(always)]
 pub(super) fn margins(half_angle: f64, a: &Columns, b: &Columns) -> [f64; 4] {
     let mut margins = [0.0; 4];
     for i in 0..4 {
@@ -52,14 +52,14 @@ pub(super) fn margins(half_angle: f64, a: &Columns, b: &Columns) -> [f64; 4] {
 }
 
 /// A rod's direction in the platform frame.
-#[inline]
+#[inline(always)]
 pub(super) fn direction_in_platform(rods: &Rods, rod: usize) -> [f64; 3] {
     let ([x, y, z], c, s) = (rods.directions[rod], rods.c, rods.s);
     [x, c * y + s * z, c * z - s * y]
 }
 
 /// A number that is positive only if the angles of all four rods from their axes are clearly below an angle.
-#[inline]
+#[inline(always)]
 pub(super) fn bound(axes: &Columns, direction: impl Fn(usize) -> [f64; 3], angle: f64) -> f64 {
     let dot = |rod: usize| {
         let [x, y, z] = direction(rod);
@@ -71,7 +71,7 @@ pub(super) fn bound(axes: &Columns, direction: impl Fn(usize) -> [f64; 3], angle
 /// A number that is positive only if an angle, given by its cosine, is clearly below another. For an acute angle it
 /// uses an upper bound of its square: the beginning of the power series in the square of the chord, whose terms are
 /// all positive, with the remainder that it has at a right angle.
-#[inline]
+#[inline(always)]
 fn angle_bound(cosine: f64, angle: f64) -> f64 {
     let square = 2.0 - 2.0 * cosine + ROUNDING;
     let most = square * (1.0 + square * (1.0 / 12.0 + REMAINDER * square));

@@ -11,38 +11,36 @@ const PARALLEL: f64 = 1e-14;
 /// Allowance for rounding in the square of a distance, as a factor.
 const ROUNDING: f64 = 1.0 + 1e-12;
 
-/// The nearest pair so far: square of the distance, and the rods as indices of the six.
+/// The nearest pair so far: square of the distance, and the rods' numbers.
 struct NearestPair {
     square: f64,
-    rods: [usize; 2],
+    rods: [u8; 2],
 }
 
 impl NearestPair {
     /// Replaces the pair by a nearer one.
-    #[inline]
+    #[inline(always)]
     fn compare(&mut self, square: f64, rods: [usize; 2]) {
         if square < self.square {
-            *self = Self { square, rods };
+            *self = Self { square, rods: rods.map(|rod| RODS[rod]) };
         }
     }
 
     /// The distance, and the rods' numbers.
-    #[inline]
+    #[inline(always)]
     fn distance(&self) -> (f64, [u8; 2]) {
-        (self.square.sqrt(), self.rods.map(|rod| RODS[rod]))
+        (self.square.sqrt(), self.rods)
     }
 }
 
 /// The least distance between two rods' axes as segments, mm, and the two rods' numbers.
-#[inline]
+#[inline(always)]
 pub(crate) fn least_distance(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     let ends = rods.platform_ends(g);
     // Leg I's own rods come first: they are usually the nearest, and the other pairs are then quickly seen to be
     // further apart.
-    let gap = difference(ends[0], ends[1]);
-    let square = square_distance(&gap, &rods.vectors[0], &rods.vectors[1]);
-    let mut nearest = NearestPair { square, rods: [0, 1] };
-    compare_parallelograms(&mut nearest, g, rods);
+    let (square, leg) = of_one_leg(g, &ends, rods);
+    let mut nearest = NearestPair { square, rods: rods_of_leg(leg) };
     compare_between_legs(&mut nearest, g, &ends, rods);
     nearest.distance()
 }
@@ -50,38 +48,74 @@ pub(crate) fn least_distance(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
 /// The same of a parallelogram's two rods.
 #[inline]
 pub(super) fn least_distance_in_parallelograms(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
-    let mut nearest = NearestPair { square: f64::INFINITY, rods: [2, 3] };
-    compare_parallelograms(&mut nearest, g, rods);
-    nearest.distance()
+    let [second, third] = squares_of_parallelograms(g, rods);
+    let (square, leg) = if third < second { (third, 2) } else { (second, 1) };
+    (square.sqrt(), rods_of_leg(leg))
 }
 
 /// The same of all other pairs.
 #[inline]
 pub(super) fn least_distance_of_others(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
     let ends = rods.platform_ends(g);
-    let square = square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1]);
-    let mut nearest = NearestPair { square, rods: [0, 1] };
+    let mut nearest = NearestPair { square: square_of_leg_one(&ends, rods), rods: rods_of_leg(0) };
     compare_between_legs(&mut nearest, g, &ends, rods);
     nearest.distance()
+}
+
+/// The least distance between the two rods of a leg, and the leg: 0, 1 or 2.
+pub(super) struct NearestWithinLegs {
+    pub(super) distance: f64,
+    pub(super) leg: u64,
+    /// Whether rods of different legs are certainly not nearer.
+    pub(super) others_are_farther: bool,
+}
+
+/// The least distance between the two rods of a leg, mm.
+#[inline(always)]
+pub(super) fn nearest_within_legs(g: &Geometry, rods: &Rods) -> NearestWithinLegs {
+    let ends = rods.platform_ends(g);
+    let (square, leg) = of_one_leg(g, &ends, rods);
+    let others_are_farther = others_are_farther(square, g, &ends, rods);
+    NearestWithinLegs { distance: square.sqrt(), leg, others_are_farther }
+}
+
+/// The numbers of a leg's two rods, from 0, 1 or 2 for the leg.
+#[inline]
+pub(super) fn rods_of_leg(leg: u64) -> [u8; 2] {
+    // Without branches: which leg's rods are nearest is unpredictable.
+    let of = |leg: [u8; 2], chosen: bool| leg.map(|rod| rod * u8::from(chosen));
+    let [first, second, third] = [of([11, 12], leg == 0), of([21, 22], leg == 1), of([31, 32], leg == 2)];
+    [first[0] + second[0] + third[0], first[1] + second[1] + third[1]]
+}
+
+/// The square of the least distance between the two rods of a leg, and 0, 1 or 2 for the leg.
+#[inline(always)]
+fn of_one_leg(g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> (f64, u64) {
+    let first = square_of_leg_one(ends, rods);
+    let [second, third] = squares_of_parallelograms(g, rods);
+    let (square, leg) = if second < first { (second, 1) } else { (first, 0) };
+    if third < square { (third, 2) } else { (square, leg) }
 }
 
 /// The least distances between two rods' axes, mm: of leg I's, of a parallelogram's, and of rods of
 /// different legs. Their minimum is [`least_distance`]'s; it has a kink where another of them becomes the
 /// least, and each of them has none there.
-#[inline]
+#[inline(always)]
 pub(crate) fn least_distances_by_legs(g: &Geometry, rods: &Rods) -> [f64; 3] {
     let ends = rods.platform_ends(g);
-    let first = square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1]);
-    let [mut parallel, mut between] = [(); 2].map(|()| NearestPair { square: f64::INFINITY, rods: [0, 1] });
-    compare_parallelograms(&mut parallel, g, rods);
-    compare_between_legs(&mut between, g, &ends, rods);
-    [first, parallel.square, between.square].map(f64::sqrt)
+    let first = square_of_leg_one(&ends, rods);
+    let [second, third] = squares_of_parallelograms(g, rods);
+    let mut between = NearestPair { square: f64::INFINITY, rods: [11, 12] };
+    for pair in BETWEEN_LEGS {
+        compare_pair(&mut between, &ends, rods, pair);
+    }
+    [first, lesser(second, third), between.square].map(f64::sqrt)
 }
 
 /// Positive only if all rods are clearly further apart than a distance, which is not negative: leg
 /// I's across the platform, leg I from the others along x, legs II and III from each other along
 /// y, a parallelogram's two as the lines that they lie on.
-#[inline]
+#[inline(always)]
 pub(super) fn separation_bound(g: &Geometry, pose: &PlatformPose, rods: &Rods, distance: f64) -> f64 {
     let least = ROUNDING * distance * distance;
     let half = g.parallelogram_half_width;
@@ -99,54 +133,66 @@ pub(super) fn separation_bound(g: &Geometry, pose: &PlatformPose, rods: &Rods, d
 }
 
 /// Distance between two intervals, each by its ends in any order; not positive if they meet.
-#[inline]
+#[inline(always)]
 fn interval_distance([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
     greater(lesser(a, b) - greater(c, d), lesser(c, d) - greater(a, b))
 }
 
-/// The two rods of each parallelogram.
-#[inline]
-fn compare_parallelograms(nearest: &mut NearestPair, g: &Geometry, rods: &Rods) {
-    let half = g.parallelogram_half_width;
-    for (leg, length, first) in [(2, g.L2, 2), (3, g.L3, 4)] {
-        let square = square_parallel(2.0 * half, length, &rods.directions[leg]);
-        nearest.compare(square, [first, first + 1]);
-    }
+/// The square of the distance between leg I's two rods.
+#[inline(always)]
+fn square_of_leg_one(ends: &[[f64; 3]; 6], rods: &Rods) -> f64 {
+    square_distance(&difference(ends[0], ends[1]), &rods.vectors[0], &rods.vectors[1])
 }
 
-/// The pairs of rods of different legs. Rods 22 and 32 are at the same distance as 21 and 31.
-#[inline]
-fn compare_between_legs(nearest: &mut NearestPair, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
+/// The squares of the distances between the two rods of each parallelogram.
+#[inline(always)]
+fn squares_of_parallelograms(g: &Geometry, rods: &Rods) -> [f64; 2] {
+    let width = 2.0 * g.parallelogram_half_width;
+    let [.., second, third] = &rods.directions;
+    [square_parallel(width, g.L2, second), square_parallel(width, g.L3, third)]
+}
+
+/// Whether all rods of different legs are at least as far apart as the nearest pair, whose distance's square is given.
+#[inline(always)]
+fn others_are_farther(nearest: f64, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> bool {
     let half = g.parallelogram_half_width;
-    let pairs = [[0, 2], [0, 4], [1, 2], [1, 4]];
-    // All at once, because nearly always all are farther.
-    let farther = pairs.map(|[i, j]| is_farther(nearest, &to_middle(ends, i, j, half), rods, [i, j], half));
-    for ([i, j], _) in pairs.into_iter().zip(farther).filter(|(_, is_farther)| !is_farther) {
-        compare_pair(nearest, ends, rods, [i, j]);
-        compare_pair(nearest, ends, rods, [i, j + 1]);
-    }
-    if !is_farther(nearest, &difference(ends[2], ends[4]), rods, [2, 4], 2.0 * half) {
-        for pair in [[2, 4], [2, 5], [3, 4]] {
+    let from_leg_one =
+        |i: usize, j: usize| is_farther(nearest, &to_middle(ends, i, j, half), rods, [i, j], half);
+    let gap = difference(ends[2], ends[4]);
+    let parallelograms = is_farther(nearest, &gap, rods, [2, 4], 2.0 * half);
+    from_leg_one(0, 2) & from_leg_one(0, 4) & from_leg_one(1, 2) & from_leg_one(1, 4) & parallelograms
+}
+
+/// Pairs of rods of different legs. Rods 22 and 32 are at the same distance as 21 and 31.
+const BETWEEN_LEGS: [[usize; 2]; 11] =
+    [[0, 2], [0, 3], [0, 4], [0, 5], [1, 2], [1, 3], [1, 4], [1, 5], [2, 4], [2, 5], [3, 4]];
+
+/// The pairs of rods of different legs.
+#[inline(always)]
+fn compare_between_legs(nearest: &mut NearestPair, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
+    // Nearly always all are farther.
+    if !others_are_farther(nearest.square, g, ends, rods) {
+        for pair in BETWEEN_LEGS {
             compare_pair(nearest, ends, rods, pair);
         }
     }
 }
 
-/// Whether two rods are at least as far apart as the nearest pair, decided without their nearest points, if one of
-/// them is shifted along x by up to `shift` either way: the segments' projections on the gap's direction are at least
-/// so far apart, times |gap|.
-#[inline]
-fn is_farther(nearest: &NearestPair, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
+/// Whether two rods are at least as far apart as the nearest pair, whose distance's square is given, decided without
+/// their nearest points, if one of them is shifted along x by up to `shift` either way: the segments' projections on
+/// the gap's direction are at least so far apart, times |gap|.
+#[inline(always)]
+fn is_farther(nearest: f64, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
     let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
     let square_gap = dot(gap, gap);
     let apart = square_gap - greater(dot(a, gap), 0.0) + lesser(dot(b, gap), 0.0) - shift * gap[0].abs();
-    apart > 0.0 && apart * apart >= nearest.square * square_gap
+    (apart > 0.0) & (apart * apart >= nearest * square_gap)
 }
 
-#[inline]
+#[inline(always)]
 fn compare_pair(nearest: &mut NearestPair, ends: &[[f64; 3]; 6], rods: &Rods, [i, j]: [usize; 2]) {
     let gap = difference(ends[i], ends[j]);
-    if is_farther(nearest, &gap, rods, [i, j], 0.0) {
+    if is_farther(nearest.square, &gap, rods, [i, j], 0.0) {
         return;
     }
     let square = square_distance(&gap, &rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
@@ -156,7 +202,7 @@ fn compare_pair(nearest: &mut NearestPair, ends: &[[f64; 3]; 6], rods: &Rods, [i
 /// Squared distance of a parallelogram's two rods, `width` apart along x: a foot of the
 /// perpendicular where there is one, else an end. It is the same to the last bit for legs II and
 /// III of one length, which are always equally bad.
-#[inline]
+#[inline(always)]
 fn square_parallel(width: f64, length: f64, [x, ..]: &[f64; 3]) -> f64 {
     let along = width * x.abs();
     if along <= length {
@@ -169,6 +215,7 @@ fn square_parallel(width: f64, length: f64, [x, ..]: &[f64; 3]) -> f64 {
 /// Squared distance of two segments that run back from their platform ends, which lie `gap`
 /// apart, along -a and -b: the nearest points of the lines, then each clamped to its segment in
 /// turn (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.9).
+#[inline(always)]
 pub(crate) fn square_distance(gap: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> f64 {
     let (along_a, along_b) = (dot(a, gap), dot(b, gap));
     let (square_a, square_b, across) = (dot(a, a), dot(b, b), dot(a, b));
@@ -184,18 +231,18 @@ pub(crate) fn square_distance(gap: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> f64
 
 /// The gap between rod `i`'s platform end and the middle of a parallelogram's two, of which `j` is
 /// the one at the greater x.
-#[inline]
+#[inline(always)]
 fn to_middle(ends: &[[f64; 3]; 6], i: usize, j: usize, half_width: f64) -> [f64; 3] {
     let [x, y, z] = difference(ends[i], ends[j]);
     [x + half_width, y, z]
 }
 
-#[inline]
+#[inline(always)]
 fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-#[inline]
+#[inline(always)]
 fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -11,27 +11,26 @@ use crate::limit::Margin;
 use crate::machine::Machine;
 use crate::pose::{PlatformPose, TableAngles};
 use crate::posture::Posture;
+use crate::registers::{Kernel, ROWS, Registers};
 use crate::rods::Rods;
 
-/// Number of postures in a batch.
-pub(crate) const BATCH_SIZE: usize = 32;
 /// Upper bound of the rounding error of a fraction of a range.
 const ROUNDING: f64 = 1e-12;
 
 /// Poses and sliders by coordinate, so that the processor computes several postures at a time.
 pub(crate) struct MarginBatch {
     /// The caller's indices of the postures.
-    indices: ArrayVec<usize, BATCH_SIZE>,
-    x: [f64; BATCH_SIZE],
-    y: [f64; BATCH_SIZE],
-    z: [f64; BATCH_SIZE],
-    alpha: [f64; BATCH_SIZE],
-    rho: [[f64; BATCH_SIZE]; 3],
+    indices: ArrayVec<usize, ROWS>,
+    x: [f64; ROWS],
+    y: [f64; ROWS],
+    z: [f64; ROWS],
+    alpha: [f64; ROWS],
+    rho: [[f64; ROWS]; 3],
 }
 
 impl MarginBatch {
     pub(crate) fn new() -> Self {
-        let zero = [0.0; BATCH_SIZE];
+        let zero = [0.0; ROWS];
         Self { indices: ArrayVec::new(), x: zero, y: zero, z: zero, alpha: zero, rho: [zero; 3] }
     }
 
@@ -39,7 +38,7 @@ impl MarginBatch {
         self.indices.clear();
     }
 
-    /// Adds a posture. The caller adds at most [`BATCH_SIZE`].
+    /// Adds a posture. The caller adds at most [`ROWS`].
     #[inline]
     pub(crate) fn push(&mut self, index: usize, posture: &Posture) {
         let i = self.indices.len();
@@ -63,12 +62,13 @@ impl MarginBatch {
         clearance: Option<&Clearance>,
         mut report: impl FnMut(usize, Margin),
     ) {
-        let (crossing, strokes_decide) = self.quick_bounds(machine);
+        let mut bounds = QuickBounds { batch: self, crossing: [0.0; ROWS], strokes_decide: [0.0; ROWS] };
+        Registers::Widest.run(&mut bounds, machine);
         for (i, &index) in self.indices.iter().enumerate() {
             let (pose, rho) = self.posture(i);
             let table = table(pose.alpha);
-            let worst = if strokes_decide[i] > 0.0 {
-                WorstMargin::of_strokes(machine, crossing[i], rho, table)
+            let worst = if bounds.strokes_decide[i] > 0.0 {
+                WorstMargin::of_strokes(machine, bounds.crossing[i], rho, table)
             } else {
                 of_all_margins(machine, &pose, rho, table)
             };
@@ -78,20 +78,27 @@ impl MarginBatch {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn posture(&self, i: usize) -> (PlatformPose, [f64; 3]) {
         let pose = PlatformPose { x: self.x[i], y: self.y[i], z: self.z[i], alpha: self.alpha[i] };
         (pose, [self.rho[0][i], self.rho[1][i], self.rho[2][i]])
     }
+}
 
-    /// Applies [`quick_bound`] to each posture.
-    fn quick_bounds(&self, machine: &Machine) -> ([f64; BATCH_SIZE], [f64; BATCH_SIZE]) {
-        let (mut crossing, mut bound) = ([0.0; BATCH_SIZE], [0.0; BATCH_SIZE]);
-        for i in 0..BATCH_SIZE {
-            let (pose, rho) = self.posture(i);
-            (crossing[i], bound[i]) = quick_bound(machine, &pose, rho);
+/// The answers of [`quick_bound`] for a batch.
+struct QuickBounds<'a> {
+    batch: &'a MarginBatch,
+    crossing: [f64; ROWS],
+    strokes_decide: [f64; ROWS],
+}
+
+impl Kernel for QuickBounds<'_> {
+    #[inline(always)]
+    fn run(&mut self, machine: &Machine) {
+        for i in 0..ROWS {
+            let (pose, rho) = self.batch.posture(i);
+            (self.crossing[i], self.strokes_decide[i]) = quick_bound(machine, &pose, rho);
         }
-        (crossing, bound)
     }
 }
 
@@ -107,7 +114,7 @@ fn of_all_margins(
 
 /// The margin of crossed rods, and a number that is positive only if that margin or a stroke's is certainly the worst
 /// of the parallel module. The computation has no branch.
-#[inline]
+#[inline(always)]
 fn quick_bound(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> (f64, f64) {
     let (g, limits, home) = (machine.geometry(), machine.limits(), &machine.home);
     let factors = &machine.normalization;

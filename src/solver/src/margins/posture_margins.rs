@@ -88,11 +88,35 @@ impl Margins {
         rods: &Rods,
         table: Option<TableAngles>,
     ) -> Self {
+        let nearest = interference::least_distance(machine.geometry(), rods);
+        let limits = machine.limits();
+        Self {
+            tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
+            rotary: table.zip(limits.rotary).map(|(table, range)| range_margins(range, table.theta2)),
+            ..Self::of_parallel_module(machine, pose, rho, rods, nearest)
+        }
+    }
+
+    /// The margins of the sliders' strokes.
+    #[inline(always)]
+    pub(super) fn of_strokes(machine: &Machine, rho: [f64; 3]) -> [[f64; 2]; 3] {
+        let stroke = &machine.limits().stroke;
+        [0, 1, 2].map(|i: usize| range_margins(stroke[i], rho[i]))
+    }
+
+    /// The margins without the table's, from the least distance between two rods' axes and the two rods.
+    #[inline(always)]
+    pub(super) fn of_parallel_module(
+        machine: &Machine,
+        pose: &PlatformPose,
+        rho: [f64; 3],
+        rods: &Rods,
+        (distance, nearest_rods): (f64, [u8; 2]),
+    ) -> Self {
         let (g, limits, home) = (machine.geometry(), machine.limits(), &machine.home);
-        let (distance, nearest_rods) = interference::least_distance(g, rods);
         let directions = cone::columns(&rods.directions);
         Self {
-            stroke: std::array::from_fn(|i| range_margins(limits.stroke[i], rho[i])),
+            stroke: Self::of_strokes(machine, rho),
             leg_length: heights(g, pose, rho, rods),
             serial_singularity: rods.directions.map(|direction| direction[2] - limits.serial_margin),
             parallel_singularity: det_margin(machine, rods),
@@ -105,8 +129,8 @@ impl Margins {
             rod_crossing: g.R1 * rods.c - g.r1,
             rod_interference: distance - 2.0 * g.rod_radius,
             nearest_rods,
-            tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
-            rotary: table.zip(limits.rotary).map(|(table, range)| range_margins(range, table.theta2)),
+            tilt: None,
+            rotary: None,
             table_clearance: None,
         }
     }
@@ -192,7 +216,7 @@ impl Margins {
 }
 
 /// The height of each leg along z, mm: what its length leaves for it.
-#[inline]
+#[inline(always)]
 pub(super) fn heights(g: &Geometry, pose: &PlatformPose, rho: [f64; 3], rods: &Rods) -> [f64; 3] {
     let (z, q) = (pose.z, g.R2 * rods.s);
     let [rho1, rho2, rho3] = rho;
@@ -200,19 +224,19 @@ pub(super) fn heights(g: &Geometry, pose: &PlatformPose, rho: [f64; 3], rods: &R
 }
 
 /// `det_P` in the sign of home less the limit.
-#[inline]
+#[inline(always)]
 pub(super) fn det_margin(machine: &Machine, rods: &Rods) -> f64 {
     margin_of_det(machine, determinant(&matrix(machine.geometry(), rods)))
 }
 
 /// The same from the determinant.
-#[inline]
+#[inline(always)]
 pub(super) fn margin_of_det(machine: &Machine, det: f64) -> f64 {
     det * machine.home.det.signum() - machine.limits().parallel_margin
 }
 
 /// The margins of a value in a range.
-#[inline]
+#[inline(always)]
 pub(super) fn range_margins([low, high]: [f64; 2], value: f64) -> [f64; 2] {
     [value - low, high - value]
 }

@@ -1,10 +1,13 @@
 //! The exact path of one motion: position and axis of the tool for a parameter from 0 to 1.
 
+mod tip_path;
+
 use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::motion::{Curve, Motion, ToolPosition, Turning};
+use self::tip_path::TipPath;
+use super::motion::{Motion, ToolPosition, Turning};
 use crate::axis::tool_axis;
 use crate::fast_math::{angle_of_vector, sin_cos};
 use crate::pose::Point;
@@ -30,20 +33,6 @@ pub(super) struct Path {
 }
 
 #[derive(Clone, Copy, Debug)]
-enum TipPath {
-    Line,
-    Arc {
-        centre: Vector3<f64>,
-        /// Radius vector at the start, and perpendicular to it; the part along the normal stays.
-        radius: [Vector3<f64>; 2],
-        along: Vector3<f64>,
-        sweep: f64,
-        /// What the end misses the arc by.
-        rest: Vector3<f64>,
-    },
-}
-
-#[derive(Clone, Copy, Debug)]
 enum AxisPath {
     Fixed,
     /// The great circle from the start towards a perpendicular unit vector.
@@ -58,23 +47,12 @@ enum AxisPath {
     },
 }
 
-impl TipPath {
-    fn length(&self, start: &ToolPosition, end: &ToolPosition) -> f64 {
-        match self {
-            Self::Line => (Vector3::from(end.tip) - Vector3::from(start.tip)).norm(),
-            Self::Arc { radius, sweep, rest, .. } => (radius[0].norm() * sweep).hypot(rest.norm()),
-        }
-    }
-}
-
 impl Path {
     /// The path of a motion that begins at `start`.
     pub(super) fn new(start: ToolPosition, motion: &Motion) -> Self {
         let end = motion.end;
-        let tip = match motion.curve {
-            Curve::Line => TipPath::Line,
-            Curve::Arc { centre, normal, sweep } => arc(start.tip, end.tip, centre, normal, sweep),
-        };
+        let ends = [start.tip, end.tip];
+        let tip = TipPath::new(motion.curve, ends);
         let axis = match motion.turning {
             Turning::GreatCircle => great_circle(start.axis, end.axis),
             Turning::Angles { start, end, .. } | Turning::Held { start, end } if start == end => {
@@ -87,7 +65,7 @@ impl Path {
             Turning::Held { start, end } => Some([start[1], end[1]]),
             Turning::GreatCircle | Turning::Angles { .. } => None,
         };
-        Self { start, end, length: tip.length(&start, &end), tip, axis, held }
+        Self { start, end, length: tip.length(ends), tip, axis, held }
     }
 
     /// The path of the same motion from another place of the tool's end.
@@ -123,14 +101,11 @@ impl Path {
     }
 
     fn tip(&self, s: f64) -> Vector3<f64> {
-        let (a, b) = (Vector3::from(self.start.tip), Vector3::from(self.end.tip));
-        match self.tip {
-            TipPath::Line => a + (b - a) * s,
-            TipPath::Arc { centre, radius, along, sweep, rest } => {
-                let (sin, cos) = sin_cos(sweep * s);
-                centre + along + radius[0] * cos + radius[1] * sin + rest * s
-            }
-        }
+        self.tip.at(self.tip_ends(), s)
+    }
+
+    fn tip_ends(&self) -> [Point; 2] {
+        [self.start.tip, self.end.tip]
     }
 
     fn axis(&self, s: f64) -> Vector3<f64> {
@@ -149,14 +124,7 @@ impl Path {
 
     /// The tool's end and axis at a parameter, and their derivatives by it.
     pub(super) fn with_rates(&self, s: f64) -> ([Vector3<f64>; 2], [Vector3<f64>; 2]) {
-        let (tip, tip_rate) = match self.tip {
-            TipPath::Line => (self.tip(s), Vector3::from(self.end.tip) - Vector3::from(self.start.tip)),
-            TipPath::Arc { centre, radius, along, sweep, rest } => {
-                let (sin, cos) = sin_cos(sweep * s);
-                let tip = centre + along + radius[0] * cos + radius[1] * sin + rest * s;
-                (tip, (radius[1] * cos - radius[0] * sin) * sweep + rest)
-            }
-        };
+        let (tip, tip_rate) = self.tip.with_rate(self.tip_ends(), s);
         let (axis, axis_rate) = match &self.axis {
             AxisPath::Fixed => (self.axis(s), Vector3::zeros()),
             AxisPath::GreatCircle { towards, angle } => {
@@ -178,11 +146,7 @@ impl Path {
 
     /// Greatest second derivatives by the parameter: of the position, mm, and of the axis, rad.
     pub(super) fn second_derivatives(&self) -> [f64; 2] {
-        let tip = match self.tip {
-            TipPath::Line => 0.0,
-            TipPath::Arc { radius, sweep, .. } => radius[0].norm() * sweep * sweep,
-        };
-        [tip, self.turn() * self.turn()]
+        [self.tip.second_derivative(), self.turn() * self.turn()]
     }
 
     /// Length of the path of the tool's end, mm; of a helix that misses its end the length is that of the arc and the
@@ -230,10 +194,7 @@ impl Path {
 
     /// Angle of the arc, rad; zero for a line.
     pub(super) fn sweep(&self) -> f64 {
-        match self.tip {
-            TipPath::Line => 0.0,
-            TipPath::Arc { sweep, .. } => sweep,
-        }
+        self.tip.sweep()
     }
 
     /// Whether the axis moves along a great circle or not at all.
@@ -243,13 +204,7 @@ impl Path {
 
     /// An upper bound of the tool's end's z.
     pub(super) fn highest(&self) -> f64 {
-        let ends = self.start.tip[2].max(self.end.tip[2]);
-        match &self.tip {
-            TipPath::Line => ends,
-            TipPath::Arc { centre, radius, along, rest, .. } => {
-                ends.max(centre.z + along.z + radius[0].z.hypot(radius[1].z) + rest.z.max(0.0))
-            }
-        }
+        self.tip.highest(self.tip_ends())
     }
 
     /// The axis at both ends.
@@ -268,17 +223,6 @@ impl Path {
     pub(super) fn is_point(&self) -> bool {
         self.turn() == 0.0 && self.length() == 0.0
     }
-}
-
-fn arc(start: Point, end: Point, centre: Point, normal: [f64; 3], sweep: f64) -> TipPath {
-    let (centre, normal) = (Vector3::from(centre), Vector3::from(normal));
-    let from = Vector3::from(start) - centre;
-    let along = normal * normal.dot(&from);
-    let radial = from - along;
-    let radius = [radial, normal.cross(&radial)];
-    let (sin, cos) = sin_cos(sweep);
-    let rest = Vector3::from(end) - (centre + along + radius[0] * cos + radius[1] * sin);
-    TipPath::Arc { centre, radius, along, sweep, rest }
 }
 
 /// The great circle between two unit vectors. Opposite vectors have none; programs with such motions are faulty, and

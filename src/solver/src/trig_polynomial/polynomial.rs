@@ -20,6 +20,7 @@ pub(crate) struct ValueAndSlope {
 }
 
 /// `constant + cos · cos θ + sin · sin θ`.
+#[inline(always)]
 pub(crate) fn linear(constant: f64, cos: f64, sin: f64) -> TrigPolynomial<2> {
     TrigPolynomial { cos: [constant, cos], sin: [0.0, sin] }
 }

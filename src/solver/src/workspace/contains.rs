@@ -1,18 +1,22 @@
 //! Membership: the inverse problem's solution and its margins decide. No mesh is used.
 
+use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
 use super::observer::{Observer, StepCounter, check_cancelled};
 use super::request::{Kind, Request, WorkspaceError};
 use crate::clearance::Clearance;
 use crate::error::KinematicsError;
-use crate::inverse::{part_every_working, part_working, platform_working, tool_every_working, tool_working};
+use crate::inverse::{
+    part_every_working, part_working_rows, platform_working_rows, tool_every_working, tool_working_rows,
+};
 use crate::limit::Margin;
 use crate::machine::Machine;
 use crate::margins::Margins;
-use crate::margins::margin_batch::{BATCH_SIZE, MarginBatch};
+use crate::margins::margin_batch::MarginBatch;
 use crate::pose::{PartPose, Point};
 use crate::posture::{Posture, Postures};
+use crate::registers::{ROWS, Registers};
 use crate::table::table_angles;
 
 /// Points between two calls of the observer.
@@ -77,14 +81,12 @@ pub fn contains(
             check_cancelled(observer)?;
             // All solutions first, then all margins: the processor overlaps similar short computations.
             let mut solved = MarginBatch::new();
-            for (points, memberships) in points.chunks(BATCH_SIZE).zip(memberships.chunks_mut(BATCH_SIZE)) {
+            for (points, memberships) in points.chunks(ROWS).zip(memberships.chunks_mut(ROWS)) {
                 solved.clear();
-                for (i, (&point, member)) in points.iter().zip(&mut *memberships).enumerate() {
-                    match solution(machine, request, point) {
-                        Ok(posture) => solved.push(i, &posture),
-                        Err(refusal) => *member = refused(&refusal),
-                    }
-                }
+                solutions(machine, request, points, |i, answer| match answer {
+                    Ok(posture) => solved.push(i, &posture),
+                    Err(refusal) => memberships[i] = refused(&refusal),
+                });
                 solved.worst(
                     machine,
                     |alpha| part.then(|| table_angles(machine, alpha, request.phi1, request.phi2)),
@@ -106,16 +108,22 @@ pub fn contains(
     Ok(memberships)
 }
 
-/// The posture in the working mode at a point in the frame of the request's kind.
-#[inline]
-fn solution(machine: &Machine, request: &Request, point: Point) -> Result<Posture, KinematicsError> {
+/// Calls `found` with the posture in the working mode at each of at most [`ROWS`] points in the frame of the request's
+/// kind.
+fn solutions(
+    machine: &Machine,
+    request: &Request,
+    points: &[Point],
+    found: impl FnMut(usize, Result<Posture, KinematicsError>),
+) {
     let Request { tool_length, phi1, phi2, .. } = *request;
     match request.kind {
-        Kind::Platform => platform_working(machine, point),
-        Kind::Tool => tool_working(machine, point, tool_length),
+        Kind::Platform => platform_working_rows(machine, points, Registers::Widest, found),
+        Kind::Tool => tool_working_rows(machine, points, tool_length, Registers::Widest, found),
         Kind::Part => {
-            let [x, y, z] = point;
-            part_working(machine, &PartPose { x, y, z, phi1, phi2 }, tool_length)
+            let poses = points.iter().map(|&[x, y, z]| PartPose { x, y, z, phi1, phi2 });
+            let poses: ArrayVec<_, ROWS> = poses.take(ROWS).collect();
+            part_working_rows(machine, &poses, tool_length, Registers::Widest, found);
         }
     }
 }

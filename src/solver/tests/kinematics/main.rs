@@ -33,6 +33,7 @@ mod proportional_machine;
 mod proportions;
 mod reference_sets;
 mod round_trip;
+mod rows;
 mod several_working_postures;
 mod solution_counts;
 mod symmetric_sliders;
