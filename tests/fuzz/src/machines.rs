@@ -47,7 +47,7 @@ fn data(draw: &mut Draw<'_>) -> MachineData {
         let chosen = match which {
             0..15 => all_lengths(geometry, table).nth(which),
             15..21 => limits.stroke.as_flattened_mut().get_mut(which - 15),
-            _ => small(limits).into_iter().nth(which - 21),
+            _ => small(limits).nth(which - 21),
         };
         *chosen.unwrap() = number;
     }

@@ -2,14 +2,17 @@
 
 use axum::Router;
 use axum::http::header::{ACCEPT, CACHE_CONTROL, CONTENT_TYPE};
-use axum::http::{Method, StatusCode};
+use axum::http::{HeaderValue, Method, StatusCode};
 use serde_json::{Value, json};
 
 use super::{Reply, get, get_from, json_request, post, send_to, service};
 
 /// POST /workspace on a service that keeps its results.
 pub(super) async fn ask(service: &Router, question: Value) -> Reply {
-    send_to(service.clone(), json_request(Method::POST, "/workspace", question)).await
+    let mut request = json_request(Method::POST, "/workspace", question);
+    // The machine may have other work to do.
+    request.headers_mut().insert("prefer", HeaderValue::from_static("wait=60"));
+    send_to(service.clone(), request).await
 }
 
 fn assert_close(found: &Value, wanted: f64, relative: f64) {

@@ -146,7 +146,7 @@ mod tests {
     #[tokio::test]
     async fn tables_have_paths_besides_that_of_json() {
         let service = service("").await;
-        let rows = "x,y,z\n100,50,300\n";
+        let rows = "x,y,z,phi1,phi2\n100,50,300,0,0\n";
         let post = |path: &str, media: &str, body: String| {
             Request::post(path).header(CONTENT_TYPE, media).body(Body::from(body)).unwrap()
         };

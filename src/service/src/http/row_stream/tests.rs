@@ -250,7 +250,7 @@ async fn headers_and_the_query_choose_the_formats() {
 async fn the_examples_of_tables_are_answers() {
     let service = service("").await;
     let document = crate::document();
-    for path in ["/ik/batch", "/fk/batch", "/workspace/contains"] {
+    for path in ["/ik/batch.csv", "/fk/batch.csv", "/workspace/contains.csv"] {
         let operation = &document["paths"][path]["post"];
         let request = operation["requestBody"]["content"]["text/csv"]["example"].as_str().unwrap();
         let (status, _, answer) = post(&service, path, "text/csv", request.to_owned()).await;
