@@ -175,7 +175,7 @@ async fn the_client_chooses_the_wait_within_the_limit() {
         let reply = send_to(service.clone(), preferring(preference, &question)).await;
         assert_eq!((reply.status, &reply.headers["preference-applied"]), (status, &applied.parse().unwrap()));
     }
-    let unsaid = ask(&service, long(200)).await;
+    let unsaid = send_to(service.clone(), json_request(Method::POST, "/workspace", long(200))).await;
     assert_eq!(unsaid.status, StatusCode::ACCEPTED);
     assert!(!unsaid.headers.contains_key("preference-applied"));
     let patient = send_to(super::service().await, preferring("wait=20", &small(50))).await;

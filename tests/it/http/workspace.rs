@@ -11,7 +11,7 @@ use super::{Reply, get, get_from, json_request, post, send_to, service};
 pub(super) async fn ask(service: &Router, question: Value) -> Reply {
     let mut request = json_request(Method::POST, "/workspace", question);
     // The machine may have other work to do.
-    request.headers_mut().insert("prefer", HeaderValue::from_static("wait=60"));
+    request.headers_mut().insert("prefer", HeaderValue::from_static("wait=600"));
     send_to(service.clone(), request).await
 }
 

@@ -255,6 +255,7 @@ fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
         get("/toolpath/{id}/rows.json", some_rows(), None),
         get("/toolpath/{id}/rows.ndjson", some_rows(), None),
         get("/toolpath/{id}/rows.csv", some_rows(), None),
+        get("/toolpath/{id}/rows.arrow", some_rows(), None),
         get("/toolpath/{id}/program", of_program, None),
         get("/toolpath/{id}/path", of_path, None),
     ]
