@@ -67,7 +67,8 @@ def test_a_program_that_was_sent_before_is_read_with_its_options(client: verne.C
     text = b"G21\nM428\nG0 X0 Y0 Z320 A0 C0\nG1 Z300 A10 C45 F1000\nM429\nM30\n"
     program = client.program(text, format="gcode", tcp_on=["M428"], tcp_off=["M429"], units="mm")
     assert program.moves == 2
-    report = client.toolpath(program, tool_length={1: 100.0}, length_before=1, start=(0, 0)).result()
+    start = client.ik(0, 0, 320, tool_length=100).solutions[0].joints
+    report = client.toolpath(program, tool_length={1: 100.0}, length_before=1, start=start).result()
     assert report.program == program.id
 
 

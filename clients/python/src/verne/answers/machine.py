@@ -40,7 +40,8 @@ class Limits(TypedDict):
     serial_margin: float
     parallel_margin: float
     tilt: list[float]
-    rotary: list[float]
+    rotary: list[float] | None
+    """Range of the rotary axis; None: it turns without a limit."""
     slider_axes: NotRequired[list[list[float]] | None]
     platform_axes: NotRequired[list[list[float]] | None]
     table_clearance: NotRequired[float | None]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from verne.answers.machine import MachineId
+from verne.answers.solution import Joints
 from verne.answers.workspace import Bounds
 
 
@@ -68,6 +69,21 @@ class FailurePlace:
     phi1: float
     phi2: float
     tool_length: float
+    joints: Joints | None = None
+    """The joints, for ``fk``; None if the pose has none in the working mode."""
+
+
+@dataclass(frozen=True, slots=True)
+class DwellMark:
+    """A place where the tool stands on the part while the table turns: mm and degrees."""
+
+    line: int
+    x: float
+    y: float
+    z: float
+    angle: float
+    duration: float | None = None
+    """How long the turn takes, s; None if neither a feed nor drives determine it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,6 +226,8 @@ class ToolpathReport:
     deviation: Deviation
     preimage_changes: int
     retracts: int
+    dwell_marks: list[DwellMark]
+    dwell_mark_count: int
     departures: list[RapidDeparture]
     departure_count: int
     warnings: list[ProgramWarning]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any, TypeVar
 
 import pyarrow
@@ -9,8 +10,9 @@ import pyarrow
 from verne.arrow_stream import MEDIA_TYPE, read_stream, write_stream
 from verne.batch import JOINTS, JointBatch, Membership, PoseBatch
 from verne.operations.kinematics import Frame
+from verne.operations.start import Start, joints_of
 from verne.operations.workspaces import WorkspaceKind
-from verne.session import Numbers, Operation, Session, given
+from verne.session import Operation, Session, given
 from verne.table import Rows, Table, to_arrow
 
 T = TypeVar("T", bound=Table)
@@ -37,7 +39,7 @@ def ik_batch(
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
     continuous: bool = False,
-    start: Numbers | None = None,
+    start: Start | None = None,
     machine: str = "verne",
 ) -> Operation[JointBatch]:
     """Solves the inverse problem for many poses: one solution in the working mode for each.
@@ -66,7 +68,7 @@ def ik_batch(
         table_clearance=table_clearance,
         tool_radius=tool_radius,
         continuous=continuous or None,
-        start=start,
+        start=None if start is None else json.dumps(joints_of(start)),
         machine=machine,
     )
     layouts = (POSE, POSE_WITH_AXIS) if frame == "part" else (POSITION,)

@@ -13,7 +13,8 @@ from verne.arrow_stream import write_stream
 from verne.decoding import decode
 from verne.operations.batches import POSE, POSE_WITH_AXIS, POSITION
 from verne.operations.jobs import Submission, submit
-from verne.session import Numbers, Operation, Session, given
+from verne.operations.start import Start, joints_of
+from verne.session import Operation, Session, given
 from verne.table import Rows, to_arrow
 
 ProgramFormat = Literal["apt", "gcode", "csv", "ndjson", "arrow"]
@@ -112,7 +113,8 @@ def toolpath(
     tolerance: Tolerance | None = None,
     pole: float | None = None,
     rapids: Literal["linear", "joint"] = "linear",
-    start: Numbers | None = None,
+    hold_rotary: bool = False,
+    start: Start | None = None,
     table_clearance: float | None = None,
     on_limit: Literal["fail", "retract"] = "fail",
     clearance: float | None = None,
@@ -136,7 +138,8 @@ def toolpath(
         tolerance: Greatest deviations; by default 0.01 mm, 0.05 degrees, and 1 mm in rapids.
         pole: Half-angle of the cone in which the rotary axis is free, degrees.
         rapids: ``joint``: all joints move straight in rapids, instead of the tip.
-        start: Where the table stands before the program: theta1 and theta2, degrees.
+        hold_rotary: The table keeps the program's C where the tool is parallel to the axis of the table.
+        start: Where the machine stands before the program: rho1, rho2, rho3 in mm, theta1, theta2 in degrees.
         table_clearance: Least height over the table, mm. By default it is the machine's limit, if it has one.
         on_limit: ``retract``: the tool leaves the part and the table turns where no winding serves a whole cut.
         clearance: For ``retract``: way along the tool's axis and over the highest point, mm.
@@ -161,7 +164,8 @@ def toolpath(
         tolerance=tolerance,
         pole=pole,
         rapids=rapids,
-        start=None if start is None else dict(zip(("theta1", "theta2"), start, strict=True)),
+        hold_rotary=hold_rotary or None,
+        start=joints_of(start),
         table_clearance=table_clearance,
         on_limit=on_limit,
         clearance=clearance,
