@@ -2,14 +2,19 @@
 //!
 //! A generator for 3.0 makes one type of the successful answers of an operation. This version therefore joins them: the
 //! result and the job that computes it are one schema. It leaves out a job beside a file, and an answer without a body
-//! beside one with a body; their statuses are in the description.
+//! beside one with a body; their statuses are in the description. Some generators send only JSON, text and bytes: a table
+//! is bytes, whose format the path states.
 
 mod schema;
 
 use serde_json::{Map, Value, json};
+use verne_rows::Format;
 
 use crate::http::openapi::operations::{components, content, drop_unused, operations};
 use crate::http::openapi::version_3_0::schema::converted;
+
+/// The media type of bytes.
+const BYTES: &str = "application/octet-stream";
 
 /// The document in version 3.0.3.
 pub(crate) fn to_3_0(mut document: Value) -> Value {
@@ -22,6 +27,9 @@ pub(crate) fn to_3_0(mut document: Value) -> Value {
     let mut named = components(&mut document, "schemas").map(std::mem::take).unwrap_or_default();
     for operation in operations(&mut document) {
         join_answers(operation, &mut named);
+        if let Some(body) = operation.get_mut("requestBody").and_then(content) {
+            state_bytes(body);
+        }
     }
     convert_schemas(&mut document);
     if let Some(schemas) = components(&mut document, "schemas") {
@@ -46,6 +54,15 @@ fn convert_schemas(value: &mut Value) {
         }
         Value::Array(items) => items.iter_mut().for_each(convert_schemas),
         _ => {}
+    }
+}
+
+/// States the bytes of a table instead of its media type.
+fn state_bytes(body: &mut Map<String, Value>) {
+    for table in Format::ALL {
+        if body.remove(table.media()).is_some() {
+            body.insert(BYTES.to_owned(), json!({"schema": {"type": "string", "format": "binary"}}));
+        }
     }
 }
 
@@ -109,6 +126,17 @@ mod tests {
     fn answer(name: &str) -> Value {
         json!({"description": name,
                "content": {"application/json": {"schema": {"$ref": format!("#/components/schemas/{name}")}}}})
+    }
+
+    #[test]
+    fn the_body_of_a_table_is_bytes() {
+        let document = to_3_0(json!({
+            "info": {"license": {"name": "MIT"}},
+            "paths": {"/rows.csv": {"post": {"requestBody": {"content": {"text/csv": {"example": "x,y"}}}}}},
+        }));
+        let bytes = json!({"schema": {"type": "string", "format": "binary"}});
+        let content = &document["paths"]["/rows.csv"]["post"]["requestBody"]["content"];
+        assert_eq!(*content, json!({"application/octet-stream": bytes}));
     }
 
     #[test]
