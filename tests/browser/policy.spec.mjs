@@ -14,7 +14,7 @@ test("the viewer works without inline scripts, inline styles and eval", async ({
 
 test("the docs show an operation and send its request", async ({ page }) => {
   await page.goto("/docs/");
-  await page.locator("#operations-service-livez").click();
+  await page.locator("#operations-service-get_livez").click();
   await page.getByRole("button", { name: "Try it out" }).click();
   await page.getByRole("button", { name: "Execute" }).click();
   await expect(page.locator(".live-responses-table tbody .response-col_status").first()).toContainText("200");
