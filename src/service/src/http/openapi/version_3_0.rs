@@ -2,8 +2,8 @@
 //!
 //! A generator for 3.0 makes one type of the successful answers of an operation. This version therefore joins them: the
 //! result and the job that computes it are one schema. It leaves out a job beside a file, and an answer without a body
-//! beside one with a body; their statuses are in the description. Some generators send only JSON, text and bytes: a table
-//! is bytes, whose format the path states.
+//! beside one with a body; their statuses are in the description. Some generators send only JSON, text and bytes: a
+//! table is bytes, whose format the path states.
 
 mod schema;
 
