@@ -104,30 +104,19 @@ fn set(named: &mut Named, known: usize, text: &str) -> Result<(), String> {
         return Ok(());
     }
     let name = KNOWN[known];
-    let place = match name {
-        "x" => &mut named.x,
-        "y" => &mut named.y,
-        "z" => &mut named.z,
-        "i" => &mut named.i,
-        "j" => &mut named.j,
-        "k" => &mut named.k,
-        "phi1" => &mut named.phi1,
-        "phi2" => &mut named.phi2,
-        "feed" => &mut named.feed,
-        "kind" => {
+    let Some(place) = named.number(name) else {
+        if name == "kind" {
             named.kind = Some(match text.to_ascii_lowercase().as_str() {
                 "feed" => MoveKind::Feed,
                 "rapid" => MoveKind::Rapid,
                 _ => return Err("there is no such kind; accepted are feed and rapid".to_owned()),
             });
-            return Ok(());
+        } else {
+            let line = text.parse();
+            named.line =
+                Some(line.map_err(|_| "line must be a whole number from 0 to 4294967295".to_owned())?);
         }
-        _ => {
-            let line =
-                text.parse().map_err(|_| "line must be a whole number from 0 to 4294967295".to_owned())?;
-            named.line = Some(line);
-            return Ok(());
-        }
+        return Ok(());
     };
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => *place = Some(value),

@@ -65,6 +65,24 @@ pub(crate) struct Named {
     pub(crate) line: Option<u32>,
 }
 
+impl Named {
+    /// The number of a name; `None` for other names.
+    pub(crate) fn number(&mut self, name: &str) -> Option<&mut Option<f64>> {
+        Some(match name {
+            "x" => &mut self.x,
+            "y" => &mut self.y,
+            "z" => &mut self.z,
+            "i" => &mut self.i,
+            "j" => &mut self.j,
+            "k" => &mut self.k,
+            "phi1" => &mut self.phi1,
+            "phi2" => &mut self.phi2,
+            "feed" => &mut self.feed,
+            _ => return None,
+        })
+    }
+}
+
 /// The names that a row needs, and those that it may have.
 pub(crate) const NAMES: &str =
     "x, y, z; then i, j, k, or phi1, phi2, or no orientation; optionally feed, kind, line";

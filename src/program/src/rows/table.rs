@@ -91,7 +91,7 @@ impl TableReader {
         let mut named = Named::default();
         for column in columns {
             let name = column.name();
-            if let Some(number) = number(&mut named, name) {
+            if let Some(number) = named.number(name) {
                 *number = Some(1.0);
             } else if name == "kind" && !column.is_empty() && column.as_texts().is_none() {
                 return self.stop(name, "the column must have texts: feed or rapid".to_owned());
@@ -130,7 +130,7 @@ impl TableReader {
             if !value.is_finite() {
                 return Err(BadValue(name, format!("{name} must be a finite number")));
             }
-            match number(&mut named, name) {
+            match named.number(name) {
                 Some(number) => *number = Some(value),
                 None => named.line = Some(read_line(value)?),
             }
@@ -141,22 +141,6 @@ impl TableReader {
             At::Name(name) => BadValue(name, detail),
         })
     }
-}
-
-/// The number of a name; `None` for other names.
-fn number<'a>(named: &'a mut Named, name: &str) -> Option<&'a mut Option<f64>> {
-    Some(match name {
-        "x" => &mut named.x,
-        "y" => &mut named.y,
-        "z" => &mut named.z,
-        "i" => &mut named.i,
-        "j" => &mut named.j,
-        "k" => &mut named.k,
-        "phi1" => &mut named.phi1,
-        "phi2" => &mut named.phi2,
-        "feed" => &mut named.feed,
-        _ => return None,
-    })
 }
 
 fn read_kind(text: &str) -> Result<MoveKind, BadValue> {

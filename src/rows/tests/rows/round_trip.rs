@@ -1,4 +1,4 @@
-//! What is written is read, in every format.
+//! The readers read what the writers wrote, in every format.
 
 use verne_rows::{CHUNK_ROWS, Chunk, Column, Format, Names};
 

@@ -64,7 +64,7 @@ pub(super) struct Turns {
 }
 
 impl Turns {
-    /// Those in the middle between two nodes with this alpha there.
+    /// The turns in the middle between two nodes, where the platform has this alpha.
     pub(super) fn in_middle([a, b]: [&Node; 2], alpha: f64) -> Self {
         let tilt = halfway([a.table.theta1, b.table.theta1], [a.turns.tilt, b.turns.tilt]);
         let rotary = halfway([a.table.theta2, b.table.theta2], [a.turns.rotary, b.turns.rotary]);

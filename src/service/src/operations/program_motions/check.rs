@@ -11,7 +11,7 @@ use crate::wire::toolpath::OrientationName;
 /// Sine of the angle below which two axes are opposite.
 const OPPOSITE: f64 = 1e-9;
 
-/// What the motions of a program are made of.
+/// The program behind its motions, with the machine.
 pub(crate) struct Checked<'a> {
     pub(crate) program: &'a Program,
     pub(crate) sections: &'a [Section],
