@@ -4,6 +4,7 @@ import { effect } from "@preact/signals";
 import { render } from "preact";
 import { inWords } from "./api/client";
 import { Page } from "./panels/page";
+import { followLinks } from "./program/entry";
 import { keepAddress, onNewAddress, viewOfAddress } from "./state/address_bar";
 import { keepWorkspace } from "./state/computation";
 import { listMachines, loadMachine } from "./state/machines";
@@ -30,6 +31,7 @@ async function start(): Promise<void> {
   keepAddress();
   onNewAddress((next) => void load(next));
   followTool();
+  followLinks();
 }
 
 /** Another tool, another height over the table or other ghosts: the same joints are solved anew. */

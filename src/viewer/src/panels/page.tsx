@@ -9,8 +9,9 @@ import { JointsPanel } from "./joints";
 import { KeyDialog } from "./key";
 import { MachinePicker } from "./machine";
 import { MachineFaults } from "./machine_faults";
-import { acceptDrops } from "./machine_file";
+import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
+import { openProgramFile, ProgramDialogs, ProgramDock, ProgramSection, showPathIn } from "../program/entry";
 import { PositionsPanel } from "./positions";
 import { ToolTipPanel } from "./tool_tip";
 import { WorkspacePanel } from "./workspace";
@@ -24,7 +25,7 @@ const SIDES: [Side, string][] = [
 
 export function Page() {
   const [dropping, setDropping] = useState(false);
-  useEffect(() => acceptDrops(setDropping), []);
+  useEffect(() => acceptDrops(setDropping, take), []);
   return (
     <>
       <header class="top">
@@ -45,9 +46,11 @@ export function Page() {
         </div>
         <Scene />
         <div class="panel right">
+          <ProgramSection />
           <MarginsPanel />
           <WorkspacePanel />
         </div>
+        <ProgramDock />
       </main>
       {failure.value && (
         <p class="failure" role="alert">
@@ -56,13 +59,19 @@ export function Page() {
       )}
       {dropping && (
         <div class="dropping" aria-hidden="true">
-          Drop a machine’s JSON file
+          Drop a program, or a machine’s JSON file
         </div>
       )}
       <MachineFaults />
+      <ProgramDialogs />
       <KeyDialog />
     </>
   );
+}
+
+/** A machine is a JSON file; every other file is taken for a program. */
+function take(file: File): void {
+  void (/\.json$/i.test(file.name) ? offer(file) : openProgramFile(file));
 }
 
 function Scene() {
@@ -73,8 +82,11 @@ function Scene() {
   useEffect(() => {
     if (!canvas.current || !labels.current) return;
     const kind = drawing();
-    if (kind !== "none") setWorld(new World(canvas.current, labels.current, kind));
-    else setTrouble("This browser draws no 3D (WebGL 2): the figures beside remain.");
+    if (kind !== "none") {
+      const made = new World(canvas.current, labels.current, kind);
+      showPathIn(made.stage);
+      setWorld(made);
+    } else setTrouble("This browser draws no 3D (WebGL 2): the figures beside remain.");
   }, []);
   return (
     <section class="scene" aria-label="The machine in its workspace">

@@ -1,7 +1,7 @@
 /** The view in the address, after the #: only what differs from the first view. */
 
 import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
-import { INITIAL, type Camera, type Ghosts, type Joints, type View } from "./view";
+import { INITIAL, type Camera, type Ghosts, type Joints, type ProgramView, type View } from "./view";
 import { packed, unpacked } from "./packed";
 
 const KINDS: readonly WorkspaceKind[] = ["platform", "tool", "part"];
@@ -26,6 +26,7 @@ export async function toAddress(view: View): Promise<string> {
     ["phi", ws.phi1 === 0 && ws.phi2 === 0 ? null : numbers([ws.phi1, ws.phi2], 3)],
     ["tolerance", ws.tolerance === base.tolerance ? null : String(ws.tolerance)],
     ["section", view.section === null ? null : numbers([view.section], 3)],
+    ["program", view.program && (await packed(view.program))],
     ["camera", view.camera && numbers([...view.camera.eye, ...view.camera.target], 3)],
   ];
   const said = entries.filter((entry): entry is [string, string] => entry[1] !== null);
@@ -59,6 +60,7 @@ export async function fromAddress(hash: string): Promise<View> {
     },
     section: list("section", 1)?.[0] ?? null,
     camera: asCamera(list("camera", 6)),
+    program: await asProgram(said.get("program")),
   };
 }
 
@@ -88,6 +90,12 @@ function asCamera(list: number[] | null): Camera | null {
   if (!list) return null;
   const [a, b, c, d, e, f] = list as [number, number, number, number, number, number];
   return { eye: [a, b, c], target: [d, e, f] };
+}
+
+async function asProgram(text: string | null): Promise<ProgramView | null> {
+  const found = text === null ? null : ((await unpacked(text)) as Partial<ProgramView> | null);
+  if (typeof found?.id !== "string" || typeof found.name !== "string") return null;
+  return { id: found.id, name: found.name, settings: found.settings ?? {} };
 }
 
 function positive<T>(value: number | undefined, otherwise: T): number | T {
