@@ -72,7 +72,7 @@ function isHidden(point: Vector3, eye: Vector3, solid: Object3D[]): boolean {
 function solids(scene: Object3D, path: Group): Object3D[] {
   const found: Object3D[] = [];
   scene.traverseVisible((object) => {
-    if (!(object instanceof Mesh) || object.parent === path) return;
+    if (!(object instanceof Mesh) || object.parent?.parent === path) return;
     const material = object.material as Material | Material[];
     if (!Array.isArray(material) && !material.transparent) found.push(object);
   });

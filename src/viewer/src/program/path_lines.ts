@@ -22,18 +22,23 @@ import { machine, position } from "../state/store";
 import { isDark, marginColour, onTheme } from "./colours";
 import { framePath } from "./path_framing";
 import { listenForClicks } from "./path_picking";
-import { segments } from "./path_segments";
-import { framing, plan, type Plan } from "./program_state";
+import { gaps, longer, segments } from "./path_segments";
+import { framing, now, plan, playing, type Plan } from "./program_state";
 import { roundPoint } from "./round_point";
 
 /** Segments that are drawn as wide lines; more of them would be slow, and are near each other anyway. */
 const MOST_WIDE = 40_000;
+/** Segments that a slow machine can move. */
+const MOST_QUICK = 6_000;
 
 export class PathLines {
   /** In the part frame, mm. */
   readonly group = new Group();
   /** The row to which each segment of a line leads. */
   readonly rows = new Map<Object3D, Uint32Array>();
+  /** Two of them: as it is, and with longer segments for slow machines while the picture moves. */
+  private readonly fine = new Group();
+  private readonly quick = new Group();
   private readonly feed = new LineBasicMaterial({ vertexColors: true });
   private readonly wideFeed = new LineMaterial({ vertexColors: true, linewidth: 2 });
   /** For what lies behind the machine or inside the table. */
@@ -56,7 +61,13 @@ export class PathLines {
 
   constructor(private readonly stage: Stage) {
     this.group.matrixAutoUpdate = false;
+    this.group.add(this.fine, this.quick);
     stage.scene.add(this.group);
+    stage.beforeDrawing.push(() => {
+      const { slow, moving } = stage.resolution;
+      this.quick.visible = slow && moving && this.quick.children.length > 0;
+      this.fine.visible = !this.quick.visible;
+    });
     followPalette((palette) => {
       this.rapid.color = palette.ink;
       this.broken.color = palette.bad;
@@ -74,14 +85,20 @@ export class PathLines {
       stage.draw();
     });
     effect(() => {
+      now.value;
+      if (playing.value) stage.resolution.touch();
+    });
+    effect(() => {
       if (framing.value > 0) untracked(() => framePath(stage, this.group));
     });
     listenForClicks(stage, this);
   }
 
   private build(found: Plan | null): void {
-    for (const drawn of this.group.children as LineSegments[]) drawn.geometry.dispose();
-    this.group.clear();
+    for (const level of [this.fine, this.quick]) {
+      for (const drawn of level.children as LineSegments[]) drawn.geometry.dispose();
+      level.clear();
+    }
     this.rows.clear();
     if (found && found.rows.count > 0) {
       const { feed, rapid, broken } = segments(found);
@@ -89,6 +106,7 @@ export class PathLines {
       const dashed = new LineSegments(thin(places(found, rapid)), this.rapid);
       dashed.computeLineDistances();
       this.add(dashed, rapid);
+      this.addQuick(found, [feed, this.feed], [rapid, this.rapid]);
       this.addBroken(found, broken);
     }
     this.stage.draw();
@@ -104,41 +122,73 @@ export class PathLines {
     const wide = new LineSegmentsGeometry().setPositions(at).setColors(colours);
     const hidden = new LineSegments2(wide, this.hiddenFeed);
     hidden.renderOrder = 24;
-    this.group.add(new LineSegments2(wide, this.wideFeed), hidden);
+    this.fine.add(new LineSegments2(wide, this.wideFeed), hidden);
+  }
+
+  private addQuick(found: Plan, ...kinds: [Uint32Array, LineBasicMaterial][]): void {
+    const each = Math.ceil(kinds.reduce((sum, [to]) => sum + to.length, 0) / MOST_QUICK);
+    if (each < 2) return;
+    for (const [all, material] of kinds) {
+      const { from, to } = longer(all, each);
+      const lines = new LineSegments(thin(places(found, to, from), coloured(found, to, from)), material);
+      lines.computeLineDistances();
+      this.quick.add(lines);
+    }
   }
 
   /** What cannot be done lies over everything else, so that nothing hides it. */
   private addBroken(found: Plan, broken: Uint32Array): void {
-    const at = places(found, broken.subarray(0, MOST_WIDE));
+    const at = [...places(found, broken.subarray(0, MOST_WIDE)), ...ways(found)];
     const lines = new LineSegments2(new LineSegmentsGeometry().setPositions(at), this.broken);
     lines.renderOrder = 25;
-    if (broken.length > 0) this.group.add(lines);
+    if (at.length > 0) this.fine.add(lines);
     const worst = found.report.failures.flatMap(({ at: { x, y, z } }) => [x, y, z]);
     const marks = new Points(thin(new Float32Array(worst)), this.mark);
     marks.renderOrder = 26;
-    this.group.add(marks);
+    this.fine.add(marks);
   }
 
   private add(lines: LineSegments, rows: Uint32Array): void {
     this.rows.set(lines, rows);
-    this.group.add(lines);
+    this.fine.add(lines);
   }
 }
 
-/** The ends of the segments that lead to these rows from the rows before them. */
-function places({ rows }: Plan, to: Uint32Array): Float32Array {
+/** The ends of the segments that lead to these rows, from the rows before them if no others are given. */
+function places(
+  { rows: { tip } }: Plan,
+  to: Uint32Array,
+  from: Uint32Array = to.map((row) => row - 1),
+): Float32Array {
   const found = new Float32Array(6 * to.length);
-  to.forEach((row, i) => found.set(rows.tip.subarray(3 * row - 3, 3 * row + 3), 6 * i));
+  to.forEach((row, i) => {
+    const start = 3 * (from[i] ?? 0);
+    found.set(tip.subarray(start, start + 3), 6 * i);
+    found.set(tip.subarray(3 * row, 3 * row + 3), 6 * i + 3);
+  });
   return found;
 }
 
+/** The ways to places that the machine cannot reach, and from there to the next rows. */
+function ways(found: Plan): number[] {
+  const { tip, count } = found.rows;
+  const place = (row: number) => (row >= 0 && row < count ? [...tip.subarray(3 * row, 3 * row + 3)] : null);
+  return gaps(found).flatMap(({ before, after, at }) =>
+    [place(before), place(after)].flatMap((end) => (end ? [...end, ...at] : [])),
+  );
+}
+
 /** The colours of these ends. */
-function coloured({ rows }: Plan, to: Uint32Array): Float32Array {
+function coloured(
+  { rows: { fraction } }: Plan,
+  to: Uint32Array,
+  from: Uint32Array = to.map((row) => row - 1),
+): Float32Array {
   const colours = new Float32Array(6 * to.length);
   const dark = isDark();
   to.forEach((row, i) => {
-    colours.set(marginColour(rows.fraction[row - 1] ?? 0, dark).map(linear), 6 * i);
-    colours.set(marginColour(rows.fraction[row] ?? 0, dark).map(linear), 6 * i + 3);
+    colours.set(marginColour(fraction[from[i] ?? 0] ?? 0, dark).map(linear), 6 * i);
+    colours.set(marginColour(fraction[row] ?? 0, dark).map(linear), 6 * i + 3);
   });
   return colours;
 }

@@ -29,7 +29,7 @@ export function listenForClicks(stage: Stage, lines: Lines): void {
 }
 
 function pick({ canvas, camera, controls }: Stage, { group, rows }: Lines, event: PointerEvent): void {
-  if (group.children.length === 0) return;
+  if (rows.size === 0) return;
   const { left, top, width, height } = canvas.getBoundingClientRect();
   const u = ((event.clientX - left) / width) * 2 - 1;
   const v = 1 - ((event.clientY - top) / height) * 2;
@@ -39,8 +39,11 @@ function pick({ canvas, camera, controls }: Stage, { group, rows }: Lines, event
   raycaster.setFromCamera(new Vector2(u, v), camera);
   raycaster.params.Line.threshold = NEAR * pixel;
   raycaster.params.Points.threshold = 1.5 * NEAR * pixel;
-  const drawn = group.children.filter((child) => rows.has(child) || child instanceof Points);
-  const hits = raycaster.intersectObjects(drawn, false);
+  const pickable = [...rows.keys()];
+  group.traverse((object) => {
+    if (object instanceof Points) pickable.push(object);
+  });
+  const hits = raycaster.intersectObjects(pickable, false);
   const off = ({ point }: Intersection) => raycaster.ray.distanceToPoint(point);
   hits.sort((a, b) => off(a) - off(b));
   const mark = hits.find(({ object }) => object instanceof Points);

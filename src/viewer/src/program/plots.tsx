@@ -6,6 +6,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { onTheme } from "./colours";
 import { JointLegend } from "./joint_legend";
+import { MarginLegend } from "./margin_legend";
 import { seek } from "./player";
 import { plotPoints } from "./plot_points";
 import { duration, failing, now, plan, type Plan } from "./program_state";
@@ -29,6 +30,7 @@ export function Plots() {
       <figure>
         <figcaption>
           <span>Worst margin, % of the range of its limit</span>
+          <MarginLegend />
           {zoomed && (
             <button type="button" class="small" onClick={() => (zoom.value = null)}>
               All of the time
@@ -121,11 +123,12 @@ function columns(kind: "margin" | "joints", { rows, time }: Plan): Float64Array[
 }
 
 function series(kind: "margin" | "joints"): uPlot.Series[] {
-  if (kind === "margin") return [{ stroke: tone("--ink"), width: 1.5, scale: "y" }];
+  if (kind === "margin") return [{ stroke: tone("--ink"), width: 1.5, scale: "y", points: { show: false } }];
   return JOINTS.map((joint, i) => ({
     stroke: tone(`--joint-${i + 1}`),
     width: 1.5,
     scale: joint.startsWith("rho") ? "y" : "angle",
+    points: { show: false },
     ...(joint.startsWith("theta") && { dash: [6, 3] }),
   }));
 }

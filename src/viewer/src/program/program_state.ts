@@ -2,6 +2,7 @@
 
 import { computed, signal } from "@preact/signals";
 import type { Schemas, ToolpathReport } from "verne-client";
+import { gaps } from "./path_segments";
 import { failingTimes } from "./plot_points";
 import type { ProgramText } from "./program_text";
 import type { RowColumns } from "./row_columns";
@@ -67,10 +68,17 @@ export const currentLine = computed(() => {
   const moves = (found.time[row] ?? 0) < now.value;
   return found.rows.line[Math.min(moves ? row + 1 : row, found.rows.count - 1)] ?? 0;
 });
-/** When a limit is broken. */
+/** When a limit is broken, or a place cannot be reached. */
 export const failing = computed(() => {
   const found = plan.value;
-  return found ? failingTimes(found.time, found.rows.fraction) : [];
+  if (!found) return [];
+  const { time } = found;
+  const last = time.length - 1;
+  const unreached = gaps(found).map(({ before, after }): [number, number] => [
+    time[Math.max(before, 0)] ?? 0,
+    time[Math.min(after, last)] ?? 0,
+  ]);
+  return [...failingTimes(time, found.rows.fraction), ...unreached].sort(([a], [b]) => a - b);
 });
 
 export function planOf(report: ToolpathReport, rows: RowColumns, bucket: number, lengths: number[]): Plan {

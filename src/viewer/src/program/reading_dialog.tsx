@@ -33,7 +33,7 @@ function Form({ asked }: { asked: Waiting }) {
     >
       <h2 id="reading">{refusal ? `The service cannot read ${file.name}` : `What is ${file.name}?`}</h2>
       {refusal && <Faults refusal={refusal} />}
-      <label class="row">
+      <label class="row between format">
         <span class="quiet">Format</span>
         <select
           aria-label="Format of the file"
@@ -153,12 +153,14 @@ function Faults({ refusal }: { refusal: NonNullable<Waiting["refusal"]> }) {
 
 /** The line with the word at fault marked; `column` counts bytes, which are characters in programs but for comments. */
 function FaultyLine({ text, column, word }: { text: string; column: number; word: string }) {
-  const from = text.slice(column - 1).startsWith(word) ? column - 1 : text.indexOf(word);
+  // The service may write the word in capitals.
+  const [line, wanted] = [text.toLowerCase(), word.toLowerCase()];
+  const from = line.startsWith(wanted, column - 1) ? column - 1 : line.indexOf(wanted);
   if (word === "" || from < 0) return <code>{text}</code>;
   return (
     <code>
       {text.slice(0, from)}
-      <mark>{word}</mark>
+      <mark>{text.slice(from, from + word.length)}</mark>
       {text.slice(from + word.length)}
     </code>
   );

@@ -194,6 +194,12 @@ function drawStrip(canvas: HTMLCanvasElement, found: Plan | null): void {
     for (let pixel = from; pixel <= to; pixel += 1)
       worst[pixel] = Math.min(worst[pixel] ?? Infinity, rows.fraction[row] ?? 0);
   }
+  for (const [from, to] of failing.peek()) {
+    const [first, last] = [from, to].map((seconds) => Math.floor((seconds / end) * (width - 1)));
+    // A stretch of the program is at least as wide as it must be to be seen.
+    for (let pixel = first ?? 0; pixel <= Math.max(last ?? 0, (first ?? 0) + 2); pixel += 1)
+      if (!((worst[pixel] ?? 0) < 0)) worst[pixel] = -1;
+  }
   const dark = isDark();
   worst.forEach((fraction, pixel) => {
     context.fillStyle = `rgb(${marginColour(fraction, dark).join(" ")})`;
