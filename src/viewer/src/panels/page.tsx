@@ -4,7 +4,8 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { failure, position } from "../state/store";
 import { link } from "../state/address_bar";
 import { drawing } from "../scene/software";
-import { World, type Side } from "../scene/world";
+import type { Side } from "../scene/viewpoint";
+import { World } from "../scene/world";
 import { JointsPanel } from "./joints";
 import { KeyDialog } from "./key";
 import { MachinePicker } from "./machine";
@@ -88,7 +89,7 @@ function Scene() {
       <div ref={labels} class="labels" aria-hidden="true" />
       <div class="views" role="group" aria-label="Look from">
         {SIDES.map(([side, name]) => (
-          <button type="button" key={side} onClick={() => world?.lookFrom(side)}>
+          <button type="button" key={side} onClick={() => world?.viewpoint.from(side)}>
             {name}
           </button>
         ))}

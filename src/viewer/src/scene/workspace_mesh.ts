@@ -21,6 +21,8 @@ import { shares } from "../geometry/shares";
 /** As it is, and coarser for machines that cannot move it so. */
 type Grade = "fine" | "coarse";
 
+type Piece = Mesh<BufferGeometry, MeshLambertMaterial>;
+
 /** The surface seen from within and from without, in the order in which they are drawn. */
 const SIDES = [
   { side: BackSide, opacity: 0.22 },
@@ -30,6 +32,7 @@ const SIDES = [
 export class WorkspaceMesh {
   readonly group = new Group();
   private readonly grades = { fine: new Group(), coarse: new Group() };
+  private readonly pieces: Record<Grade, Piece[]> = { fine: [], coarse: [] };
   private readonly shown: Record<Grade, string | null> = { fine: null, coarse: null };
   private readonly loader = new GLTFLoader();
   private opaque = false;
@@ -52,12 +55,12 @@ export class WorkspaceMesh {
   async show(summary: WorkspaceSummary | null, grade: Grade = "fine"): Promise<Surface[] | null> {
     this.shown[grade] = summary?.id ?? null;
     if (!summary || summary.triangles === 0) {
-      clear(this.grades[grade]);
+      this.clear(grade);
       return [];
     }
     const loaded = await this.loader.parseAsync(await verne.mesh(summary.id), "");
     if (this.shown[grade] !== summary.id) return null;
-    clear(this.grades[grade]);
+    this.clear(grade);
     loaded.scene.updateMatrixWorld(true);
     const pieces: Mesh<BufferGeometry, MeshStandardMaterial>[] = [];
     loaded.scene.traverse((node) => {
@@ -72,6 +75,7 @@ export class WorkspaceMesh {
         piece.getWorldPosition(shown.position);
         shown.renderOrder = 10 + order;
         this.grades[grade].add(shown);
+        this.pieces[grade].push(shown);
       }
     }
     this.paint();
@@ -105,8 +109,7 @@ export class WorkspaceMesh {
 
   /** Gives every piece the transparency and the section that are wanted. */
   private paint(): void {
-    for (const shown of [...this.grades.fine.children, ...this.grades.coarse.children]) {
-      const material = (shown as Mesh<BufferGeometry, MeshLambertMaterial>).material;
+    for (const { material } of [...this.pieces.fine, ...this.pieces.coarse]) {
       const opacity = SIDES.find(({ side }) => side === material.side)?.opacity ?? 1;
       material.transparent = !this.opaque;
       material.opacity = this.opaque ? 1 : opacity;
@@ -121,12 +124,13 @@ export class WorkspaceMesh {
     this.plane.setFromNormalAndCoplanarPoint(new Vector3(0, -1, 0), new Vector3(0, this.height, 0));
     this.plane.applyMatrix4(this.group.matrix);
   }
-}
 
-function clear(group: Group): void {
-  for (const shown of group.children as Mesh<BufferGeometry, MeshLambertMaterial>[]) {
-    shown.geometry.dispose();
-    shown.material.dispose();
+  private clear(grade: Grade): void {
+    for (const { geometry, material } of this.pieces[grade]) {
+      geometry.dispose();
+      material.dispose();
+    }
+    this.pieces[grade] = [];
+    this.grades[grade].clear();
   }
-  group.clear();
 }

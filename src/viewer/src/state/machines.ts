@@ -13,7 +13,10 @@ export async function listMachines(): Promise<void> {
 
 /** Loads the view's machine and puts it where the view says. */
 export async function loadMachine({ machine: name, own }: View): Promise<void> {
-  if (own) return use(await examined(own, own));
+  if (own) {
+    use(await examined(own, own));
+    return;
+  }
   const found = unwrap(await verne.api.GET("/machines/{name}", { params: { path: { name } } }));
   use(await examined(name, found.definition));
 }

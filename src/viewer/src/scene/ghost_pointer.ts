@@ -1,0 +1,28 @@
+/** Ghosts are pointed at and picked by hand in the scene, as in their list. */
+
+import { Vector2 } from "three";
+import { pick } from "../state/motion";
+import { ghosts, pointed } from "../state/store";
+import type { Ghosts } from "./ghosts";
+
+/** A press that moves farther turns the camera, px. */
+const STILL = 4;
+
+export function listenForGhosts(canvas: HTMLCanvasElement, drawn: Ghosts): void {
+  let pressed = new Vector2();
+  const at = (event: PointerEvent) => {
+    const { left, top, width, height } = canvas.getBoundingClientRect();
+    return new Vector2(((event.clientX - left) / width) * 2 - 1, 1 - ((event.clientY - top) / height) * 2);
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    pressed = new Vector2(event.clientX, event.clientY);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (event.buttons === 0 && ghosts.peek().length > 0) pointed.value = drawn.under(at(event));
+  });
+  canvas.addEventListener("pointerup", (event) => {
+    if (pressed.distanceTo(new Vector2(event.clientX, event.clientY)) > STILL) return;
+    const ghost = ghosts.peek()[drawn.under(at(event)) ?? -1];
+    if (ghost) pick(ghost);
+  });
+}

@@ -1,0 +1,48 @@
+/** Where the scene is seen from: the whole machine from a side, or as the address says. */
+
+import { effect } from "@preact/signals";
+import { Vector3 } from "three";
+import { camera, change, machine } from "../state/store";
+import type { Camera } from "../state/view";
+import type { Stage } from "./stage";
+import { extent } from "./surroundings";
+
+export type Side = "whole" | "front" | "side" | "top";
+const FROM: Record<Side, Vector3> = {
+  whole: new Vector3(0.5, 0.36, 1),
+  front: new Vector3(0, 0.02, 1),
+  side: new Vector3(1, 0.02, 0),
+  top: new Vector3(0, 1, 0.001),
+};
+
+export class Viewpoint {
+  constructor(private readonly stage: Stage) {
+    stage.controls.addEventListener("end", () => change({ camera: rounded(stage.seen()) }));
+    effect(() => {
+      if (machine.value && !camera.peek()) this.from("whole");
+    });
+    effect(() => {
+      const seen = camera.value;
+      if (seen) stage.look(seen);
+    });
+  }
+
+  /** Looks at the machine from a side, all of it. */
+  from(side: Side): void {
+    const definition = machine.peek()?.definition;
+    if (!definition) return;
+    const { top, floor } = extent(definition);
+    const middle = -(top + floor) / 2000;
+    this.stage.frame(new Vector3(0, middle, 0), ((floor - top) / 2000) * 1.13, FROM[side]);
+    change({ camera: null });
+  }
+}
+
+function rounded({ eye, target }: Camera): Camera {
+  const round = ([x, y, z]: Camera["eye"]): Camera["eye"] => [thousandth(x), thousandth(y), thousandth(z)];
+  return { eye: round(eye), target: round(target) };
+}
+
+function thousandth(value: number): number {
+  return Math.round(value * 1000) / 1000;
+}
