@@ -45,6 +45,59 @@ test("a typed pose moves the machine through /ik; an unreachable pose shows the 
     /^Out of reach: leg \d too short by [\d\u202f.]+.mm\.$/,
   );
   expect(await rho1.inputValue()).toBe(stood);
+  // The value stays to be corrected, and the scene names the place.
+  await expect(x).toHaveValue("900");
+  await expect(x).toHaveAttribute("aria-invalid", "true");
+  await expect(page.locator(".label", { hasText: "wanted here: cannot be reached" })).toBeVisible();
+  await page.getByRole("button", { name: "Discard" }).click();
+  await expect(x).toHaveValue("120.0");
+  await expect(x).toHaveAttribute("aria-invalid", "false");
+  await expect(page.locator(".label", { hasText: "wanted here" })).toBeHidden();
+});
+
+test("two values that are out of reach only one by one are typed one after the other", async ({ page, request }) => {
+  await open(page);
+  const typed = async (label, value) => {
+    await page.getByLabel(label).fill(String(value));
+    await page.getByLabel(label).press("Enter");
+  };
+  await typed("X on the part, mm", 900);
+  await expect(page.getByTestId("trouble")).toHaveText(/^Out of reach/);
+  await typed("Y on the part, mm", 10);
+  await expect(page.getByLabel("X on the part, mm")).toHaveValue("900.0");
+  await typed("X on the part, mm", 20);
+  await expect(page.getByTestId("trouble")).toHaveText(/^Drag/);
+  const pose = { x: 20, y: 10, z: 404.9, phi1: 0, phi2: 0 };
+  const { solutions } = await ask(request, "/ik", { pose, tool_length: 50 });
+  const reached = Math.round(solutions[0].joints.rho[0]);
+  const rho1 = page.getByRole("slider", { name: "Slider 1, mm" });
+  await expect.poll(async () => Math.abs(Number(await rho1.inputValue()) - reached)).toBeLessThanOrEqual(1);
+});
+
+test.describe("a value that the service does not accept", () => {
+  test.use({ provoked: [/status of 422/] });
+
+  test("has its reason at the field", async ({ page }) => {
+    await open(page);
+    const x = page.getByLabel("X on the part, mm");
+    await x.fill("1e12");
+    await x.press("Enter");
+    await expect(x).toHaveAttribute("aria-invalid", "true");
+    await expect(page.locator(".fault")).toHaveText(/^X: .*\d/);
+    await expect(x).toHaveAccessibleDescription(/^X: /);
+    await expect(page.getByText("see errors")).toHaveCount(0);
+  });
+});
+
+test("a slider's value out of its stroke stays in the field with the stroke", async ({ page }) => {
+  await open(page);
+  const typed = page.getByLabel("Slider 1, typed, mm");
+  await typed.fill("900");
+  await typed.press("Enter");
+  await expect(typed).toHaveValue("900");
+  await expect(page.locator(".fault")).toHaveText("ρ₁: from 0 to 750\u00a0mm");
+  await typed.press("Escape");
+  await expect(page.locator(".fault")).toHaveCount(0);
 });
 
 test("a user drags the tool by its arrows", async ({ page }) => {

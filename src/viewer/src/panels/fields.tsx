@@ -1,6 +1,6 @@
 /** Numbers to type and to slide. */
 
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useId, useRef, useState } from "preact/hooks";
 
 interface NumberProps {
   label: string;
@@ -12,10 +12,12 @@ interface NumberProps {
   step?: number;
   min?: number;
   max?: number;
+  /** Why the value cannot be used; empty where another element says it. */
+  fault?: string | undefined;
   commit: (value: number) => void;
 }
 
-/** A number with its unit; while it is typed, nothing overwrites it. */
+/** A number with its unit; while it is typed, nothing overwrites it. A value out of range stays, with its reason. */
 export function NumberField({
   label,
   symbol,
@@ -23,20 +25,32 @@ export function NumberField({
   value,
   decimals = 1,
   step = 1,
-  min,
-  max,
+  min = -Infinity,
+  max = Infinity,
+  fault,
   commit,
 }: NumberProps) {
   const input = useRef<HTMLInputElement>(null);
+  const id = useId();
   const [typing, setTyping] = useState(false);
+  const [outOfRange, setOutOfRange] = useState(false);
   const shown = clean(value, decimals);
+  useEffect(() => setOutOfRange(false), [shown]);
   useEffect(() => {
-    if (!typing && input.current) input.current.value = shown;
-  }, [shown, typing]);
+    if (!typing && !outOfRange && input.current) input.current.value = shown;
+  }, [shown, typing, outOfRange]);
   const take = () => {
     const typed = input.current?.valueAsNumber ?? Number.NaN;
-    if (Number.isFinite(typed) && input.current?.value !== shown) commit(clamp(typed, min, max));
+    const inside = !(typed < min || typed > max);
+    setOutOfRange(!inside);
+    if (inside && Number.isFinite(typed) && input.current?.value !== shown) commit(typed);
   };
+  const discard = (event: KeyboardEvent) => {
+    if (event.key !== "Escape" || !input.current) return;
+    input.current.value = shown;
+    setOutOfRange(false);
+  };
+  const words = outOfRange ? range(min, max, unit) : fault;
   return (
     <label class="number">
       <span class="name" aria-hidden={symbol ? "true" : undefined}>
@@ -48,30 +62,46 @@ export function NumberField({
           type="number"
           inputMode="decimal"
           aria-label={symbol ? `${label}, ${spoken(unit)}` : undefined}
+          aria-invalid={words !== undefined}
+          aria-describedby={words ? id : undefined}
           step={step}
-          min={min}
-          max={max}
           defaultValue={shown}
           onFocus={() => setTyping(true)}
           onBlur={() => setTyping(false)}
           onChange={take}
+          onKeyDown={discard}
         />
         <span class="unit" aria-hidden="true">
           {unit}
         </span>
       </span>
+      {words && (
+        <span class="fault" id={id} role="alert">
+          {symbol ?? label}: {words}
+        </span>
+      )}
     </label>
   );
+}
+
+/** The values that a field takes, in words. */
+function range(min: number, max: number, unit: string): string {
+  const space = unit === "°" ? "" : "\u00a0";
+  if (max === Infinity) return `at least ${min}${space}${unit}`;
+  if (min === -Infinity) return `at most ${max}${space}${unit}`;
+  return `from ${min} to ${max}${space}${unit}`;
 }
 
 interface SlideProps extends NumberProps {
   min: number;
   max: number;
+  /** The greatest value that can be typed, where it is more than can be slid. */
+  most?: number;
 }
 
 /** A number that is mostly slid: it is told at every step. */
 export function SlideField(props: SlideProps) {
-  const { label, unit, value, min, max, decimals = 1, step = 1, commit } = props;
+  const { label, unit, value, min, max, most = max, decimals = 1, step = 1, commit } = props;
   return (
     <div class="slide">
       <input
@@ -84,7 +114,13 @@ export function SlideField(props: SlideProps) {
         aria-valuetext={`${clean(value, decimals)} ${spoken(unit)}`}
         onInput={(event) => commit(event.currentTarget.valueAsNumber)}
       />
-      <NumberField {...props} label={`${label}, typed`} symbol={props.symbol ?? label} step={step} />
+      <NumberField
+        {...props}
+        label={`${label}, typed`}
+        symbol={props.symbol ?? label}
+        max={most}
+        step={step}
+      />
     </div>
   );
 }

@@ -1,21 +1,17 @@
 /** Five sliders move the machine. */
 
-import { machine, position } from "../state/store";
+import { heading, machine, position, refusal } from "../state/store";
 import { moveTo } from "../state/motion";
 import type { Joints } from "../state/view";
 import { SlideField } from "./fields";
-import { useWanted } from "./wanted";
 
 export function JointsPanel() {
   const known = machine.value;
-  const at = useWanted(position.value?.joints ?? known?.home.joints);
-  if (!known || !at.value) return null;
+  const target = heading.value ?? refusal.value?.target;
+  const wanted = (target?.by === "joints" ? target.joints : position.value?.joints) ?? known?.home.joints;
+  if (!known || !wanted) return null;
   const { limits } = known.definition;
-  const wanted = at.value;
-  const move = (joints: Joints) => {
-    at.want(joints);
-    moveTo({ by: "joints", joints });
-  };
+  const move = (joints: Joints) => moveTo({ by: "joints", joints });
   const rho = (i: 0 | 1 | 2, value: number) => {
     const next: Joints["rho"] = [...wanted.rho];
     next[i] = value;

@@ -4,7 +4,8 @@ import { effect } from "@preact/signals";
 import { Matrix4, Vector3 } from "three";
 import { sceneFromFrame } from "../geometry/frames";
 import { moveTo } from "../state/motion";
-import { complaint, drag, machine, position } from "../state/store";
+import { drag, machine, position, refusal } from "../state/store";
+import { wantedTip } from "../state/target";
 import { Handle } from "./handle";
 import type { Materials } from "./materials";
 import type { Stage } from "./stage";
@@ -44,7 +45,8 @@ export class TipControl {
   }
 
   private mark(): void {
-    const missed = complaint.value?.wanted;
+    const refused = refusal.value;
+    const missed = refused && wantedTip(refused.target);
     this.handle.mark(
       missed ? new Vector3(missed.x, missed.y, missed.z).applyMatrix4(sceneFrom(missed.frame)) : null,
     );
