@@ -5,6 +5,8 @@ import { render } from "preact";
 import { Page } from "./panels/page";
 import { keepAddress, onNewAddress, saidByAddress } from "./state/address_bar";
 import { keepWorkspace } from "./state/computation";
+import { keepHistory } from "./state/history";
+import { keepJointWays } from "./state/joint_ways";
 import { follow } from "./state/link";
 import { listMachines } from "./state/machines";
 import { stay } from "./state/motion";
@@ -17,6 +19,8 @@ async function start(): Promise<void> {
   void listMachines().catch(() => undefined);
   await first;
   keepWorkspace();
+  keepJointWays();
+  keepHistory();
   keepAddress();
   onNewAddress((said) => void follow(said));
   followTool();

@@ -2,7 +2,7 @@
 
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 
-interface NumberProps {
+export interface NumberProps {
   label: string;
   /** Shown instead of the label, which remains for those who listen. */
   symbol?: string;
@@ -92,39 +92,6 @@ function range(min: number, max: number, unit: string): string {
   return `from ${min} to ${max}${space}${unit}`;
 }
 
-interface SlideProps extends NumberProps {
-  min: number;
-  max: number;
-  /** The greatest value that can be typed, where it is more than can be slid. */
-  most?: number;
-}
-
-/** A number that is mostly slid: it is told at every step. */
-export function SlideField(props: SlideProps) {
-  const { label, unit, value, min, max, most = max, decimals = 1, step = 1, commit } = props;
-  return (
-    <div class="slide">
-      <input
-        type="range"
-        aria-label={`${label}, ${spoken(unit)}`}
-        min={min}
-        max={max}
-        step={step}
-        value={clamp(value, min, max)}
-        aria-valuetext={`${clean(value, decimals)} ${spoken(unit)}`}
-        onInput={(event) => commit(event.currentTarget.valueAsNumber)}
-      />
-      <NumberField
-        {...props}
-        label={`${label}, typed`}
-        symbol={props.symbol ?? label}
-        max={most}
-        step={step}
-      />
-    </div>
-  );
-}
-
 interface ChoiceProps<T extends string> {
   legend: string;
   name: string;
@@ -150,14 +117,11 @@ export function Choice<T extends string>({ legend, name, value, options, choose 
   );
 }
 
-export function clamp(value: number, min = -Infinity, max = Infinity): number {
-  return Math.min(Math.max(value, min), max);
-}
-
-function clean(value: number, decimals: number): string {
+export function clean(value: number, decimals: number): string {
   return (Number(value.toFixed(decimals)) + 0).toFixed(decimals);
 }
 
-function spoken(unit: string): string {
+/** A unit as it is read aloud. */
+export function spoken(unit: string): string {
   return unit === "°" ? "degrees" : unit;
 }

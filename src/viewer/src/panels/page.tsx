@@ -14,6 +14,7 @@ import { acceptDrops } from "./machine_file";
 import { MarginsPanel } from "./margins";
 import { Notices } from "./notices";
 import { PositionsPanel } from "./positions";
+import { SceneTools } from "./scene_tools";
 import { ToolPanel } from "./tool";
 import { ToolTipPanel } from "./tool_tip";
 import { WorkspaceCaption } from "./workspace_caption";
@@ -90,6 +91,7 @@ function Scene() {
         <WorkspaceCaption />
         <Notices />
       </div>
+      <SceneTools />
       <div class="views" role="group" aria-label="Look from">
         {SIDES.map(([side, name]) => (
           <button type="button" key={side} onClick={() => world?.viewpoint.from(side)}>

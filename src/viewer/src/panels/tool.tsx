@@ -1,7 +1,8 @@
 /** The tool: its length and its end, for the machine and for the workspace. */
 
 import { change, overTable, refusal, tool } from "../state/store";
-import { NumberField, SlideField } from "./fields";
+import { NumberField } from "./fields";
+import { SlideField } from "./slide";
 
 /** The tool lengths that the slider offers, mm; longer ones are typed. */
 const LONGEST = 400;
@@ -23,6 +24,7 @@ export function ToolPanel() {
         step={5}
         fault={refusal.value?.fields["tool_length"]}
         commit={(tool) => change({ tool })}
+        nudge={(by) => change({ tool: Math.max(0, tool.peek() + by) })}
       />
       <div class="row three">
         <NumberField

@@ -5,6 +5,7 @@ import type { PartPose, Target } from "../state/target";
 import { moveTo } from "../state/motion";
 import { degrees, mm, number } from "../words/numbers";
 import { Choice, NumberField } from "./fields";
+import { Refused } from "./refused";
 
 const KEPT = [
   ["part", "angles on the part"],
@@ -52,16 +53,7 @@ export function ToolTipPanel() {
       </header>
       <div class="row three">{FIELDS.slice(0, 3).map(field)}</div>
       <div class="row three">{FIELDS.slice(3).map(field)}</div>
-      <div class="row between">
-        <p role="status" class={refused ? "trouble" : "hint"} data-testid="trouble">
-          {refused ? refused.sentence : "Drag the arrows at the tip, or type."}
-        </p>
-        {refused && (
-          <button type="button" class="small" onClick={() => (refusal.value = null)}>
-            Discard
-          </button>
-        )}
-      </div>
+      <Refused by="pose">Drag the arrows or the knobs at the tip, or type.</Refused>
       <Choice
         legend="Dragging keeps"
         name="drag"

@@ -20,7 +20,10 @@ export class Viewpoint {
   private aside = false;
 
   constructor(private readonly stage: Stage) {
-    stage.controls.addEventListener("end", () => change({ camera: rounded(stage.seen()) }));
+    const tell = () => change({ camera: rounded(stage.seen()) });
+    stage.controls.addEventListener("end", tell);
+    // The controls do not tell when a key has moved the camera.
+    stage.canvas.addEventListener("keyup", ({ key }) => key.startsWith("Arrow") && tell());
     effect(() => {
       if (machine.value && !camera.peek()) this.from("whole");
     });

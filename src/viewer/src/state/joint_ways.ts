@@ -5,8 +5,8 @@ import { unwrap } from "verne-client";
 import { verne } from "../api/client";
 import { boundary } from "../words/elements";
 import { machine, overTable, position, tool } from "./store";
+import { toList, travels } from "./joints";
 import { waysOf, type Examine, type Way } from "./ways";
-import type { Joints } from "./view";
 
 /** For rho1, rho2, rho3, theta1, theta2; null where the machine's own posture breaks a limit. */
 export const jointWays = signal<Way[] | null>(null);
@@ -30,7 +30,7 @@ export function keepJointWays(): void {
       });
     };
     const timer = setTimeout(() => {
-      waysOf(listed(at.joints), travels(known.definition.limits), examine)
+      waysOf(toList(at.joints), travels(known.definition.limits), examine)
         .then((found) => {
           if (position.peek() === at && machine.peek() === known) jointWays.value = found;
         })
@@ -39,18 +39,4 @@ export function keepJointWays(): void {
     }, REST);
     return () => clearTimeout(timer);
   });
-}
-
-/** The ends of each joint's travel. */
-export function travels(limits: {
-  stroke: number[][];
-  tilt: number[];
-  rotary?: number[] | null;
-}): [number, number][] {
-  const ends = [...limits.stroke, limits.tilt, limits.rotary ?? [-360, 360]];
-  return ends.map(([low = 0, high = 0]) => [low, high]);
-}
-
-function listed({ rho, theta1, theta2 }: Joints): number[] {
-  return [...rho, theta1, theta2];
 }

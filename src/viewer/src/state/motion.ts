@@ -16,9 +16,11 @@ import {
   position,
   refusal,
   view,
+  wantedJoints,
   type Position,
 } from "./store";
 import type { Target } from "./target";
+import { clamp, fromList, toList, travels } from "./joints";
 import type { Joints } from "./view";
 
 type TargetPose = Schemas["TargetPose"];
@@ -71,6 +73,19 @@ export async function arrive(joints: Joints): Promise<string | null> {
   const refused = refusal.peek();
   refusal.value = null;
   return refused?.sentence ?? null;
+}
+
+/** Moves one joint (0 to 2: sliders, 3: tilt, 4: turn) from where it is wanted: no step is lost while answers are awaited. */
+export function jog(joint: number, by: number): void {
+  const from = wantedJoints.peek();
+  const limits = machine.peek()?.definition.limits;
+  if (!from || !limits) return;
+  const [low = -Infinity, high = Infinity] = travels(limits)[joint] ?? [];
+  const value = (joints: number[]) => joints[joint] ?? 0;
+  const now = value(toList(from));
+  // A joint beyond its travel can return.
+  const next = clamp(now + by, Math.min(low, now), Math.max(high, now));
+  moveTo({ by: "joints", joints: fromList(toList(from).with(joint, next)) });
 }
 
 /** Takes up a ghost's position. */

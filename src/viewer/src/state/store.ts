@@ -67,6 +67,12 @@ export const ghosts = signal<Position[]>([]);
 /** Where the machine is going: the newest target, until it is answered. */
 export const heading = signal<Target | null>(null);
 export const refusal = signal<Refusal | null>(null);
+/** The joints that controls show: those that are wanted, where joints are wanted, or those where the machine stands. */
+export const wantedJoints = computed(() => {
+  const target = heading.value ?? refusal.value?.target;
+  if (target?.by === "joints") return target.joints;
+  return position.value?.joints ?? machine.value?.home.joints ?? null;
+});
 
 /** The tool's angles on the part for which a workspace is wanted, degrees. */
 export const workspaceAngles = computed(() => {
