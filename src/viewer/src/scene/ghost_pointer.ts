@@ -4,16 +4,14 @@ import { Vector2 } from "three";
 import { pick } from "../state/motion";
 import { ghosts, pointed } from "../state/store";
 import type { Ghosts } from "./ghosts";
+import { onCanvas } from "./pointing";
 
 /** A press that moves farther turns the camera, px. */
 const STILL = 4;
 
 export function listenForGhosts(canvas: HTMLCanvasElement, drawn: Ghosts): void {
   let pressed = new Vector2();
-  const at = (event: PointerEvent) => {
-    const { left, top, width, height } = canvas.getBoundingClientRect();
-    return new Vector2(((event.clientX - left) / width) * 2 - 1, 1 - ((event.clientY - top) / height) * 2);
-  };
+  const at = (event: PointerEvent) => onCanvas(canvas, event);
   canvas.addEventListener("pointerdown", (event) => {
     pressed = new Vector2(event.clientX, event.clientY);
   });

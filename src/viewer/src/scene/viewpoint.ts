@@ -16,14 +16,23 @@ const FROM: Record<Side, Vector3> = {
 };
 
 export class Viewpoint {
+  /** Whether the scene is seen from a side; such a view needs no camera in the address. */
+  private aside = false;
+
   constructor(private readonly stage: Stage) {
-    stage.controls.addEventListener("end", () => change({ camera: rounded(stage.seen()) }));
+    const tell = () => change({ camera: rounded(stage.seen()) });
+    stage.controls.addEventListener("end", tell);
+    // The controls do not tell when a key has moved the camera.
+    stage.canvas.addEventListener("keyup", ({ key }) => key.startsWith("Arrow") && tell());
     effect(() => {
       if (machine.value && !camera.peek()) this.from("whole");
     });
     effect(() => {
       const seen = camera.value;
-      if (seen) stage.look(seen);
+      if (seen) {
+        this.aside = false;
+        stage.look(seen);
+      } else if (!this.aside) this.from("whole");
     });
   }
 
@@ -34,6 +43,7 @@ export class Viewpoint {
     const { top, floor } = extent(definition);
     const middle = -(top + floor) / 2000;
     this.stage.frame(new Vector3(0, middle, 0), ((floor - top) / 2000) * 1.13, FROM[side]);
+    this.aside = true;
     change({ camera: null });
   }
 }

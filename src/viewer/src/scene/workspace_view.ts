@@ -4,7 +4,9 @@ import { computed, effect } from "@preact/signals";
 import { Group, Matrix4 } from "three";
 import { inWords } from "../api/client";
 import { AT_REST, baseFromTable, sceneFromPartGlb } from "../geometry/frames";
+import { outdated } from "../state/computation";
 import {
+  isolated,
   machine,
   position,
   section,
@@ -43,7 +45,7 @@ export class WorkspaceView {
     });
     effect(() => void this.mesh.show(standIn.value, "coarse").catch(() => undefined));
     effect(() => {
-      this.mesh.solid(solid.value);
+      this.mesh.dress({ opaque: solid.value, outdated: outdated.value, isolated: isolated.value });
       stage.draw();
     });
     effect(() => {
