@@ -1,19 +1,24 @@
 /** The page: the scene in the middle, what moves it to the left, what is known to the right. */
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { failure, position } from "../state/store";
+import { position } from "../state/store";
 import { link } from "../state/address_bar";
 import { drawing } from "../scene/software";
-import { World, type Side } from "../scene/world";
+import type { Side } from "../scene/viewpoint";
+import { World } from "../scene/world";
 import { JointsPanel } from "./joints";
 import { KeyDialog } from "./key";
 import { MachinePicker } from "./machine";
 import { MachineFaults } from "./machine_faults";
 import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
+import { Notices } from "./notices";
 import { openProgramFile, ProgramDialogs, ProgramDock, ProgramSection, showPathIn } from "../program/entry";
 import { PositionsPanel } from "./positions";
+import { SceneTools } from "./scene_tools";
+import { ToolPanel } from "./tool";
 import { ToolTipPanel } from "./tool_tip";
+import { WorkspaceCaption } from "./workspace_caption";
 import { WorkspacePanel } from "./workspace";
 
 const SIDES: [Side, string][] = [
@@ -41,6 +46,7 @@ export function Page() {
       <main>
         <div class="panel left">
           <JointsPanel />
+          <ToolPanel />
           <ToolTipPanel />
           <PositionsPanel />
         </div>
@@ -52,11 +58,6 @@ export function Page() {
         </div>
         <ProgramDock />
       </main>
-      {failure.value && (
-        <p class="failure" role="alert">
-          {failure.value}
-        </p>
-      )}
       {dropping && (
         <div class="dropping" aria-hidden="true">
           Drop a program, or a machine’s JSON file
@@ -98,9 +99,14 @@ function Scene() {
         aria-label="The machine in 3D. Drag to turn, wheel to come nearer; arrow keys move, with shift they turn."
       />
       <div ref={labels} class="labels" aria-hidden="true" />
+      <div class="over">
+        <WorkspaceCaption />
+        <Notices />
+      </div>
+      <SceneTools />
       <div class="views" role="group" aria-label="Look from">
         {SIDES.map(([side, name]) => (
-          <button type="button" key={side} onClick={() => world?.lookFrom(side)}>
+          <button type="button" key={side} onClick={() => world?.viewpoint.from(side)}>
             {name}
           </button>
         ))}

@@ -1,7 +1,7 @@
 /** The part of the page for programs. Its code is loaded when a program is opened. */
 
 import { effect, signal } from "@preact/signals";
-import { inWords } from "../api/client";
+import { failureOf } from "../api/client";
 import type { Stage } from "../scene/stage";
 import { failure, view } from "../state/store";
 import { ACCEPTED } from "./formats";
@@ -13,11 +13,18 @@ const stage = signal<Stage | null>(null);
 let loading: Promise<Loaded> | null = null;
 
 function load(): Promise<Loaded> {
-  loading ??= import("./program").then((module) => {
-    module.begin(stage);
-    loaded.value = module;
-    return module;
-  });
+  loading ??= import("./program").then(
+    (module) => {
+      module.begin(stage);
+      loaded.value = module;
+      return module;
+    },
+    (thrown: unknown) => {
+      // The next attempt asks the service again.
+      loading = null;
+      throw thrown;
+    },
+  );
   return loading;
 }
 
@@ -31,15 +38,23 @@ export async function openProgramFile(file: File): Promise<void> {
   try {
     await (await load()).openProgram(file);
   } catch (thrown) {
-    failure.value = inWords(thrown);
+    failure.value = failureOf(thrown, () => void openProgramFile(file));
   }
 }
 
 /** Opens the programs that links name. */
 export function followLinks(): void {
   effect(() => {
-    if (view.value.program) void load().catch((thrown: unknown) => (failure.value = inWords(thrown)));
+    if (view.value.program) void loadForLink();
   });
+}
+
+async function loadForLink(): Promise<void> {
+  try {
+    await load();
+  } catch (thrown) {
+    failure.value = failureOf(thrown, () => void loadForLink());
+  }
 }
 
 export function ProgramSection() {

@@ -103,7 +103,7 @@ async function send(file: File, reading: Reading): Promise<void> {
   } catch (thrown) {
     if (own === stop) await refused(file, reading, thrown, own.signal.aborted);
   } finally {
-    if (own === stop && activity.value?.words.startsWith("Sending")) activity.value = null;
+    if (own === stop && activity.peek()?.words.startsWith("Sending")) activity.value = null;
   }
 }
 

@@ -8,6 +8,7 @@ import {
   LineBasicMaterial,
   LineDashedMaterial,
   LineSegments,
+  Mesh,
   Points,
   PointsMaterial,
   type Object3D,
@@ -25,6 +26,7 @@ import { listenForClicks } from "./path_picking";
 import { gaps, longer, segments } from "./path_segments";
 import { framing, now, plan, playing, type Plan } from "./program_state";
 import { roundPoint } from "./round_point";
+import { wakeOn } from "./wake_on";
 
 /** Segments that are drawn as wide lines; more of them would be slow, and are near each other anyway. */
 const MOST_WIDE = 40_000;
@@ -85,7 +87,7 @@ export class PathLines {
       stage.draw();
     });
     effect(() => {
-      now.value;
+      wakeOn(now);
       if (playing.value) stage.resolution.touch();
     });
     effect(() => {
@@ -96,7 +98,10 @@ export class PathLines {
 
   private build(found: Plan | null): void {
     for (const level of [this.fine, this.quick]) {
-      for (const drawn of level.children as LineSegments[]) drawn.geometry.dispose();
+      level.traverse((drawn) => {
+        if (drawn instanceof Mesh || drawn instanceof LineSegments || drawn instanceof Points)
+          (drawn.geometry as BufferGeometry).dispose();
+      });
       level.clear();
     }
     this.rows.clear();

@@ -5,10 +5,11 @@ import { unwrap } from "verne-client";
 import { verne } from "../api/client";
 import { latest } from "../api/latest";
 import { moveTo } from "../state/motion";
-import { change, machine, overTable, position, tool } from "../state/store";
+import { change, machine, overTable, position, refusal, tool } from "../state/store";
 import { postureAt, type Posture } from "./posture";
 import { currentRow, duration, loop, now, plan, playing, program, speed } from "./program_state";
 import { instantAt, rowOfLine } from "./timeline";
+import { wakeOn } from "./wake_on";
 
 export function play(): void {
   if (!plan.peek()) return;
@@ -58,7 +59,7 @@ export function keepPlaying(): () => void {
       if (plan.value) untracked(settle);
     }),
     effect(() => {
-      now.value;
+      wakeOn(now);
       if (playing.peek()) untracked(() => show(false));
     }),
   ];
@@ -112,7 +113,9 @@ function show(stands: boolean): void {
 /** Draws the machine at once, with the margins that were known last. */
 function picture({ joints, platform, tool: end }: Posture): void {
   const before = position.peek();
-  if (before) position.value = { joints, solution: { ...before.solution, platform, tool: end } };
+  if (!before) return;
+  position.value = { joints, solution: { ...before.solution, platform, tool: end } };
+  refusal.value = null;
 }
 
 /** One question under way while the machine moves: its margins follow a moment later. */

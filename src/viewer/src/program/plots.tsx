@@ -12,6 +12,7 @@ import { plotPoints } from "./plot_points";
 import { duration, failing, now, plan, type Plan } from "./program_state";
 import { JOINTS } from "./row_columns";
 import { rates } from "./timeline";
+import { wakeOn } from "./wake_on";
 
 export type Quantity = "position" | "rate";
 
@@ -68,8 +69,7 @@ function draw(box: HTMLElement, kind: "margin" | "joints"): () => void {
   sizes.observe(box);
   const stops = [
     effect(() => {
-      theme.value;
-      quantity.value;
+      wakeOn(theme, quantity);
       const made = new uPlot(
         options(kind, box),
         [[], ...series(kind).map(() => [])] as uPlot.AlignedData,
@@ -87,7 +87,7 @@ function draw(box: HTMLElement, kind: "margin" | "joints"): () => void {
       return () => made.destroy();
     }),
     effect(() => {
-      theme.value;
+      wakeOn(theme);
       const found = plan.value;
       if (!plot || !found || width.value === 0) return;
       const range = zoom.value ?? [0, duration.value || 1];
@@ -98,11 +98,7 @@ function draw(box: HTMLElement, kind: "margin" | "joints"): () => void {
       plot.setScale("x", { min: range[0], max: range[1] });
     }),
     effect(() => {
-      theme.value;
-      quantity.value;
-      zoom.value;
-      width.value;
-      plan.value;
+      wakeOn(theme, quantity, zoom, width, plan);
       if (!plot || !marker) return;
       const x = plot.valToPos(now.value, "x");
       marker.style.transform = `translateX(${x}px)`;
@@ -135,8 +131,9 @@ function series(kind: "margin" | "joints"): uPlot.Series[] {
 
 function options(kind: "margin" | "joints", box: HTMLElement): uPlot.Options {
   const rate = quantity.value === "rate";
-  const axis = (scale: string, label: string, side: uPlot.Axis.Side): uPlot.Axis => ({
+  const axis = (scale: string, label: string, side: 1 | 3): uPlot.Axis => ({
     scale,
+    // eslint-disable-next-line @typescript-eslint/no-unsafe-enum-assignment -- the enum has no values at run time
     side,
     size: AXIS,
     label,
@@ -188,15 +185,16 @@ function select(plot: uPlot): void {
 }
 
 /** Failing stretches behind the lines. */
-function bands({ ctx, bbox, valToPos }: uPlot): void {
+function bands(plot: uPlot): void {
+  const { ctx, bbox } = plot;
   ctx.save();
   ctx.beginPath();
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
   ctx.fillStyle = tone("--failing");
   for (const [from, to] of failing.peek()) {
-    const left = valToPos(from, "x", true);
-    ctx.fillRect(left, bbox.top, Math.max(valToPos(to, "x", true) - left, 2), bbox.height);
+    const left = plot.valToPos(from, "x", true);
+    ctx.fillRect(left, bbox.top, Math.max(plot.valToPos(to, "x", true) - left, 2), bbox.height);
   }
   ctx.restore();
 }

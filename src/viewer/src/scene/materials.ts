@@ -16,6 +16,8 @@ export class Materials {
   readonly warn = new MeshLambertMaterial(FACE);
   readonly bad = new MeshLambertMaterial(FACE);
   readonly marker = new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.9 });
+  readonly knob = new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.95 });
+  readonly guide = new LineBasicMaterial({ depthTest: false, transparent: true, opacity: 0.6 });
   readonly edge = new LineBasicMaterial({ transparent: true, opacity: 0.45 });
   readonly slot = new LineBasicMaterial();
   readonly grid = new LineBasicMaterial({ transparent: true, opacity: 0.55 });
@@ -39,6 +41,8 @@ export class Materials {
     this.warn.color = palette.warn;
     this.bad.color = palette.bad;
     this.marker.color = palette.bad;
+    this.knob.color = palette.accent;
+    this.guide.color = palette.accent;
     this.edge.color = palette.ink;
     this.slot.color = palette.ink;
     this.grid.color = palette.grid;

@@ -50,6 +50,8 @@ export interface WorkspaceView {
   shown: boolean;
   solid: boolean;
   kind: WorkspaceKind;
+  /** Whether the tool's angles on the part are those of the machine, or phi1 and phi2 below. */
+  follows: boolean;
   phi1: number;
   phi2: number;
   tolerance: number;
@@ -71,7 +73,7 @@ export const INITIAL: View = {
   clearance: null,
   drag: "part",
   ghosts: "none",
-  workspace: { shown: true, solid: false, kind: "part", phi1: 0, phi2: 0, tolerance: 1 },
+  workspace: { shown: true, solid: false, kind: "part", follows: true, phi1: 0, phi2: 0, tolerance: 1 },
   section: null,
   camera: null,
   program: null,
