@@ -9,9 +9,13 @@ const HELIX = readFileSync(join(EXAMPLES, "helix.ngc"), "utf8");
 /** Its third move leaves the reach of the machine. */
 const TOO_FAR = "UNITS/MM\nRAPID\nGOTO/0,0,320\nFEDRAT/1000,MMPM\nGOTO/0,0,300\nGOTO/650,0,300\nGOTO/0,0,300\n";
 
+/** All of it is out of reach, and within reach elsewhere on the table. */
+const ASIDE = "UNITS/MM\nRAPID\nGOTO/480,0,320\nFEDRAT/1000,MMPM\nGOTO/480,0,300\nGOTO/520,0,300\n";
+
 const time = (page) => page.getByRole("slider", { name: "Time in the program, seconds" });
 const where = (page) => page.getByTestId("where");
 const verdict = (page) => page.getByTestId("verdict");
+const currentLine = (page) => page.locator('.text-list [aria-selected="true"]');
 const press = (page, name) => page.getByRole("button", { name, exact: true }).click();
 
 /** Opens the page and drops a program on it. */
@@ -33,7 +37,7 @@ test("a helix is played to its end, and stands where the program says", async ({
   await expect(where(page)).toContainText("line 146");
   await expect(page.getByLabel("X on the part, mm")).toHaveValue("-23.9");
   await expect(page.getByLabel("Z above the table, mm")).toHaveValue("220.0");
-  await expect(page.getByRole("option", { selected: true })).toContainText("G0 X-23.941");
+  await expect(currentLine(page)).toContainText("G0 X-23.941");
 });
 
 test("it is stepped and moved by keyboard, from the time and from the text", async ({ page }) => {
@@ -83,7 +87,7 @@ test("a failing line of the dome is found in the list, and the proposed change h
   await expect(page.getByTestId("margins").getByRole("listitem").first()).toContainText(
     /platform joint 11 28\.2.mm too low over the table/,
   );
-  await expect(page.getByRole("option", { selected: true })).toContainText("GOTO/90.0000,-90.0000,54.2725");
+  await expect(currentLine(page)).toContainText("GOTO/90.0000,-90.0000,54.2725");
   await page.getByRole("button", { name: /^move the set-up by \+28\.2.mm in Z$/ }).first().click();
   await expect(verdict(page)).toContainText("The machine can run the program.");
   await expect(page.getByLabel("Set-up: z, mm")).toHaveValue("28.188");
@@ -100,24 +104,22 @@ test("a place out of reach is named, and the machine stands at the last place be
 });
 
 test("a click on a plot and on the path moves the machine there", async ({ page }) => {
-  await program(page, "helix.ngc", HELIX);
+  // The table stands still: a place of the path stays where it is seen.
+  await program(page, "line.cls", "UNITS/MM\nFEDRAT/600,MMPM\nGOTO/-100,0,300\nGOTO/100,0,300\n");
   const plot = page.getByRole("img", { name: /^Joints over time/ }).locator(".u-over");
   const { width, height } = await plot.boundingBox();
-  await plot.click({ position: { x: width / 2, y: height / 2 } });
-  await expect(where(page)).toContainText(/0:1[0-2]\.\d of 0:2/);
-  // The tip is on the path: another place of the path is where the tip was before.
+  await plot.click({ position: { x: 0.7 * width, y: height / 2 } });
+  await expect(where(page)).toContainText(/0:1[34]\.\d of 0:20\.0/);
+  await page.locator("canvas[data-picture=good]").waitFor();
   const tip = await page.evaluate(() => document.querySelector("canvas").dataset.tip);
   await time(page).press("Home");
-  await expect(where(page)).toContainText("row 1 of");
-  const before = await where(page).textContent();
-  const { x, y, width: w, height: h } = await page.locator(".scene canvas").boundingBox();
+  await expect(page.getByLabel("X on the part, mm")).toHaveValue("-100.0");
+  const scene = await page.locator(".scene canvas").boundingBox();
   const [u, v] = tip.split(",").map(Number);
-  await page.locator("canvas[data-picture=good]").waitFor();
-  for (const step of [0, 3, -3, 6, -6]) {
-    await page.mouse.click(x + ((u + 1) / 2) * w + step, y + ((1 - v) / 2) * h);
-    if ((await where(page).textContent()) !== before) break;
-  }
+  await page.mouse.click(scene.x + ((u + 1) / 2) * scene.width, scene.y + ((1 - v) / 2) * scene.height);
   await expect(where(page)).not.toContainText("row 1 of");
+  // Within two rows of where the plot led: the pixels of a click are some millimetres wide.
+  await expect.poll(async () => Math.abs(Number(await page.getByLabel("X on the part, mm").inputValue()) - 40)).toBeLessThan(25);
 });
 
 test("set-up, tool length and tolerance are planned anew", async ({ page }) => {
@@ -146,15 +148,15 @@ test("set-up, tool length and tolerance are planned anew", async ({ page }) => {
 test("the joint program, the rows, the report and the path are saved", async ({ page }) => {
   await program(page, "helix.ngc", HELIX);
   for (const [link, name, begin] of [
-    ["G-code", "helix-joints.ngc", /^%|^\(|^G/],
-    ["CSV", "helix-joints.csv", /^line,kind,x/],
-    ["Report", "helix-report.json", /^\{/],
-    ["Path (GLB)", "helix-path.glb", /^glTF/],
+    ["G-code", /\.ngc$/, /^[%(G]/],
+    ["CSV", /\.csv$/, /^line,kind,x/],
+    ["Report", /\.json$/, /"verdict":"ok"/],
+    ["Path (GLB)", /\.glb$/, /^glTF/],
   ]) {
     const saved = page.waitForEvent("download");
     await page.getByRole("link", { name: link, exact: true }).click();
     const file = await saved;
-    expect(file.suggestedFilename()).toBe(name);
+    expect(file.suggestedFilename()).toMatch(name);
     expect(readFileSync(await file.path(), "latin1")).toMatch(begin);
   }
 });
@@ -166,7 +168,7 @@ test.describe("a file with faults", () => {
     await open(page);
     await drop(page, "part.cls", "UNITS/MM\nGOTO/0,0,320\nGOTO/0,0\n");
     const dialog = page.getByRole("dialog", { name: "The service cannot read part.cls" });
-    await expect(dialog.getByRole("listitem")).toContainText(["line 3", /3 or 6 numbers/].slice(0, 1));
+    await expect(dialog.getByRole("listitem")).toContainText(["line 3"]);
     await expect(dialog.locator("code")).toHaveText("GOTO/0,0");
     await expect(dialog).toContainText("3 or 6 numbers");
     await page.keyboard.press("Escape");
@@ -178,7 +180,7 @@ test.describe("a file with faults", () => {
     await open(page);
     await drop(page, "part.cls", "GOTO/0,0,12\nFEDRAT/10,IPM\nGOTO/0,0,11.5\n");
     const dialog = page.getByRole("dialog");
-    await dialog.getByText("inch", { exact: true }).click();
+    await dialog.getByRole("radio", { name: "inch", exact: true }).check();
     await dialog.getByRole("button", { name: "Read it again" }).click();
     await expect(verdict(page)).toBeVisible();
     await time(page).press("End");
@@ -195,8 +197,8 @@ test("a file of unknown kind is asked for its format", async ({ page }) => {
   await expect(verdict(page)).toBeVisible();
 });
 
-test("a link shows the program, its set-up and its place", async ({ page, browser }) => {
-  await program(page, "far.cls", TOO_FAR);
+test("a link shows the program and its set-up", async ({ page, browser }) => {
+  await program(page, "far.cls", ASIDE);
   await page.getByRole("button", { name: /^move the set-up by/ }).first().click();
   await expect(verdict(page)).toContainText("can run");
   const x = await page.getByLabel("Set-up: x, mm").inputValue();
@@ -206,7 +208,7 @@ test("a link shows the program, its set-up and its place", async ({ page, browse
   await colleague.goto(settled);
   await expect(verdict(colleague)).toContainText("can run");
   await expect(colleague.getByLabel("Set-up: x, mm")).toHaveValue(x);
-  await expect(colleague.getByRole("listbox")).toContainText("GOTO/650,0,300");
+  await expect(colleague.getByRole("listbox")).toContainText("GOTO/520,0,300");
   await colleague.close();
 });
 
