@@ -1,5 +1,5 @@
 // The workspace on the page is the one that the service computes.
-import { ask, drop, expect, open, test, value, verne } from "./viewer.mjs";
+import { ask, drop, expect, open, pointOf, test, value, verne } from "./viewer.mjs";
 
 test("another tool length shows the volume of the API", async ({ page, request }) => {
   await open(page, "#phi=30,0");
@@ -160,4 +160,36 @@ test("a long computation shows its progress and can be cancelled", async ({ page
   await tolerance.fill("50");
   await tolerance.press("Enter");
   await expect(page.getByTestId("volume")).toBeVisible();
+});
+
+test("a row of the legend, and a face that is pointed at, isolates and names its limit", async ({ page }) => {
+  await open(page);
+  const canvas = page.locator("canvas");
+  const row = page.locator(".legend").getByRole("button", { name: /^slider 1 at its lower end/ });
+  await row.hover();
+  await expect(canvas).toHaveAttribute("data-isolated", "stroke slider1.max");
+  await row.click();
+  await expect(row).toHaveAttribute("aria-pressed", "true");
+  await page.getByRole("heading", { name: "Joints" }).hover();
+  await expect(canvas).toHaveAttribute("data-isolated", "stroke slider1.max");
+  await row.click();
+  await page.getByRole("heading", { name: "Joints" }).hover();
+  await expect(canvas).not.toHaveAttribute("data-isolated");
+
+  const [x, y] = await pointOf(page, "tip");
+  await page.mouse.move(x - 100, y + 30);
+  const name = page.locator(".label.face");
+  await expect(name).toBeVisible();
+  const words = await name.textContent();
+  await expect(page.locator(".legend button.pointed")).toContainText(words);
+  await page.mouse.click(x - 100, y + 30);
+  await expect(page.locator('.legend button[aria-pressed="true"]')).toContainText(words);
+  // Beside the surface nothing is named.
+  await page.mouse.click(x + 300, y + 150);
+  await expect(page.locator('.legend button[aria-pressed="true"]')).toHaveCount(0);
+});
+
+test("the legend tells the cut face from the limits", async ({ page }) => {
+  await open(page, "#section=300");
+  await expect(page.getByText("cut face, no limit")).toBeVisible();
 });

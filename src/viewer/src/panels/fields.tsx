@@ -1,5 +1,6 @@
 /** Numbers to type and to slide. */
 
+import { tooltip } from "../words/symbols";
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 
 export interface NumberProps {
@@ -53,7 +54,7 @@ export function NumberField({
   const words = outOfRange ? range(min, max, unit) : fault;
   return (
     <label class="number">
-      <span class="name" aria-hidden={symbol ? "true" : undefined}>
+      <span class="name" title={tooltip(symbol ?? label)} aria-hidden={symbol ? "true" : undefined}>
         {symbol ?? label}
       </span>
       <span class="box">

@@ -6,6 +6,8 @@ import { link } from "../state/address_bar";
 import { drawing } from "../scene/software";
 import type { Side } from "../scene/viewpoint";
 import { World } from "../scene/world";
+import { About } from "./about";
+import { Help } from "./help";
 import { JointsPanel } from "./joints";
 import { KeyDialog } from "./key";
 import { MachinePicker } from "./machine";
@@ -38,6 +40,8 @@ export function Page() {
         <MachinePicker />
         <nav aria-label="Elsewhere">
           <CopyLink />
+          <Help />
+          <About />
           <a class="button" href="docs/">
             API
           </a>

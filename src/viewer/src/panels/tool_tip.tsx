@@ -4,6 +4,7 @@ import { change, drag, heading, position, refusal } from "../state/store";
 import type { PartPose, Target } from "../state/target";
 import { moveTo } from "../state/motion";
 import { degrees, mm, number } from "../words/numbers";
+import { tooltip } from "../words/symbols";
 import { Choice, NumberField } from "./fields";
 import { Refused } from "./refused";
 
@@ -62,11 +63,11 @@ export function ToolTipPanel() {
         choose={(drag) => change({ drag })}
       />
       <dl class="figures">
-        <dt>Platform x, y, z</dt>
+        <dt title={tooltip("x")}>Platform x, y, z</dt>
         <dd>
           {number(platform.x)}, {number(platform.y)}, {mm(platform.z)}
         </dd>
-        <dt>Platform tilt α</dt>
+        <dt title={tooltip("α")}>Platform tilt α</dt>
         <dd>{degrees(platform.alpha, 2)}</dd>
       </dl>
     </section>

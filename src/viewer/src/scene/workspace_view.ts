@@ -1,12 +1,13 @@
 /** The workspace's surface and its slice: loaded, cut, and standing in the base frame or on the table. */
 
 import { computed, effect } from "@preact/signals";
-import { Group, Matrix4 } from "three";
+import { Group, Matrix4, type Raycaster } from "three";
 import { inWords } from "../api/client";
 import { AT_REST, baseFromTable, sceneFromPartGlb } from "../geometry/frames";
 import { outdated } from "../state/computation";
 import {
   isolated,
+  keptLimit,
   machine,
   position,
   section,
@@ -38,7 +39,11 @@ export class WorkspaceView {
       void this.mesh
         .show(found)
         .then((pieces) => {
-          if (pieces) surfaces.value = pieces.sort((a, b) => b.share - a.share);
+          if (pieces) {
+            surfaces.value = pieces.sort((a, b) => b.share - a.share);
+            // A limit that bounds nothing any more cannot be isolated.
+            if (!pieces.some(({ name }) => name === keptLimit.peek())) keptLimit.value = null;
+          }
           this.stand();
         })
         .catch((thrown: unknown) => (workspaceNote.value = inWords(thrown)));
@@ -46,6 +51,8 @@ export class WorkspaceView {
     effect(() => void this.mesh.show(standIn.value, "coarse").catch(() => undefined));
     effect(() => {
       this.mesh.dress({ opaque: solid.value, outdated: outdated.value, isolated: isolated.value });
+      if (isolated.value === null) delete stage.canvas.dataset["isolated"];
+      else stage.canvas.dataset["isolated"] = isolated.value;
       stage.draw();
     });
     effect(() => {
@@ -65,6 +72,11 @@ export class WorkspaceView {
   /** In the base frame, mm. */
   get slice(): Group {
     return this.section.group;
+  }
+
+  /** The limit whose face is nearest along a ray. */
+  under(ray: Raycaster): string | null {
+    return this.mesh.under(ray);
   }
 
   /** Slow machines move a coarser workspace. */

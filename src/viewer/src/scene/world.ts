@@ -4,6 +4,7 @@ import { effect } from "@preact/signals";
 import { Group } from "three";
 import { SCENE_FROM_BASE } from "../geometry/frames";
 import { ghosts, machine, pointed, position, tool } from "../state/store";
+import { FacePointer } from "./face_pointer";
 import { listenForGhosts } from "./ghost_pointer";
 import { Ghosts } from "./ghosts";
 import { LabelLayer } from "./label_layer";
@@ -53,5 +54,6 @@ export class World {
       stage.draw();
     });
     listenForGhosts(canvas, otherPositions);
+    new FacePointer(stage, workspaceView);
   }
 }

@@ -98,7 +98,7 @@ async function byJoints({ joints, mode = view.value.mode }: Target & { by: "join
   const answer = await forward(joints, mode);
   const solution = answer.solutions[0];
   if (!solution) throw new RefusedError(reasonOf(answer));
-  return { joints, solution };
+  return { joints, solution, notChecked: answer.not_checked };
 }
 
 /** The pose's working solution if it keeps every limit; in another mode, the one nearest to where the machine is. */
@@ -121,7 +121,7 @@ async function byPose(target: Target & { by: "part" | "tool" }): Promise<Positio
   if (!solution?.joints) throw new RefusedError(reasonOf(answer));
   if (!mode && !solution.feasible) throw new RefusedError(`Not allowed: ${broken(solution.margins.worst)}.`);
   const joints = asJoints(solution.joints, here);
-  if (target.by === "part") return { joints, solution };
+  if (target.by === "part") return { joints, solution, notChecked: answer.not_checked };
   const found = await byJoints({ by: "joints", joints, mode: mode && solution.platform });
   const above = found.solution.margins.table_clearance;
   if (!mode && above && above.value < 0) throw new RefusedError(`Not allowed: ${broken(above)}.`);
@@ -147,7 +147,7 @@ async function others({ joints, solution }: Position): Promise<Position[]> {
     case "assembly": {
       const body = { ...question(), joints, solutions: "all" as const };
       const answer = unwrap(await verne.api.POST("/fk", { body }));
-      return answer.solutions.map((other) => ({ joints, solution: other }));
+      return answer.solutions.map((other) => ({ joints, solution: other, notChecked: answer.not_checked }));
     }
     case "platform": {
       const { x, y, z } = solution.platform;
@@ -165,7 +165,11 @@ async function inverse(frame: "platform" | "part", pose: TargetPose, here: Joint
   const asked = frame === "part" ? question() : withoutTable();
   const body = { ...asked, frame, pose, solutions: "all" as const };
   const answer = unwrap(await verne.api.POST("/ik", { body }));
-  return answer.solutions.map((solution) => ({ joints: asJoints(solution.joints, here), solution }));
+  return answer.solutions.map((solution) => ({
+    joints: asJoints(solution.joints, here),
+    solution,
+    notChecked: answer.not_checked,
+  }));
 }
 
 async function forward(joints: Joints, mode: PlatformPose | null): Promise<Answer> {

@@ -21,6 +21,8 @@ export interface InUse {
 export interface Position {
   joints: Joints;
   solution: Solution;
+  /** What the service did not check for it. */
+  notChecked: Schemas["Unchecked"][];
 }
 
 /** Where the machine was wanted and cannot be. */
