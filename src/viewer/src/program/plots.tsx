@@ -87,7 +87,8 @@ function draw(box: HTMLElement, kind: "margin" | "joints"): () => void {
       return () => made.destroy();
     }),
     effect(() => {
-      wakeOn(theme);
+      // The plot is another one for each of them, and empty at first.
+      wakeOn(theme, quantity);
       const found = plan.value;
       if (!plot || !found || width.value === 0) return;
       const range = zoom.value ?? [0, duration.value || 1];
@@ -118,6 +119,8 @@ function columns(kind: "margin" | "joints", { rows, time }: Plan): Float64Array[
   );
 }
 
+const stepped = uPlot.paths.stepped?.({ align: -1 });
+
 function series(kind: "margin" | "joints"): uPlot.Series[] {
   if (kind === "margin") return [{ stroke: tone("--ink"), width: 1.5, scale: "y", points: { show: false } }];
   return JOINTS.map((joint, i) => ({
@@ -125,6 +128,8 @@ function series(kind: "margin" | "joints"): uPlot.Series[] {
     width: 1.5,
     scale: joint.startsWith("rho") ? "y" : "angle",
     points: { show: false },
+    // A rate holds on the way to its row.
+    ...(quantity.value === "rate" && stepped && { paths: stepped }),
     ...(joint.startsWith("theta") && { dash: [6, 3] }),
   }));
 }

@@ -114,8 +114,10 @@ function Verdict({ found: { report, bucket } }: { found: Plan }) {
       )}
       {report.time.unknown_rows > 0 && (
         <p class="hint">
-          {count(report.time.unknown_rows)} rows have no known duration, such as rapids without drives. They
-          are played at {ASSUMED_SPEED.slider} mm/s and {ASSUMED_SPEED.table}°/s.
+          {report.time.unknown_rows === 1
+            ? "One row has no known duration, such as a rapid without drives. It is"
+            : `${count(report.time.unknown_rows)} rows have no known duration, such as rapids without drives. They are`}{" "}
+          played at {ASSUMED_SPEED.slider} mm/s and {ASSUMED_SPEED.table}°/s.
         </p>
       )}
     </>

@@ -196,7 +196,7 @@ function Motion({ now }: { now: Settings }) {
         keep the program’s C where the tool is upright
       </label>
       <p class="hint">
-        The tool’s radius and the least height over the table are those of the workspace, below.
+        The tool’s radius and the least height over the table are those of the tool and the workspace.
       </p>
     </>
   );
