@@ -77,19 +77,20 @@
 //!
 //! # Linear deltas and equal offsets
 //!
-//! With R1 = r1 leg I is a parallelogram, too. u and v vanish at a = 0, and (A) has two branches: a = 0 with any (y, w1) of
-//! length √(L1² - X1²), on which the platform translates, and a = 2 atan2(w1, y), on which the rods of leg I cross. With e1
-//! = e2 the sliders determine x up to its mirror image about x = -e1. Near both, roots of F are closer together than
-//! double precision resolves.
+//! With R1 = r1 leg I is a parallelogram, too. u and v vanish at a = 0, and (A) has two branches: a = 0 with any (y,
+//! w1) of length √(L1² - X1²), on which the platform translates, and a = 2 atan2(w1, y), on which the rods of leg I
+//! cross. With e1 = e2 the sliders determine x up to its mirror image about x = -e1. Near both, roots of F are closer
+//! together than double precision resolves.
 //!
-//! There the forward problem is solved in other unknowns. With (y, w1) = m (sin φ, cos φ) the first of (A) is R1 sin(a + φ)
-//! = r1 sin φ. It determines a, whose rate da/dφ is within [-2, 0] for all R1 ≥ r1. The second is a circle in (X1, m), with
-//! an angle θ. Two equations in (φ, θ) remain, and neither is divided by R1 - r1 or e1 - e2. They are enclosed over boxes:
-//! a box has no solution, exactly one by Krawczyk's operator, or is halved. Newton's method on (3)-(6) refines the
-//! solutions. If the boxes do not end, the solutions form a curve: [`KinematicsError::SelfMotion`].
+//! There the forward problem is solved in other unknowns. With (y, w1) = m (sin φ, cos φ) the first of (A) is R1 sin(a
+//! + φ) = r1 sin φ. It determines a, whose rate da/dφ is within [-2, 0] for all R1 ≥ r1. The second is a circle in (X1,
+//! m), with an angle θ. Two equations in (φ, θ) remain, and neither is divided by R1 - r1 or e1 - e2. They are enclosed
+//! over boxes: a box has no solution, exactly one by Krawczyk's operator, or is halved. Newton's method on (3)-(6)
+//! refines the solutions. If the boxes do not end, the solutions form a curve: [`KinematicsError::SelfMotion`].
 //!
-//! The inverse problem, margins and workspaces divide by neither difference. On the first branch `rod_crossing` is no limit:
-//! R1 cos a - r1 is zero everywhere. R1 < r1 is refused, because the working mode has R1 cos a > r1, or R1 = r1 and a = 0.
+//! The inverse problem, margins and workspaces divide by neither difference. On the first branch `rod_crossing` is no
+//! limit: R1 cos a - r1 is zero everywhere. R1 < r1 is refused, because the working mode has R1 cos a > r1, or R1 = r1
+//! and a = 0.
 //!
 //! # Roots on the circle, and branches
 //!
@@ -111,12 +112,12 @@
 //!
 //! # Working mode
 //!
-//! The machine itself uses only one mode: on all six rods the slider end is above the platform end, and the rods of
-//! leg I do not cross (R1 cos a > r1, or R1 = r1 and a = 0). Of several forward solutions of this kind the one whose det_P
-//! has the sign of home is meant. A platform position has at most one such posture. Newton's method finds it
-//! from the level platform on the branch w > 0. If Newton's method does not converge, the search for all roots finds
-//! it. That search reuses a posture that is already known, so a posture is the same to the last bit whichever
-//! function returns it.
+//! The machine itself uses only one mode: on all six rods the slider end is above the platform end, and the rods of leg
+//! I do not cross (R1 cos a > r1, or R1 = r1 and a = 0). Of several forward solutions of this kind the one whose det_P
+//! has the sign of home is meant. A platform position has at most one such posture. Newton's method finds it from the
+//! level platform on the branch w > 0. If Newton's method does not converge, the search for all roots finds it. That
+//! search reuses a posture that is already known, so a posture is the same to the last bit whichever function returns
+//! it.
 //!
 //! # Many rows
 //!

@@ -17,7 +17,8 @@ use crate::margins::normalization::Normalization;
 use crate::mechanism::Mechanism;
 use home::Home;
 
-/// A valid machine. Every value of this type has positive lengths, ordered ranges, R1 ≥ r1, and a home posture in the working mode away from singularity.
+/// A valid machine. Every value of this type has positive lengths, ordered ranges, R1 ≥ r1, and a home posture in the
+/// working mode away from singularity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
     data: MachineData,

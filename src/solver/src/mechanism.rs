@@ -28,8 +28,8 @@ pub struct Geometry {
     pub L3: f64,
     /// Half-width w of the parallelograms of legs II and III.
     pub parallelogram_half_width: f64,
-    /// Angle g of their width from x towards y, rad: leg II has g, leg III has -g. It is zero unless R1 = r1. It matters
-    /// for rod interference only.
+    /// Angle g of their width from x towards y, rad: leg II has g, leg III has -g. It is zero unless R1 = r1. It
+    /// matters for rod interference only.
     pub parallelogram_direction: f64,
     /// Radius of every rod.
     pub rod_radius: f64,

@@ -81,8 +81,8 @@ pub struct GeometryObject {
     /// Half-width of the parallelograms of legs II and III.
     #[schema(minimum = 1e-3, maximum = 1e6)]
     pub parallelogram_half_width: f64,
-    /// Angle from x towards y of the width of leg II's parallelogram, degrees; that of leg III has the opposite angle. It
-    /// must be 0, the default, unless R1 = r1. It matters for rod interference only.
+    /// Angle from x towards y of the width of leg II's parallelogram, degrees; that of leg III has the opposite angle.
+    /// It must be 0, the default, unless R1 = r1. It matters for rod interference only.
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schema(minimum = -180, maximum = 180, default = 0)]
     pub parallelogram_direction: f64,

@@ -1,9 +1,9 @@
 //! The search for all assemblies over boxes of the angles (φ, θ).
 //!
 //! A box is dropped if an equation's enclosure excludes zero there. It has exactly one solution if the operator of
-//! Krawczyk maps a slightly larger box into itself, and none if the images of the larger box miss it (R. Krawczyk, 1969,
-//! [doi:10.1007/BF02234767](https://doi.org/10.1007/BF02234767)). Otherwise it is halved. The enclosures do not round
-//! outwards; they allow for the rounding of the equations.
+//! Krawczyk maps a slightly larger box into itself, and none if the image of the larger box misses it (R. Krawczyk,
+//! 1969, [doi:10.1007/BF02234767](https://doi.org/10.1007/BF02234767)). Otherwise it is halved. The enclosures do not
+//! round outwards; they allow for the rounding of the equations.
 
 use std::f64::consts::{PI, TAU};
 

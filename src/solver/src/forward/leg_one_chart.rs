@@ -8,8 +8,8 @@
 //! ```
 //!
 //! The rate da/dφ is within [-2, 0] for all R1 ≥ r1. With R1 = r1 the half circle cos φ > 0 has a = 0, the branch on
-//! which the platform does not turn, and the other half has a = ±π - 2φ, the branch of crossed rods. Half the difference
-//! of Eqs (5) and (6), and their mean less that of (3) and (4), are then
+//! which the platform does not turn, and the other half has a = ±π - 2φ, the branch of crossed rods. Half the
+//! difference of Eqs (5) and (6), and their mean less that of (3) and (4), are then
 //!
 //! ```text
 //! 2 m ((A - B - 2q) cos φ - 2p sin φ) - N = 0        2 (e1 - e2) X1 - m cos φ S - T = 0

@@ -7,8 +7,8 @@ use crate::parallel_matrix::{determinant, matrix};
 use crate::posture::{MAX_POSTURES, Posture, Postures};
 use crate::rods::Rods;
 
-/// Whether `det_P` has the sign of home. With equal offsets, or nearly so, X1 = 0 is a singularity that separates two mirror
-/// images, and X1 has the sign of home, too.
+/// Whether `det_P` has the sign of home. With equal offsets, or nearly so, X1 = 0 is a singularity that separates two
+/// mirror images, and X1 has the sign of home, too.
 pub(super) fn on_home_side(machine: &Machine, posture: &Posture) -> bool {
     let (e1, e2) = (machine.mechanism.e1, machine.mechanism.e2);
     if machine.mechanism.offsets_nearly_equal && (2.0 * posture.pose.x + e1 + e2) * (e1 + e2) <= 0.0 {

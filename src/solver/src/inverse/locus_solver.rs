@@ -38,7 +38,8 @@ pub(super) fn every(machine: &Machine, locus: &PlatformLocus) -> Result<Postures
     )
 }
 
-/// With R1 = r1 the platform that does not turn closes leg I from both sides. Its angle is zero without a rounding error.
+/// With R1 = r1 the platform that does not turn closes leg I from both sides. Its angle is zero without a rounding
+/// error.
 #[cold]
 fn replace_level_roots(closure: &LegOneClosure, level: &Root, roots: &mut Roots) {
     let is_level = |root: &Root| {

@@ -5,9 +5,9 @@ use super::data::{Limits, MachineData, Table};
 use crate::mechanism::Geometry;
 
 impl Machine {
-    /// An example of a linear delta, `linear-delta`: R1 = r1, so the platform does not turn. Its dimensions are invented
-    /// round numbers: guideways on a circle of radius 400 mm, joints of the platform on one of 60 mm, rods of 700 mm,
-    /// each pair 80 mm apart along the circle's tangent.
+    /// An example of a linear delta, `linear-delta`: R1 = r1, so the platform does not turn. Its dimensions are
+    /// invented round numbers: guideways on a circle of radius 400 mm, joints of the platform on one of 60 mm, rods of
+    /// 700 mm, each pair 80 mm apart along the circle's tangent.
     ///
     /// # Units
     ///

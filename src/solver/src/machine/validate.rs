@@ -180,8 +180,8 @@ fn leg_one(g: &Geometry, checker: &mut Checker) {
     checker.check(
         g.parallelogram_direction == 0.0 || g.R1 == g.r1,
         "geometry/parallelogram_direction",
-        "must be 0 unless R1 = r1: with a platform that turns about x, parallelograms in another direction than x would \
-         not stay parallelograms",
+        "must be 0 unless R1 = r1: with a platform that turns about x, parallelograms in another direction than x \
+         would not stay parallelograms",
     );
 }
 

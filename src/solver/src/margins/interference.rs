@@ -182,8 +182,8 @@ fn others_are_farther(nearest: f64, d: &Mechanism, ends: &[[f64; 3]; 6], rods: &
 const BETWEEN_LEGS: [[usize; 2]; 12] =
     [[0, 2], [0, 3], [0, 4], [0, 5], [1, 2], [1, 3], [1, 4], [1, 5], [2, 4], [2, 5], [3, 4], [3, 5]];
 
-/// The pairs that have distances of their own. Parallelograms along x have rods 22 and 32 at the same distance as 21 and
-/// 31.
+/// The pairs that have distances of their own. Parallelograms along x have rods 22 and 32 at the same distance as 21
+/// and 31.
 pub(crate) fn pairs_between_legs(d: &Mechanism) -> &'static [[usize; 2]] {
     &BETWEEN_LEGS[..if d.pair_offset[1] == 0.0 { 11 } else { 12 }]
 }
@@ -200,8 +200,8 @@ fn compare_between_legs(nearest: &mut NearestPair, d: &Mechanism, ends: &[[f64; 
 }
 
 /// Whether two rods are at least as far apart as the nearest pair, whose distance's square is given, decided without
-/// their nearest points, if their ends are shifted by up to `extent` along the gap, times |gap|: the segments' projections
-/// on the gap's direction are at least so far apart, times |gap|.
+/// their nearest points, if their ends are shifted by up to `extent` along the gap, times |gap|: the segments'
+/// projections on the gap's direction are at least so far apart, times |gap|.
 #[inline(always)]
 fn is_farther(nearest: f64, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], extent: f64) -> bool {
     let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
@@ -220,9 +220,9 @@ fn compare_pair(nearest: &mut NearestPair, ends: &[[f64; 3]; 6], rods: &Rods, [i
     nearest.compare(square, [i, j]);
 }
 
-/// Squared distance of a parallelogram's two rods, `width` apart, whose direction has the component `x` along the width: a foot of the
-/// perpendicular where there is one, else an end. It is the same to the last bit for legs II and
-/// III of one length, which are always equally bad.
+/// Squared distance of a parallelogram's two rods, `width` apart, whose direction has the component `x` along the
+/// width: a foot of the perpendicular where there is one, else an end. It is the same to the last bit for legs II and
+/// III of one length, which are equally bad if the widths lie along x.
 #[inline(always)]
 fn square_parallel(width: f64, length: f64, x: f64) -> f64 {
     let along = width * x.abs();

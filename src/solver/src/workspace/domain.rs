@@ -57,8 +57,8 @@ pub(super) struct Domain<'a> {
     pub(super) alpha_range: Option<[f64; 2]>,
     /// The table's plane, if it is a limit.
     floor: Option<Floor>,
-    /// Cones that other cones contain everywhere: with R1 = r1 the platform does not turn, and leg I's rods are parallel.
-    /// Their limits never bind. Two limits that vanish together would leave the cover undecided.
+    /// Cones that contain other cones everywhere: with R1 = r1 the platform does not turn, and leg I's rods are
+    /// parallel. Their limits never bind. Two limits that vanish together would leave the cover undecided.
     implied: LimitSet,
     /// Whether the domain is empty because the constant rotary angle is out of its range, or because a slice lies
     /// below the floor.
@@ -218,8 +218,8 @@ impl<'a> Domain<'a> {
     }
 }
 
-/// The cones that are implied by another with the same axis, the same direction of the rod, and a half-angle that is not
-/// greater.
+/// The cones that are implied by another with the same axis, the same direction of the rod, and a half-angle that is
+/// not greater.
 fn implied_cones(machine: &Machine) -> LimitSet {
     if !machine.mechanism.is_delta() {
         return 0;

@@ -62,8 +62,8 @@ impl PostureBounds<'_> {
         (u - size).plus(most).centred_at(value, self.offsets)
     }
 
-    /// The rods of a parallelogram are far enough apart if the leg's extent along the width is small enough. Parallelograms
-    /// along x have this limit in the bounds of x instead.
+    /// The rods of a parallelogram are far enough apart if the leg's extent along the width is small enough.
+    /// Parallelograms along x have this limit in the bounds of x instead.
     fn parallelogram_distance(&self) -> (Jet, bool) {
         let d = &self.domain.machine.mechanism;
         let Some(most) = greatest_along_pairs(d) else { return (Jet::constant(-1.0), false) };
