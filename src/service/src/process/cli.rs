@@ -55,7 +55,8 @@ use crate::wire::result_id::BUILD;
 /// Without a command, verne serves over HTTP, with the options that `verne serve --help` lists. On a terminal it prints
 /// answers as tables and words; into a file or a pipe, and with --json, as the JSON of the HTTP service. Lengths are in
 /// mm and angles in degrees; z points down. The built-in machine `verne` has invented dimensions that reproduce the
-/// solution counts printed in arXiv:0707.3507; they are not Fatronik's dimensions.
+/// solution counts printed in arXiv:0707.3507; they are not Fatronik's dimensions. `linear-delta` is a linear delta of
+/// invented dimensions.
 #[derive(Debug, Parser)]
 #[command(name = "verne", version, long_version = BUILD, args_conflicts_with_subcommands = true)]
 pub struct Cli {
