@@ -57,6 +57,9 @@ export const playing = signal(false);
 export const speed = signal(1);
 export const loop = signal(false);
 
+/** What the plots show of the joints. */
+export type Quantity = "position" | "rate";
+export const quantity = signal<Quantity>("position");
 /** Counts the wishes to see all of the path. */
 export const framing = signal(0);
 
