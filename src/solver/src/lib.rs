@@ -53,7 +53,7 @@
 //!
 //! # Forward
 //!
-//! The first of (A) says that (y, w1) = λ (-v, u) for some λ, because u and v do not vanish together (R1 ≠ r1). The
+//! The first of (A) says that (y, w1) = λ (-v, u) for some λ, because u and v do not vanish together if R1 ≠ r1. The
 //! difference of (5) and (6) is then linear in λ. The mean of (5) and (6) less that of (3) and (4) is linear in x.
 //! With S = 2 rho1 - rho2 - rho3 and K = L2² - L3²,
 //!
@@ -67,14 +67,30 @@
 //! ```
 //!
 //! where D, N, T are of the first degree on the circle. Substituting λ = N/D in the second equation gives F(a) = 0 of
-//! degree four, with nine coefficients and at most eight roots; at most six have been observed. Because of the
-//! division by e1 - e2 a machine needs e1 ≠ e2. Near e1 = e2, and near R1 = r1, where u and v vanish together at a =
-//! 0, roots of F are closer together than double precision resolves. [`Machine::new`] refuses such machines.
+//! degree four, with nine coefficients and at most eight roots; at most six have been observed. This needs
+//! e1 ≠ e2 and R1 ≠ r1: see below.
 //!
 //! If D and N vanish together, λ is free, the second equation gives two values for it, and F has a double root
 //! although both solutions are regular. This happens on the symmetry plane (rho2 = rho3 with L2 = L3, at a = 0 and π)
 //! and also if S = 0 with L2 = L3, at every zero of D: for instance with the sliders at 500, 400, 600. Near such
 //! sliders the two roots of F are closer together than the precision of its coefficients.
+//!
+//! # Linear deltas and equal offsets
+//!
+//! With R1 = r1 leg I is a parallelogram, too. u and v vanish at a = 0, and (A) has two branches: a = 0 with any (y,
+//! w1) of length √(L1² - X1²), on which the platform translates, and a = 2 atan2(w1, y), on which the rods of leg I
+//! cross. With e1 = e2 the sliders determine x up to its mirror image about x = -e1. Near both, roots of F are closer
+//! together than double precision resolves.
+//!
+//! There the forward problem is solved in other unknowns. With (y, w1) = m (sin φ, cos φ) the first of (A) is R1 sin(a
+//! + φ) = r1 sin φ. It determines a, whose rate da/dφ is within [-2, 0] for all R1 ≥ r1. The second is a circle in (X1,
+//! m), with an angle θ. Two equations in (φ, θ) remain, and neither is divided by R1 - r1 or e1 - e2. They are enclosed
+//! over boxes: a box has no solution, exactly one by Krawczyk's operator, or is halved. Newton's method on (3)-(6)
+//! refines the solutions. If the boxes do not end, the solutions form a curve: [`KinematicsError::SelfMotion`].
+//!
+//! The inverse problem, margins and workspaces divide by neither difference. On the first branch `rod_crossing` is no
+//! limit: R1 cos a - r1 is zero everywhere. R1 < r1 is refused, because the working mode has R1 cos a > r1, or R1 = r1
+//! and a = 0.
 //!
 //! # Roots on the circle, and branches
 //!
@@ -96,11 +112,12 @@
 //!
 //! # Working mode
 //!
-//! The machine itself uses only one mode: on all six rods the slider end is above the platform end, and the rods of
-//! leg I do not cross (R1 cos a > r1). A platform position has at most one such posture. Newton's method finds it
-//! from the level platform on the branch w > 0. If Newton's method does not converge, the search for all roots finds
-//! it. That search reuses a posture that is already known, so a posture is the same to the last bit whichever
-//! function returns it.
+//! The machine itself uses only one mode: on all six rods the slider end is above the platform end, and the rods of leg
+//! I do not cross (R1 cos a > r1, or R1 = r1 and a = 0). Of several forward solutions of this kind the one whose det_P
+//! has the sign of home is meant. A platform position has at most one such posture. Newton's method finds it from the
+//! level platform on the branch w > 0. If Newton's method does not converge, the search for all roots finds it. That
+//! search reuses a posture that is already known, so a posture is the same to the last bit whichever function returns
+//! it.
 //!
 //! # Many rows
 //!
@@ -129,8 +146,10 @@ mod clearance;
 mod error;
 mod fast_math;
 mod forward;
+mod interval;
 mod inverse;
 pub mod jacobian;
+mod jet;
 mod limit;
 mod loop_closure;
 pub mod machine;

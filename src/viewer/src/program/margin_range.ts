@@ -23,7 +23,7 @@ export function marginRange({ constraint, element }: NearestLimit, machine: Mach
     case "platform_joint":
       return limits.platform_cone;
     case "rod_crossing":
-      return g.R1 - g.r1;
+      return g.R1 - g.r1 || g.R1;
     case "rod_interference":
       return home.rodDistance;
     case "tilt":
