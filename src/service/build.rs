@@ -18,8 +18,9 @@ use std::{env, fs};
 
 /// The sources of the viewer, and of the client that it uses. The build writes `node_modules`, `generated` and `dist`
 /// beside them.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 11] = [
     "viewer/src",
+    "../docs/frames.svg",
     "viewer/index.html",
     "viewer/package.json",
     "viewer/package-lock.json",

@@ -49,7 +49,8 @@ use crate::telemetry::TelemetryConfig;
 ///
 /// Without a command, verne serves over HTTP, with the options that `verne serve --help` lists. Lengths are in mm and
 /// angles in degrees; z points down. The built-in machine `verne` has invented dimensions that reproduce the solution
-/// counts printed in arXiv:0707.3507; they are not Fatronik's dimensions.
+/// counts printed in arXiv:0707.3507; they are not Fatronik's dimensions. `linear-delta` is a linear delta of invented
+/// dimensions.
 #[derive(Debug, Parser)]
 #[command(name = "verne", version, args_conflicts_with_subcommands = true)]
 pub struct Cli {
