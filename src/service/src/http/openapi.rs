@@ -62,6 +62,7 @@ use crate::wire::workspace_summary::WorkspaceSummary;
             faults of the program, each with line, column and word."
     ),
     servers((url = "/", description = "This service.")),
+    external_docs(url = "/guide/", description = "The guide: quick starts, limits, workspaces and tool paths."),
     tags(
         (name = "kinematics", description = "Forward and inverse kinematics."),
         (name = "workspace", description = "Positions that the machine can reach."),
