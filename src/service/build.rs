@@ -1,4 +1,5 @@
-//! Builds the viewer with npm and the guide with mdBook into `OUT_DIR`. The crate embeds them from there.
+//! Builds the viewer with npm and the guide with mdBook into `OUT_DIR`, from where the crate embeds them, and passes the
+//! target on to the crate.
 //!
 //! Without Node the build succeeds, and the service explains at `/` how to get the viewer. Cargo does not run this
 //! script again when Node is installed later: a script that runs at every build would link the binary at every build.
@@ -44,6 +45,8 @@ const GUIDE_SOURCES: [&str; 7] = [
 ];
 
 fn main() -> Result<(), String> {
+    // Cargo tells it to this script alone.
+    println!("cargo::rustc-env=VERNE_TARGET={}", env::var("TARGET").map_err(|error| error.to_string())?);
     // Read when the script runs: the checkout may have moved since the script was compiled.
     let crate_directory = env::var("CARGO_MANIFEST_DIR").map_err(|error| error.to_string())?;
     let crates = Path::new(&crate_directory).join("..");
