@@ -10,6 +10,7 @@ mod dexterity;
 mod documented_failures;
 mod etags_and_ranges;
 mod guide;
+mod jacobian;
 mod job_fairness;
 mod jobs;
 mod jobs_cancelled;
