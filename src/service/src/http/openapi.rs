@@ -66,6 +66,7 @@ use crate::wire::workspace_summary::WorkspaceSummary;
             Parts that a later series will lose are marked `deprecated`. `docs/stability.md` has the whole promise."
     ),
     servers((url = "/", description = "This service.")),
+    external_docs(url = "/guide/", description = "The guide: quick starts, limits, workspaces and tool paths."),
     tags(
         (name = "kinematics", description = "Forward and inverse kinematics."),
         (name = "workspace", description = "Positions that the machine can reach."),

@@ -9,14 +9,11 @@ import { JointLegend } from "./joint_legend";
 import { MarginLegend } from "./margin_legend";
 import { seek } from "./player";
 import { plotPoints } from "./plot_points";
-import { duration, failing, now, plan, type Plan } from "./program_state";
+import { duration, failing, now, plan, quantity, type Plan } from "./program_state";
 import { JOINTS } from "./row_columns";
 import { rates } from "./timeline";
 import { wakeOn } from "./wake_on";
 
-export type Quantity = "position" | "rate";
-
-export const quantity = signal<Quantity>("position");
 /** The times that the plots show; null: all. */
 const zoom = signal<[number, number] | null>(null);
 
