@@ -26,7 +26,7 @@ export async function toAddress(view: View): Promise<string> {
     ["phi", ws.follows ? null : numbers([ws.phi1, ws.phi2], 3)],
     ["tolerance", ws.tolerance === base.tolerance ? null : String(ws.tolerance)],
     ["section", view.section === null ? null : numbers([view.section], 3)],
-    ["camera", view.camera && numbers([...view.camera.eye, ...view.camera.target], 3)],
+    ["camera", view.camera && cameraNumbers(view.camera)],
   ];
   const said = entries.filter((entry): entry is [string, string] => entry[1] !== null);
   return said.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
@@ -65,7 +65,7 @@ export async function fromAddress(hash: string): Promise<Said> {
       tolerance: said.positive("tolerance") ?? base.tolerance,
     },
     section: said.numbers("section", 1)?.[0] ?? null,
-    camera: asCamera(said.numbers("camera", 6)),
+    camera: asCamera(said.numbers("camera", 7) ?? said.numbers("camera", 6)),
   };
   return { view, unread: said.unread() };
 }
@@ -122,6 +122,10 @@ function asMachine(found: unknown): Machine | null {
   return typeof found === "object" && found !== null && "geometry" in found ? (found as Machine) : null;
 }
 
+function cameraNumbers({ eye, target, height }: Camera): string {
+  return numbers([...eye, ...target, ...(height === null ? [] : [height])], 3);
+}
+
 function asJoints(list: number[] | null): Joints | null {
   if (!list) return null;
   const [r1, r2, r3, theta1, theta2] = list as [number, number, number, number, number];
@@ -137,5 +141,5 @@ function asPose(list: number[] | null): PlatformPose | null {
 function asCamera(list: number[] | null): Camera | null {
   if (!list) return null;
   const [a, b, c, d, e, f] = list as [number, number, number, number, number, number];
-  return { eye: [a, b, c], target: [d, e, f] };
+  return { eye: [a, b, c], target: [d, e, f], height: list[6] ?? null };
 }
