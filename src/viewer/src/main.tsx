@@ -3,6 +3,7 @@
 import { effect } from "@preact/signals";
 import { render } from "preact";
 import { Page } from "./panels/page";
+import { followLinks } from "./program/entry";
 import { keepAddress, onNewAddress, saidByAddress } from "./state/address_bar";
 import { keepWorkspace } from "./state/computation";
 import { keepHistory } from "./state/history";
@@ -24,6 +25,7 @@ async function start(): Promise<void> {
   keepAddress();
   onNewAddress((said) => void follow(said));
   followTool();
+  followLinks();
 }
 
 /** Another tool, another height over the table or other ghosts: the same joints are solved anew. */

@@ -40,7 +40,7 @@ export function Downloads({ found }: { found: WorkspaceSummary }) {
   );
 }
 
-function File({ link, name, children }: { link: string; name: string; children: string }) {
+export function File({ link, name, children }: { link: string; name: string; children: string }) {
   // A link sends no key: where there is one, the file is fetched and saved from here.
   const saveWithKey = (event: MouseEvent) => {
     if (!hasKey()) return;

@@ -59,8 +59,8 @@ export async function offer(file: File): Promise<void> {
   }
 }
 
-/** Takes files that are dropped anywhere on the page. */
-export function acceptDrops(over: (hovering: boolean) => void): void {
+/** Calls with files that are dropped anywhere on the page. */
+export function acceptDrops(over: (hovering: boolean) => void, take: (file: File) => void): void {
   addEventListener("dragover", (event) => {
     event.preventDefault();
     over(true);
@@ -72,6 +72,6 @@ export function acceptDrops(over: (hovering: boolean) => void): void {
     event.preventDefault();
     over(false);
     const file = event.dataTransfer?.files[0];
-    if (file) void offer(file);
+    if (file) take(file);
   });
 }

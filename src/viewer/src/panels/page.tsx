@@ -12,10 +12,11 @@ import { JointsPanel } from "./joints";
 import { KeyDialog } from "./key";
 import { MachinePicker } from "./machine";
 import { MachineFaults } from "./machine_faults";
-import { acceptDrops } from "./machine_file";
+import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
 import { MeasurementCaption } from "./measurement_caption";
 import { Notices } from "./notices";
+import { openProgramFile, ProgramDialogs, ProgramDock, ProgramSection, showPathIn } from "../program/entry";
 import { PositionsPanel } from "./positions";
 import { SceneTools } from "./scene_tools";
 import { ToolPanel } from "./tool";
@@ -32,7 +33,7 @@ const SIDES: [Side, string][] = [
 
 export function Page() {
   const [dropping, setDropping] = useState(false);
-  useEffect(() => acceptDrops(setDropping), []);
+  useEffect(() => acceptDrops(setDropping, take), []);
   return (
     <>
       <header class="top">
@@ -56,19 +57,27 @@ export function Page() {
         </div>
         <Scene />
         <div class="panel right">
+          <ProgramSection />
           <MarginsPanel />
           <WorkspacePanel />
         </div>
+        <ProgramDock />
       </main>
       {dropping && (
         <div class="dropping" aria-hidden="true">
-          Drop a machine’s JSON file
+          Drop a program, or a machine’s JSON file
         </div>
       )}
       <MachineFaults />
+      <ProgramDialogs />
       <KeyDialog />
     </>
   );
+}
+
+/** A machine is a JSON file; every other file is taken for a program. */
+function take(file: File): void {
+  void (/\.json$/i.test(file.name) ? offer(file) : openProgramFile(file));
 }
 
 function Scene() {
@@ -79,8 +88,11 @@ function Scene() {
   useEffect(() => {
     if (!canvas.current || !labels.current) return;
     const kind = drawing();
-    if (kind !== "none") setWorld(new World(canvas.current, labels.current, kind));
-    else setTrouble("This browser draws no 3D (WebGL 2): the figures beside remain.");
+    if (kind !== "none") {
+      const made = new World(canvas.current, labels.current, kind);
+      showPathIn(made.stage);
+      setWorld(made);
+    } else setTrouble("This browser draws no 3D (WebGL 2): the figures beside remain.");
   }, []);
   return (
     <section class="scene" aria-label="The machine in its workspace">

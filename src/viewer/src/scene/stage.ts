@@ -55,6 +55,18 @@ export class Stage {
     return this.taken;
   }
 
+  /** The vertical angle that a camera with perspective sees, radians. */
+  get angle(): number {
+    return MathUtils.degToRad(this.perspective.fov);
+  }
+
+  /** What a pixel covers at the point that is looked at, metres. */
+  get pixel(): number {
+    const { height } = this.seen();
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    return (height ?? 2 * distance * Math.tan(this.angle / 2)) / this.canvas.clientHeight;
+  }
+
   /** Suits distances to a machine's size, 1 for one with rods of a metre. */
   reach(size: number): void {
     this.controls.minDistance = REACH.from * size;
@@ -118,8 +130,7 @@ export class Stage {
 
   /** Looks at points from a direction, so that all of them are seen. */
   frame(points: Vector3[], from: Vector3, parallel: boolean): void {
-    const half = MathUtils.degToRad(this.perspective.fov) / 2;
-    this.look(framing(points, from, parallel ? null : half, this.aspect));
+    this.look(framing(points, from, parallel ? null : this.angle / 2, this.aspect));
   }
 
   private fit(): void {

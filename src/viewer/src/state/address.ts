@@ -1,7 +1,7 @@
 /** The view in the address, after the #: only what differs from the first view. */
 
 import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
-import { INITIAL, type Camera, type Ghosts, type Joints, type View } from "./view";
+import { INITIAL, type Camera, type Ghosts, type Joints, type ProgramView, type View } from "./view";
 import { packed, unpacked } from "./packed";
 
 const KINDS: readonly WorkspaceKind[] = ["platform", "tool", "part"];
@@ -26,6 +26,7 @@ export async function toAddress(view: View): Promise<string> {
     ["phi", ws.follows ? null : numbers([ws.phi1, ws.phi2], 3)],
     ["tolerance", ws.tolerance === base.tolerance ? null : String(ws.tolerance)],
     ["section", view.section === null ? null : numbers([view.section], 3)],
+    ["program", view.program && (await packed(view.program))],
     ["camera", view.camera && cameraNumbers(view.camera)],
   ];
   const said = entries.filter((entry): entry is [string, string] => entry[1] !== null);
@@ -66,6 +67,7 @@ export async function fromAddress(hash: string): Promise<Said> {
     },
     section: said.numbers("section", 1)?.[0] ?? null,
     camera: asCamera(said.numbers("camera", 7) ?? said.numbers("camera", 6)),
+    program: said.check("program", asProgram(await unpacked(said.text("program") ?? ""))),
   };
   return { view, unread: said.unread() };
 }
@@ -142,4 +144,9 @@ function asCamera(list: number[] | null): Camera | null {
   if (!list) return null;
   const [a, b, c, d, e, f] = list as [number, number, number, number, number, number];
   return { eye: [a, b, c], target: [d, e, f], height: list[6] ?? null };
+}
+
+function asProgram(found: unknown): ProgramView | null {
+  const { id, name, settings } = (found ?? {}) as Partial<ProgramView>;
+  return typeof id === "string" && typeof name === "string" ? { id, name, settings: settings ?? {} } : null;
 }
