@@ -109,13 +109,15 @@ function Scene() {
         <MeasurementCaption />
         <Notices />
       </div>
-      <SceneTools world={world} />
-      <div class="views" role="group" aria-label="Look from">
-        {SIDES.map(([side, name]) => (
-          <button type="button" key={side} onClick={() => world?.viewpoint.from(side)}>
-            {name}
-          </button>
-        ))}
+      <div class="below">
+        <SceneTools world={world} />
+        <div role="group" aria-label="Look from">
+          {SIDES.map(([side, name]) => (
+            <button type="button" key={side} onClick={() => world?.viewpoint.from(side)}>
+              {name}
+            </button>
+          ))}
+        </div>
       </div>
       {trouble && <p class="trouble">{trouble}</p>}
     </section>

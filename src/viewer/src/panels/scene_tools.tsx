@@ -16,7 +16,7 @@ export function SceneTools({ world }: { world: World | null }) {
     }
   };
   return (
-    <div class="tools" role="group" aria-label="Steps, measuring, picture">
+    <div role="group" aria-label="Steps, measuring, picture">
       <button type="button" title="Undo (Ctrl+Z)" disabled={!canUndo.value} onClick={undo}>
         Undo
       </button>

@@ -42,7 +42,9 @@ export function framePath(stage: Stage, group: Group): void {
 /** The ends of a ball along the axes. */
 function ends({ center, radius }: Sphere): Vector3[] {
   const axes = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
-  return axes.flatMap((axis) => [-radius, radius].map((along) => center.clone().addScaledVector(axis, along)));
+  return axes.flatMap((axis) =>
+    [-radius, radius].map((along) => center.clone().addScaledVector(axis, along)),
+  );
 }
 
 /** Among the directions in which most of the points are seen, the one that turns the camera least. */

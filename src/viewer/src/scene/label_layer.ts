@@ -91,7 +91,7 @@ export class LabelLayer {
     const scene = this.element.parentElement;
     if (!scene) return [];
     const origin = scene.getBoundingClientRect();
-    return [...scene.querySelectorAll(".caption, .notice, .tools, .views")].map((caption) => {
+    return [...scene.querySelectorAll(".caption, .notice, .below > *")].map((caption) => {
       const { left, top, width, height } = caption.getBoundingClientRect();
       return { left: left - origin.left, top: top - origin.top, width, height };
     });
