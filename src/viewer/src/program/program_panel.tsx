@@ -5,7 +5,7 @@ import { mm, number } from "../words/numbers";
 import { count, clock } from "./failure_words";
 import { FailureList } from "./failure_list";
 import { FORMAT_NAMES, type Format } from "./formats";
-import { cancelSending } from "./open_program";
+import { cancelSending, unsent } from "./open_program";
 import { cancelPlanning, outdated, planAgain } from "./planning";
 import { ProgramDownloads } from "./program_downloads";
 import {
@@ -86,9 +86,9 @@ function Activity() {
         <p class="trouble" role="status" data-testid="program-trouble">
           {faults.value.length > 0 ? "These lines do not fit the set-up:" : trouble.value}
         </p>
-        {program.value && (
-          <button type="button" class="small" onClick={planAgain}>
-            Plan again
+        {(unsent.value ?? program.value) && (
+          <button type="button" class="small" onClick={unsent.value ?? planAgain}>
+            {unsent.value ? "Send again" : "Plan again"}
           </button>
         )}
       </div>

@@ -1,12 +1,15 @@
 /** The program in the view, and so in the link: its id, the name of its file, and what differs from the defaults. */
 
-import { batch, effect, untracked } from "@preact/signals";
+import { batch, computed, effect, untracked } from "@preact/signals";
 import { change, tool, view } from "../state/store";
 import type { ProgramView } from "../state/view";
 import { openStored } from "./open_program";
 import { forgetPlan } from "./planning";
 import { faults, program, settings, trouble } from "./program_state";
 import { DEFAULTS, type Settings } from "./settings";
+
+/** Other changes of the view leave it the same. */
+const inView = computed(() => view.value.program);
 
 export function keepProgramInView(): void {
   effect(() => {
@@ -23,7 +26,7 @@ export function keepProgramInView(): void {
       settings.value = { ...settings.peek(), lengths: length };
   });
   effect(() => {
-    const wanted = view.value.program;
+    const wanted = inView.value;
     untracked(() => follow(wanted));
   });
 }
