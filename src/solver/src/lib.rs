@@ -82,11 +82,16 @@
 //! cross. With e1 = e2 the sliders determine x up to its mirror image about x = -e1. Near both, roots of F are closer
 //! together than double precision resolves.
 //!
-//! There the forward problem is solved in other unknowns. With (y, w1) = m (sin φ, cos φ) the first of (A) is R1 sin(a
-//! + φ) = r1 sin φ. It determines a, whose rate da/dφ is within [-2, 0] for all R1 ≥ r1. The second is a circle in (X1,
-//! m), with an angle θ. Two equations in (φ, θ) remain, and neither is divided by R1 - r1 or e1 - e2. They are enclosed
-//! over boxes: a box has no solution, exactly one by Krawczyk's operator, or is halved. Newton's method on (3)-(6)
-//! refines the solutions. If the boxes do not end, the solutions form a curve: [`KinematicsError::SelfMotion`].
+//! There the forward problem is solved in other unknowns. With (y, w1) = m (sin φ, cos φ) the first of (A) is
+//!
+//! ```text
+//! R1 sin(a + φ) = r1 sin φ
+//! ```
+//!
+//! It determines a, whose rate da/dφ is within [-2, 0] for all R1 ≥ r1. The second is a circle in (X1, m), with an
+//! angle θ. Two equations in (φ, θ) remain, and neither is divided by R1 - r1 or e1 - e2. They are enclosed over boxes:
+//! a box has no solution, exactly one by Krawczyk's operator, or is halved. Newton's method on (3)-(6) refines the
+//! solutions. If the boxes do not end, the solutions form a curve: [`KinematicsError::SelfMotion`].
 //!
 //! The inverse problem, margins and workspaces divide by neither difference. On the first branch `rod_crossing` is no
 //! limit: R1 cos a - r1 is zero everywhere. R1 < r1 is refused, because the working mode has R1 cos a > r1, or R1 = r1
