@@ -17,6 +17,8 @@ pub(crate) mod service_address;
 pub(crate) mod shell_help;
 pub(crate) mod store;
 pub(crate) mod toolpath;
+pub(crate) mod toolpath_origins;
+pub(crate) mod toolpath_placement;
 pub(crate) mod workspace;
 
 use std::ffi::OsString;
@@ -38,6 +40,8 @@ use crate::process::cli::result_pipe::ResultPipe;
 use crate::process::cli::shell_help::{CompletionsCommand, ManCommand};
 use crate::process::cli::store::StoreCommand;
 use crate::process::cli::toolpath::ToolpathCommand;
+use crate::process::cli::toolpath_origins::OriginsCommand;
+use crate::process::cli::toolpath_placement::PlacementCommand;
 use crate::process::cli::workspace::WorkspaceCommand;
 use crate::process::config::ServeConfig;
 use crate::process::config::worker::WorkerConfig;
@@ -74,6 +78,12 @@ enum Command {
     ///
     /// The exit status is 3 if the machine cannot run the program.
     Toolpath(Box<ToolpathCommand>),
+    /// Find the set-up, and the tool length, in which a program keeps the greatest distance from the limits.
+    ///
+    /// The exit status is 3 if the machine cannot run the program in any set-up that was found.
+    ToolpathPlacement(Box<PlacementCommand>),
+    /// Compute the region of origins of a program: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
+    ToolpathOrigins(Box<OriginsCommand>),
     /// Print a machine as a JSON file, which every --machine accepts.
     Machine(MachineCommand),
     /// Serve over HTTP.
@@ -137,6 +147,7 @@ impl Cli {
             Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, pretty),
             Command::Dexterity(command) => command.run(out, pretty),
+            Command::ToolpathOrigins(command) => command.run(out, pretty),
             Command::Machine(command) => command.run(out),
             Command::Jobs(command) => command.run(out, pretty),
             Command::Openapi => {
@@ -146,6 +157,7 @@ impl Cli {
             Command::Completions(command) => command.run(Self::command_line(), out),
             Command::Man(command) => command.run(Self::command_line(), out),
             Command::Toolpath(command) => return command.run(out, err, pretty),
+            Command::ToolpathPlacement(command) => return command.run(out, pretty),
             Command::Kinematics(command) => return command.run(out, err, pretty),
         };
         done.map(|()| ExitCode::SUCCESS)
