@@ -212,6 +212,30 @@ test("a link shows the program and its set-up", async ({ page, browser }) => {
   await colleague.close();
 });
 
+test.describe("lines that do not fit the set-up", () => {
+  test.use({ provoked: [/status of 422/] });
+
+  test("are listed, and what is shown meanwhile is called outdated", async ({ page }) => {
+    const text = "UNITS/MM\nGOTO/0,0,320\nLOADTL/1\nGOTO/0,0,310\nLOADTL/2\nGOTO/10,0,310\n";
+    await program(page, "tools.cls", text);
+    await page.getByRole("radio", { name: "by tool" }).check();
+    await expect(page.getByRole("button", { name: /^line 2: no length is in force here/ })).toBeVisible();
+    await expect(page.getByTestId("outdated")).toBeVisible();
+    await expect(page.getByRole("link", { name: "CSV" })).toHaveCount(0);
+    await page.getByLabel("Before the first tool").selectOption("T1 is there");
+    await expect(verdict(page)).toContainText("can run");
+    // Each row is shown with its own tool.
+    const second = page.getByLabel("Length of tool 2, mm");
+    await second.fill("160");
+    await second.press("Enter");
+    await time(page).press("End");
+    await expect(page.getByRole("spinbutton", { name: /Tool length/ })).toHaveValue("160.0");
+    await time(page).press("Home");
+    await expect(page.getByRole("spinbutton", { name: /Tool length/ })).toHaveValue("100.0");
+    await expect(page.getByLabel("Z above the table, mm")).toHaveValue("320.0");
+  });
+});
+
 test.describe("a long computation", () => {
   /** Moves to and fro; a fine tolerance makes many rows of each. */
   const moves = (count) =>

@@ -1,5 +1,5 @@
-// Opens the built page of examples/typescript in Chromium, beside a service (VERNE), and looks at the picture: it must have
-// many colours, as the limits have in a workspace, on a background.
+// Opens the built page of examples/typescript in Chromium, beside a service (VERNE), and looks at the picture: it must
+// have many colours, as the limits have in a workspace, on a background.
 import { spawn } from "node:child_process";
 import { once } from "node:events";
 import { mkdir } from "node:fs/promises";

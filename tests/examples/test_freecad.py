@@ -1,7 +1,7 @@
 """The post-processor for FreeCAD: with stand-ins for FreeCAD's objects, and in a real FreeCAD where one is installed.
 
-FreeCAD and what it needs take 1.3 GB, so tests/run does not install it. The stand-ins are those parts of an operation that
-the post-processor reads: the label, and the names and parameters of the commands (`Path.Command`)."""
+FreeCAD and what it needs take 1.3 GB, so tests/run does not install it. The stand-ins are those parts of an operation
+that the post-processor reads: the label, and the names and parameters of the commands (`Path.Command`)."""
 
 import os
 import pathlib

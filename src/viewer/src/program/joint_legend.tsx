@@ -1,7 +1,6 @@
 /** The joints in the colours of their lines, with their values where the machine is. */
 
-import { currentRow, now, plan } from "./program_state";
-import { quantity, type Quantity } from "./plots";
+import { currentRow, now, plan, quantity, type Quantity } from "./program_state";
 import { JOINTS } from "./row_columns";
 import { instantAt, jointsAt } from "./timeline";
 import { number } from "../words/numbers";

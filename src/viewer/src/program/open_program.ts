@@ -5,7 +5,7 @@ import { ProblemError, unwrap, type Schemas } from "verne-client";
 import { inWords, verne } from "../api/client";
 import { view } from "../state/store";
 import { formatOf, refusedController, type Format } from "./formats";
-import { forgetPlan } from "./planning";
+import { faultsOf, forgetPlan } from "./planning";
 import { activity, program, settings, trouble } from "./program_state";
 import { ProgramText, workOffsets } from "./program_text";
 import { initialSettings, ORIGIN, type Settings } from "./settings";
@@ -43,6 +43,9 @@ export interface Waiting {
 }
 
 export const waiting = signal<Waiting | null>(null);
+
+/** Bytes from which a file is compressed: the service waits half a minute for it. */
+const LARGE = 4_000_000;
 
 let stop = new AbortController();
 
@@ -88,13 +91,17 @@ async function send(file: File, reading: Reading): Promise<void> {
   forgetPlan();
   activity.value = { words: `Sending ${file.name} …`, fraction: null };
   try {
+    const body = file.size > LARGE ? await compressed(file) : file;
     const summary = unwrap(
       await verne.api.POST("/programs", {
         params: { query: query(reading) },
-        headers: { "content-type": "application/octet-stream" },
+        headers: {
+          "content-type": "application/octet-stream",
+          ...(body !== file && { "content-encoding": "gzip" }),
+        },
         // The file itself, not JSON of it.
-        body: file as unknown as string,
-        bodySerializer: (body) => body,
+        body: body as unknown as string,
+        bodySerializer: (whole) => whole,
         signal: own.signal,
       }),
     );
@@ -105,6 +112,10 @@ async function send(file: File, reading: Reading): Promise<void> {
   } finally {
     if (own === stop && activity.peek()?.words.startsWith("Sending")) activity.value = null;
   }
+}
+
+function compressed(file: File): Promise<Blob> {
+  return new Response(file.stream().pipeThrough(new CompressionStream("gzip"))).blob();
 }
 
 function show(
@@ -130,8 +141,7 @@ async function refused(file: File, reading: Reading, thrown: unknown, aborted: b
     trouble.value = "Cancelled.";
     return;
   }
-  const errors = thrown instanceof ProblemError ? thrown.errors : [];
-  const faults = errors.flatMap((error) => ("line" in error ? [error] : []));
+  const faults = thrown instanceof ProblemError ? faultsOf(thrown) : [];
   const text = faults.length > 0 ? new ProgramText(new Uint8Array(await file.arrayBuffer())) : null;
   waiting.value = { file, reading, refusal: { summary: inWords(thrown), faults, text } };
 }

@@ -1,14 +1,20 @@
 /** Keeps the plan that is shown the one that the program and its settings ask for. */
 
 import { batch, computed, effect, untracked } from "@preact/signals";
-import { CancelledError, type ToolpathReport, type ToolpathRequest } from "verne-client";
+import {
+  CancelledError,
+  ProblemError,
+  type Schemas,
+  type ToolpathReport,
+  type ToolpathRequest,
+} from "verne-client";
 import { inWords, verne } from "../api/client";
 import { machine, overTable, type InUse } from "../state/store";
 import {
   activity,
+  faults,
   now,
   plan,
-  planOf,
   playing,
   program,
   settings,
@@ -17,6 +23,7 @@ import {
 } from "./program_state";
 import { readRows } from "./row_pieces";
 import { toolpathRequest, type Settings } from "./settings";
+import { times } from "./timeline";
 
 /** A control that is being dragged is not asked at every step, ms. */
 const REST = 250;
@@ -29,6 +36,9 @@ const question = computed(() => {
   if (!open || !known) return null;
   return JSON.stringify(toolpathRequest(open.summary.id, known.ref, settings.value, overTable.value));
 });
+
+/** Whether the plan answers another question than the one that is asked now. */
+export const outdated = computed(() => plan.value !== null && plan.value.asked !== question.value);
 
 let stop = new AbortController();
 let job: string | null = null;
@@ -81,6 +91,7 @@ async function ask(asked: string): Promise<void> {
   const current = () => own === stop;
   activity.value = { words: "Planning …", fraction: null };
   trouble.value = null;
+  faults.value = [];
   try {
     const report = await verne.toolpath(JSON.parse(asked) as ToolpathRequest, {
       wait: WAIT,
@@ -95,18 +106,20 @@ async function ask(asked: string): Promise<void> {
       },
     });
     if (current()) job = null;
-    await load(report, open, known, own);
+    await load(asked, report, open, known, own);
   } catch (thrown) {
     if (!current()) return;
     const cancelled = thrown instanceof CancelledError || own.signal.aborted;
     batch(() => {
       activity.value = null;
       trouble.value = cancelled ? "Cancelled." : inWords(thrown);
+      faults.value = thrown instanceof ProblemError ? faultsOf(thrown) : [];
     });
   }
 }
 
 async function load(
+  asked: string,
   report: ToolpathReport,
   open: OpenProgram,
   known: InUse,
@@ -123,17 +136,18 @@ async function load(
   if (own !== stop) return;
   const before = plan.peek();
   batch(() => {
-    plan.value = planOf(
-      report,
-      columns,
-      bucket,
-      lengthsOf(open, settings.peek(), overTable.peek().tool_radius),
-    );
+    const lengths = lengthsOf(open, settings.peek(), overTable.peek().tool_radius);
+    plan.value = { asked, report, rows: columns, bucket, time: times(columns), lengths };
     activity.value = null;
     // The same program with another set-up stays where it is.
     const end = plan.value.time.at(-1) ?? 0;
     now.value = before?.report.program === report.program ? Math.min(now.peek(), end) : 0;
   });
+}
+
+/** The faults of a program among the errors of a problem. */
+export function faultsOf({ errors }: ProblemError): Schemas["ProgramFault"][] {
+  return errors.flatMap((error) => ("line" in error ? [error] : []));
 }
 
 /** The lengths that the tools of a program may have; with the ball's centre as tip, they are shorter by the radius. */

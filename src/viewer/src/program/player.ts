@@ -114,7 +114,7 @@ function show(stands: boolean): void {
 function picture({ joints, platform, tool: end }: Posture): void {
   const before = position.peek();
   if (!before) return;
-  position.value = { joints, solution: { ...before.solution, platform, tool: end } };
+  position.value = { ...before, joints, solution: { ...before.solution, platform, tool: end } };
   refusal.value = null;
 }
 

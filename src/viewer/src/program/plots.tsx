@@ -9,14 +9,11 @@ import { JointLegend } from "./joint_legend";
 import { MarginLegend } from "./margin_legend";
 import { seek } from "./player";
 import { plotPoints } from "./plot_points";
-import { duration, failing, now, plan, type Plan } from "./program_state";
+import { duration, failing, now, plan, quantity, type Plan } from "./program_state";
 import { JOINTS } from "./row_columns";
 import { rates } from "./timeline";
 import { wakeOn } from "./wake_on";
 
-export type Quantity = "position" | "rate";
-
-export const quantity = signal<Quantity>("position");
 /** The times that the plots show; null: all. */
 const zoom = signal<[number, number] | null>(null);
 
@@ -87,7 +84,8 @@ function draw(box: HTMLElement, kind: "margin" | "joints"): () => void {
       return () => made.destroy();
     }),
     effect(() => {
-      wakeOn(theme);
+      // The plot is another one for each of them, and empty at first.
+      wakeOn(theme, quantity);
       const found = plan.value;
       if (!plot || !found || width.value === 0) return;
       const range = zoom.value ?? [0, duration.value || 1];
@@ -118,6 +116,8 @@ function columns(kind: "margin" | "joints", { rows, time }: Plan): Float64Array[
   );
 }
 
+const stepped = uPlot.paths.stepped?.({ align: -1 });
+
 function series(kind: "margin" | "joints"): uPlot.Series[] {
   if (kind === "margin") return [{ stroke: tone("--ink"), width: 1.5, scale: "y", points: { show: false } }];
   return JOINTS.map((joint, i) => ({
@@ -125,6 +125,8 @@ function series(kind: "margin" | "joints"): uPlot.Series[] {
     width: 1.5,
     scale: joint.startsWith("rho") ? "y" : "angle",
     points: { show: false },
+    // A rate holds on the way to its row.
+    ...(quantity.value === "rate" && stepped && { paths: stepped }),
     ...(joint.startsWith("theta") && { dash: [6, 3] }),
   }));
 }

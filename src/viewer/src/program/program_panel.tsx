@@ -7,9 +7,18 @@ import { count, clock } from "./failure_words";
 import { FailureList } from "./failure_list";
 import { FORMAT_NAMES, type Format } from "./formats";
 import { cancelSending } from "./open_program";
-import { cancelPlanning, forgetPlan, planAgain } from "./planning";
+import { cancelPlanning, forgetPlan, outdated, planAgain } from "./planning";
 import { ProgramDownloads } from "./program_downloads";
-import { activity, plan, program, trouble, type OpenProgram, type Plan } from "./program_state";
+import {
+  activity,
+  faults,
+  plan,
+  program,
+  shownLine,
+  trouble,
+  type OpenProgram,
+  type Plan,
+} from "./program_state";
 import { SetUpFields } from "./set_up_fields";
 import { ASSUMED_SPEED } from "./timeline";
 import { WarningList } from "./warning_list";
@@ -21,12 +30,12 @@ export function ProgramPanel() {
     <div class="program">
       {open && <Name open={open} />}
       <Activity />
-      {open && found && <Verdict found={found} />}
+      {open && found && (outdated.value ? <Outdated /> : <Verdict found={found} />)}
       {found && <FailureList report={found.report} />}
       {open && <Figures open={open} found={found} />}
       {open && <SetUpFields open={open} />}
       {open && <WarningList open={open} found={found} />}
-      {open && found && <ProgramDownloads open={open} report={found.report} />}
+      {open && found && !outdated.value && <ProgramDownloads open={open} report={found.report} />}
     </div>
   );
 }
@@ -81,16 +90,37 @@ function Activity() {
   }
   if (!trouble.value) return null;
   return (
-    <div class="progress">
-      <p class="trouble" role="status" data-testid="program-trouble">
-        {trouble.value}
-      </p>
-      {program.value && (
-        <button type="button" class="small" onClick={planAgain}>
-          Plan again
-        </button>
-      )}
-    </div>
+    <>
+      <div class="progress">
+        <p class="trouble" role="status" data-testid="program-trouble">
+          {faults.value.length > 0 ? "These lines do not fit the set-up:" : trouble.value}
+        </p>
+        {program.value && (
+          <button type="button" class="small" onClick={planAgain}>
+            Plan again
+          </button>
+        )}
+      </div>
+      <ol class="failures" aria-label="Lines that do not fit the set-up">
+        {faults.value.map(({ line, word, detail }) => (
+          <li key={`${line} ${word}`}>
+            <button type="button" class="failure-line" onClick={() => (shownLine.value = line)}>
+              line {count(line)}: {word !== "" && `${word}: `}
+              {detail}
+            </button>
+          </li>
+        ))}
+      </ol>
+    </>
+  );
+}
+
+/** What is shown is true of other settings than those in the fields. */
+function Outdated() {
+  return (
+    <p class="verdict" data-testid="outdated">
+      <span class="tag warn">outdated</span> The motion that is shown is that of the settings before.
+    </p>
   );
 }
 
@@ -114,8 +144,10 @@ function Verdict({ found: { report, bucket } }: { found: Plan }) {
       )}
       {report.time.unknown_rows > 0 && (
         <p class="hint">
-          {count(report.time.unknown_rows)} rows have no known duration, such as rapids without drives. They
-          are played at {ASSUMED_SPEED.slider} mm/s and {ASSUMED_SPEED.table}°/s.
+          {report.time.unknown_rows === 1
+            ? "One row has no known duration, such as a rapid without drives. It is"
+            : `${count(report.time.unknown_rows)} rows have no known duration, such as rapids without drives. They are`}{" "}
+          played at {ASSUMED_SPEED.slider} mm/s and {ASSUMED_SPEED.table}°/s.
         </p>
       )}
     </>

@@ -7,7 +7,7 @@ import { failingTimes } from "./plot_points";
 import type { ProgramText } from "./program_text";
 import type { RowColumns } from "./row_columns";
 import { DEFAULTS, type Settings } from "./settings";
-import { lastAtOrBefore, times } from "./timeline";
+import { lastAtOrBefore } from "./timeline";
 
 /** A program that the service keeps. */
 export interface OpenProgram {
@@ -28,6 +28,8 @@ export interface Activity {
 
 /** The joint motion of the program. */
 export interface Plan {
+  /** The question that it answers. */
+  asked: string;
   report: ToolpathReport;
   rows: RowColumns;
   /** Consecutive rows of which the page holds the extremes; 1: it holds all. */
@@ -44,6 +46,10 @@ export const activity = signal<Activity | null>(null);
 export const plan = signal<Plan | null>(null);
 /** Why there is no plan. */
 export const trouble = signal<string | null>(null);
+/** The lines that do not fit the set-up, where they are the reason. */
+export const faults = signal<Schemas["ProgramFault"][]>([]);
+/** The line that the text shows; 0: that of the machine. */
+export const shownLine = signal(0);
 
 /** Seconds from the first row to where the machine is shown. */
 export const now = signal(0);
@@ -51,6 +57,9 @@ export const playing = signal(false);
 export const speed = signal(1);
 export const loop = signal(false);
 
+/** What the plots show of the joints. */
+export type Quantity = "position" | "rate";
+export const quantity = signal<Quantity>("position");
 /** Counts the wishes to see all of the path. */
 export const framing = signal(0);
 
@@ -80,7 +89,3 @@ export const failing = computed(() => {
   ]);
   return [...failingTimes(time, found.rows.fraction), ...unreached].sort(([a], [b]) => a - b);
 });
-
-export function planOf(report: ToolpathReport, rows: RowColumns, bucket: number, lengths: number[]): Plan {
-  return { report, rows, bucket, time: times(rows), lengths };
-}

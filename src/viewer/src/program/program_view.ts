@@ -1,7 +1,7 @@
 /** The program in the view, and so in the link: its id, the name of its file, and what differs from the defaults. */
 
 import { effect } from "@preact/signals";
-import { change, view } from "../state/store";
+import { change, tool, view } from "../state/store";
 import { openStored } from "./open_program";
 import { program, settings } from "./program_state";
 import { DEFAULTS, type Settings } from "./settings";
@@ -12,6 +12,13 @@ export function keepProgramInView(): void {
     if (!open) return;
     const { summary, name } = open;
     change({ program: { id: summary.id, name, settings: differing(settings.value) } });
+  });
+  // One length for all tools is that of the tool on the page.
+  effect(() => {
+    const length = tool.value;
+    const { lengths, tip } = settings.peek();
+    if (program.peek() && typeof lengths === "number" && tip === "end" && lengths !== length)
+      settings.value = { ...settings.peek(), lengths: length };
   });
   effect(() => {
     const wanted = view.value.program;

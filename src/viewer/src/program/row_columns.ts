@@ -54,10 +54,12 @@ export function emptyColumns(capacity: number): RowColumns {
 
 /** Rows that a bucket keeps at most: its first, its last, and those with the extremes of six columns. */
 export const KEPT_OF_BUCKET = 14;
+/** Rows that a bucket usually keeps: extremes are often at its ends. */
+const USUALLY_KEPT = 6;
 
-/** How many consecutive rows make a bucket, if at most `most` rows may be kept: 1 keeps all. */
+/** How many consecutive rows make a bucket, if about `most` rows may be kept: 1 keeps all. */
 export function bucketSize(rows: number, most: number): number {
-  return rows <= most ? 1 : Math.ceil((rows * KEPT_OF_BUCKET) / most);
+  return rows <= most ? 1 : Math.ceil((rows * USUALLY_KEPT) / most);
 }
 
 /**

@@ -15,7 +15,7 @@ import {
   type RowKind,
 } from "./row_columns";
 
-/** Rows that the page holds at most; a longer tool path is thinned. */
+/** Rows from which on a tool path is thinned, to about as many. */
 export const MOST_ROWS = 200_000;
 
 /** About the rows of a request. */

@@ -28,7 +28,7 @@ export function SetUpFields({ open }: { open: OpenProgram }) {
             />
           </fieldset>
         ))}
-        <Lengths open={open} lengths={now.lengths} />
+        <Lengths open={open} lengths={now.lengths} before={now.toolBefore} />
       </details>
       <details>
         <summary>Tolerances and motion</summary>
@@ -63,7 +63,13 @@ function Frame({ name, frame, put }: { name: string; frame: SetUp; put: (frame: 
   );
 }
 
-function Lengths({ open, lengths }: { open: OpenProgram; lengths: ToolLengths }) {
+interface LengthsProps {
+  open: OpenProgram;
+  lengths: ToolLengths;
+  before: number | null;
+}
+
+function Lengths({ open, lengths, before }: LengthsProps) {
   const numbers = toolNumbers(open.summary.tools);
   const stated = open.summary.tools.some(({ length }) => length != null);
   const kind = typeof lengths === "object" ? "table" : typeof lengths === "number" ? "one" : "program";
@@ -119,6 +125,24 @@ function Lengths({ open, lengths }: { open: OpenProgram; lengths: ToolLengths })
             />
           ))}
         </div>
+      )}
+      {typeof lengths === "object" && (
+        <label class="row between">
+          <span class="quiet">Before the first tool</span>
+          <select
+            value={before ?? ""}
+            onChange={({ currentTarget: { value } }) =>
+              alter({ toolBefore: value === "" ? null : Number(value) })
+            }
+          >
+            <option value="">no move is allowed</option>
+            {Object.keys(lengths).map((tool) => (
+              <option key={tool} value={tool}>
+                T{tool} is there
+              </option>
+            ))}
+          </select>
+        </label>
       )}
     </>
   );
@@ -196,7 +220,7 @@ function Motion({ now }: { now: Settings }) {
         keep the program’s C where the tool is upright
       </label>
       <p class="hint">
-        The tool’s radius and the least height over the table are those of the workspace, below.
+        The tool’s radius and the least height over the table are those of the tool and the workspace.
       </p>
     </>
   );

@@ -13,6 +13,8 @@ export interface Settings {
   /** The frames of other work offsets than G54, by their names. */
   offsets: Record<string, SetUp>;
   lengths: ToolLengths;
+  /** The tool of the moves before the first tool, where each tool has its length; null: such moves are faults. */
+  toolBefore: number | null;
   /** Greatest deviations: tip and rapids in mm, axis in degrees. */
   tolerance: Required<Schemas["Tolerance"]>;
   /** Null: as the words of each point say. */
@@ -30,6 +32,7 @@ export const DEFAULTS: Settings = {
   setup: ORIGIN,
   offsets: {},
   lengths: "program",
+  toolBefore: null,
   tolerance: { tip: 0.01, axis: 0.05, rapid: 1 },
   orientation: null,
   tip: "end",
@@ -51,13 +54,15 @@ export function toolpathRequest(
   settings: Settings,
   overTable: OverTable,
 ): ToolpathRequest {
-  const { setup, offsets, lengths, tolerance, orientation, tip, rapids, onLimit, holdRotary } = settings;
+  const { setup, offsets, lengths, toolBefore, tolerance, orientation, tip, rapids, onLimit, holdRotary } =
+    settings;
   return {
     program,
     machine,
     setup,
     ...(Object.keys(offsets).length > 0 && { offsets }),
     ...(lengths !== "program" && { tool_length: lengths }),
+    ...(typeof lengths === "object" && toolBefore !== null && { length_before: toolBefore }),
     tolerance,
     ...(orientation && { orientation }),
     tip,

@@ -2,7 +2,7 @@
 
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { pause, seekLine } from "./player";
-import { currentLine, plan, program } from "./program_state";
+import { currentLine, faults, plan, program, shownLine } from "./program_state";
 
 const ROW = 18;
 /** Browsers draw no element that is much higher, pixels. */
@@ -21,6 +21,7 @@ export function TextList() {
   const first = Math.max(Math.floor(offset / ROW) - 2, 0);
   const shown = Math.min(Math.ceil(seen.height / ROW) + 5, count - first);
   const current = currentLine.value;
+  const wanted = shownLine.value || current;
 
   useEffect(() => {
     const element = box.current;
@@ -34,18 +35,25 @@ export function TextList() {
   // The current line stays in sight.
   useLayoutEffect(() => {
     const element = box.current;
-    if (!element || current === 0) return;
-    const top = (current - 1) * ROW;
+    if (!element || wanted === 0) return;
+    const top = (wanted - 1) * ROW;
     const view = element.clientHeight;
     if (top >= offset && top + ROW <= offset + view) return;
     element.scrollTop = Math.max(top - view / 3, 0) / ratio;
     // Before the next picture: the event of the scroll comes later.
     setSeen({ top: element.scrollTop, height: view });
+  }, [wanted]);
+  // Once the machine moves on, the text follows it again.
+  useEffect(() => {
+    shownLine.value = 0;
   }, [current]);
 
   if (!text) return <p class="hint text-list">This format has no text.</p>;
   const failing = plan.value?.report.failures ?? [];
-  const fails = (line: number) => failing.some(({ lines: [from = 0, to = 0] }) => from <= line && line <= to);
+  const faulty = faults.value;
+  const fails = (line: number) =>
+    failing.some(({ lines: [from = 0, to = 0] }) => from <= line && line <= to) ||
+    faulty.some((fault) => fault.line === line);
   const go = (line: number) => {
     pause();
     seekLine(Math.min(Math.max(line, 1), count));
