@@ -27,7 +27,6 @@ mod set_up;
 mod start;
 mod stretches;
 mod timing;
-mod tool_motion;
 
 use std::fmt;
 
