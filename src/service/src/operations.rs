@@ -38,6 +38,8 @@ pub(crate) mod inverse;
 pub(crate) mod inverse_batch;
 pub(crate) mod inverse_columns;
 pub(crate) mod inverse_rows;
+pub(crate) mod jacobian_columns;
+pub(crate) mod jacobians;
 pub(crate) mod job_executor;
 pub(crate) mod joint_program;
 pub(crate) mod machine_hash;

@@ -21,6 +21,7 @@ pub(crate) mod field_errors;
 pub(crate) mod fixed_array;
 pub(crate) mod format;
 pub(crate) mod health;
+pub(crate) mod jacobian;
 pub(crate) mod joint_program;
 pub(crate) mod json;
 pub(crate) mod json_pointer;

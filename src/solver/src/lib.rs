@@ -145,8 +145,10 @@ mod request_range;
 mod residual;
 mod rods;
 mod table;
+mod tool_motion;
 pub mod toolpath;
 mod trig_polynomial;
+mod turns;
 pub mod workspace;
 
 pub use clearance::Clearance;

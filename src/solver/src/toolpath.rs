@@ -23,7 +23,6 @@ mod rows;
 mod start;
 mod stretches;
 mod timing;
-mod tool_motion;
 
 use std::fmt;
 

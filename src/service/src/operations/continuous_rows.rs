@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use crate::operations::batch_rows::{BatchRow, MIN_CHUNK, RowFormat, RowOutcome, outcome_of_solution};
 use crate::operations::continuation::{Chosen, Setting, Standing};
+use crate::operations::jacobians::RowJacobian;
 use crate::operations::part_row::{Candidates, PartRow};
 use crate::operations::table_angles::TablePosition;
 use crate::wire::batch::Row;
@@ -21,6 +22,13 @@ pub(crate) struct AnsweredPose {
     pub(crate) outcome: RowOutcome,
     /// `None` for a row without a solution, and in a batch that is not continuous.
     pub(crate) jump: Option<bool>,
+    pub(crate) jacobian: Option<Box<RowJacobian>>,
+}
+
+impl AnsweredPose {
+    pub(crate) fn without_solution(outcome: RowOutcome) -> Self {
+        Self { joints: None, outcome, jump: None, jacobian: None }
+    }
 }
 
 /// A row and its candidates; those of the pole are solved when theta2 is known.
@@ -60,13 +68,14 @@ impl Setting<'_> {
     pub(crate) fn answered(&self, row: Result<Chosen, RowOutcome>) -> AnsweredPose {
         let chosen = match row {
             Ok(chosen) => chosen,
-            Err(outcome) => return AnsweredPose { joints: None, outcome, jump: None },
+            Err(outcome) => return AnsweredPose::without_solution(outcome),
         };
         let Chosen { posture, jump, .. } = chosen;
         let table = TablePosition::from(chosen.table);
         let joints = Some(posture.rho.into_iter().chain(table.degrees).collect());
         let outcome = outcome_of_solution(self.machine, &posture, Some(table.angles), self.clearance);
-        AnsweredPose { joints, outcome, jump: Some(jump) }
+        let jacobian = self.jacobian(&posture, table.angles);
+        AnsweredPose { joints, outcome, jump: Some(jump), jacobian }
     }
 }
 

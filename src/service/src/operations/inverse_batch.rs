@@ -10,6 +10,7 @@ use crate::operations::batch_rows::{BatchRow, MIN_CHUNK, ROW_BYTES, RowOutcome, 
 use crate::operations::continuation::{Setting, Standing};
 use crate::operations::continuous_rows::{AnsweredPose, answer_continuous};
 use crate::operations::inverse_rows::{PART_POSE, answer_rows};
+use crate::operations::jacobians::RowJacobians;
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::operations::table_angles::TablePosition;
 use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, RowReport};
@@ -45,8 +46,11 @@ fn answer<R: BatchRow>(
         joints: Vec::new(),
         jump: None,
         jumps: None,
+        jacobian: None,
         report: RowReport::default(),
     };
+    answer.jacobian =
+        batch.jacobians.map(|jacobians| jacobians.lists(rows.iter().map(|row| row.jacobian.as_deref())));
     if batch.continuous {
         let jumps: Vec<_> = rows.iter().map(|row| row.jump).collect();
         answer.jumps = Some(jumps.iter().filter(|jump| **jump == Some(true)).count());
@@ -64,6 +68,7 @@ pub(crate) struct PoseBatch {
     pub(crate) frame: Frame,
     tool_length: f64,
     clearance: Option<Clearance>,
+    pub(crate) jacobians: Option<RowJacobians>,
     pub(crate) continuous: bool,
     standing: Option<Standing>,
 }
@@ -76,18 +81,26 @@ impl PoseBatch {
         max_rows: usize,
     ) -> Result<Self, OperationError> {
         let (tool, frame) = (request.tool(), request.frame);
-        check_batch(tool, frame.without_tilt(), request.poses.len(), max_rows)?;
+        let jacobian = (request.jacobian, request.characteristic_length);
+        check_batch(tool, jacobian, frame.without_tilt(), (request.poses.len(), max_rows))?;
         check_continuous(request)?;
         let machine = machines.resolve(&request.machine)?;
         let clearance = tool.clearance(&machine).filter(|_| frame == Frame::Part);
         let (tool_length, continuous) = (tool.length, request.continuous);
-        let mut batch = Self { machine, frame, tool_length, clearance, continuous, standing: None };
+        let jacobians = RowJacobians::requested(&machine, jacobian.0, jacobian.1);
+        let mut batch =
+            Self { machine, frame, tool_length, clearance, jacobians, continuous, standing: None };
         batch.standing = request.start.map(|start| standing_at(&batch.setting(), start)).transpose()?;
         Ok(batch)
     }
 
     fn setting(&self) -> Setting<'_> {
-        Setting { machine: &self.machine, tool_length: self.tool_length, clearance: self.clearance.as_ref() }
+        Setting {
+            machine: &self.machine,
+            tool_length: self.tool_length,
+            clearance: self.clearance.as_ref(),
+            jacobians: self.jacobians,
+        }
     }
 
     /// Answers the next rows.
@@ -99,9 +112,7 @@ impl PoseBatch {
             return answered;
         }
         let (setting, frame) = (self.setting(), self.frame);
-        let answered = rows.par_chunks(MIN_CHUNK).flat_map_iter(|rows| answer_rows(setting, frame, rows));
-        let answered = answered.map(|(joints, outcome)| AnsweredPose { joints, outcome, jump: None });
-        answered.collect()
+        rows.par_chunks(MIN_CHUNK).flat_map_iter(|rows| answer_rows(setting, frame, rows)).collect()
     }
 }
 

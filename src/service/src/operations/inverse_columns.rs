@@ -64,6 +64,10 @@ impl RowAnswer for InverseColumns {
             || number_columns(names, &joints).collect::<Vec<_>>(),
             || self.outcomes.of(chunk, &outcomes),
         );
+        if let Some(jacobians) = self.batch.jacobians {
+            let found: Vec<_> = answered.iter().map(|row| row.jacobian.as_deref()).collect();
+            columns.extend(jacobians.columns_of(&found));
+        }
         if self.batch.continuous {
             columns.push(Column::flags("jump", answered.iter().map(|row| row.jump)));
         }

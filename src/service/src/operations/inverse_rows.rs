@@ -10,6 +10,7 @@ use crate::operations::batch_rows::{
     outcome_of_solution,
 };
 use crate::operations::continuation::Setting;
+use crate::operations::continuous_rows::AnsweredPose;
 use crate::operations::part_row::PartRow;
 use crate::operations::table_angles::{TablePosition, ToolOrientation};
 use crate::wire::batch::Row;
@@ -24,11 +25,7 @@ const POSITION: RowFormat =
     RowFormat { lengths: &[3], description: "[x, y, z]: only rows of frame part have an orientation" };
 
 /// Answers rows: first it reads all of them, then it solves them, then it computes the margins.
-pub(crate) fn answer_rows(
-    setting: Setting<'_>,
-    frame: Frame,
-    rows: &[impl BatchRow],
-) -> Vec<(Option<Row>, RowOutcome)> {
+pub(crate) fn answer_rows(setting: Setting<'_>, frame: Frame, rows: &[impl BatchRow]) -> Vec<AnsweredPose> {
     let machine = setting.machine;
     let read: Vec<_> = rows.iter().map(|row| read_row(setting, frame, row)).collect();
     let targets: Vec<Target> = read.iter().filter_map(|row| row.as_ref().ok().copied()).collect();
@@ -53,20 +50,16 @@ pub(crate) fn answer_rows(
         };
         Some(match solved.next()? {
             Ok(posture) => target.preferred(setting, &posture, outcomes.next()?),
-            Err(refusal) => (None, outcome_of_refusal(machine, refusal)),
+            Err(refusal) => AnsweredPose::without_solution(outcome_of_refusal(machine, refusal)),
         })
     });
     answered.flatten().collect()
 }
 
 /// The target of a row; or the row's answer, if it has none or a tool axis.
-fn read_row(
-    setting: Setting<'_>,
-    frame: Frame,
-    row: &impl BatchRow,
-) -> Result<Target, (Option<Row>, RowOutcome)> {
+fn read_row(setting: Setting<'_>, frame: Frame, row: &impl BatchRow) -> Result<Target, AnsweredPose> {
     let row = row.numbers(if frame == Frame::Part { PART_POSE } else { POSITION });
-    let row = row.map_err(|detail| (None, RowOutcome::Invalid(detail)))?;
+    let row = row.map_err(|detail| AnsweredPose::without_solution(RowOutcome::Invalid(detail)))?;
     if row.len() == ROW_WITH_AXIS {
         return Err(answer_axis(setting, &row));
     }
@@ -82,13 +75,12 @@ fn read_row(
 }
 
 /// Answers a row with a tool axis as if it were the first row of a continuous batch.
-fn answer_axis(setting: Setting<'_>, row: &Row) -> (Option<Row>, RowOutcome) {
+fn answer_axis(setting: Setting<'_>, row: &Row) -> AnsweredPose {
     let chosen = PartRow::of_numbers(row).map_err(RowOutcome::Invalid).and_then(|row| {
         let candidates = row.candidates(setting.machine, setting.tool_length, 0.0);
         setting.choose(None, &row, &candidates)
     });
-    let answered = setting.answered(chosen);
-    (answered.joints, answered.outcome)
+    AnsweredPose { jump: None, ..setting.answered(chosen) }
 }
 
 /// The pose of a row.
@@ -131,29 +123,27 @@ impl Target {
         if let Self::Part(pose, _) = self { Some(*pose) } else { None }
     }
 
-    /// Joints and outcome of the first working posture if it is feasible, or if no other is; otherwise of the feasible
-    /// one with the least alpha.
-    fn preferred(
-        &self,
-        setting: Setting<'_>,
-        first: &Posture,
-        outcome: RowOutcome,
-    ) -> (Option<Row>, RowOutcome) {
-        let Setting { machine, tool_length, clearance } = setting;
-        let joints = |posture: &Posture| Some(joints(posture, self.table(machine, posture.pose.alpha)));
+    /// The first working posture if it is feasible, or if no other is; otherwise the feasible one with the least alpha.
+    fn preferred(&self, setting: Setting<'_>, first: &Posture, outcome: RowOutcome) -> AnsweredPose {
+        let Setting { machine, tool_length, clearance, .. } = setting;
         if !matches!(outcome, RowOutcome::Infeasible(_)) {
-            return (joints(first), outcome);
+            return self.answered(setting, first, outcome);
         }
         let mut others = self.every_working(machine, tool_length);
         others.sort_by(|a, b| a.pose.alpha.total_cmp(&b.pose.alpha));
-        others
-            .iter()
-            .map(|posture| {
-                let table = self.table(machine, posture.pose.alpha).map(|table| table.angles);
-                (joints(posture), outcome_of_solution(machine, posture, table, clearance))
-            })
-            .find(|(_, outcome)| matches!(outcome, RowOutcome::Ok(_)))
-            .unwrap_or_else(|| (joints(first), outcome))
+        let feasible = others.iter().find_map(|posture| {
+            let table = self.table(machine, posture.pose.alpha).map(|table| table.angles);
+            let outcome = outcome_of_solution(machine, posture, table, clearance);
+            matches!(outcome, RowOutcome::Ok(_)).then_some((posture, outcome))
+        });
+        let (posture, outcome) = feasible.unwrap_or((first, outcome));
+        self.answered(setting, posture, outcome)
+    }
+
+    fn answered(&self, setting: Setting<'_>, posture: &Posture, outcome: RowOutcome) -> AnsweredPose {
+        let table = self.table(setting.machine, posture.pose.alpha);
+        let jacobian = table.and_then(|table| setting.jacobian(posture, table.angles));
+        AnsweredPose { joints: Some(joints(posture, table)), outcome, jump: None, jacobian }
     }
 
     fn every_working(&self, machine: &Machine, tool_length: f64) -> Postures {

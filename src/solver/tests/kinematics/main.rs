@@ -38,6 +38,7 @@ mod several_working_postures;
 mod solution_counts;
 mod symmetric_sliders;
 mod symmetry_plane;
+mod tool_jacobian;
 mod unreachable;
 mod velocities;
 mod windings;

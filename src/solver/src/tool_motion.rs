@@ -1,14 +1,14 @@
-//! The tool's end and axis in the part frame, and their rates while all joints change linearly.
+//! The tool's end and axis in the part frame, and their rates for rates of the joints.
 
 use nalgebra::Vector3;
 
-use super::node::{Node, Turns};
 use crate::machine::Machine;
 use crate::pose::PlatformPose;
+use crate::turns::Turns;
 
 /// The tool at one place: the terms of Eq (26).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ToolMotion {
+pub(crate) struct ToolMotion {
     turns: Turns,
     /// Sine and cosine of phi1.
     inclination: [f64; 2],
@@ -22,16 +22,15 @@ pub(super) struct ToolMotion {
 }
 
 impl ToolMotion {
-    pub(super) fn at(machine: &Machine, node: &Node, tool_length: f64) -> Self {
-        let Node { pose, turns, .. } = *node;
+    pub(crate) fn at(machine: &Machine, pose: &PlatformPose, turns: Turns, tool_length: f64) -> Self {
         let (inclination, [s1, c1]) = (turns.inclination(), turns.tilt);
         let height = pose.z - machine.table().da;
         let across = tool_length * inclination[0] - pose.y * c1 - height * s1;
-        Self { turns, inclination, pose, height, across, tool_length, offset: machine.table().dt }
+        Self { turns, inclination, pose: *pose, height, across, tool_length, offset: machine.table().dt }
     }
 
     /// The tool's end and axis: Eq (26).
-    pub(super) fn position(&self) -> [Vector3<f64>; 2] {
+    pub(crate) fn position(&self) -> [Vector3<f64>; 2] {
         let ([s1, c1], [s2, c2], [sp, cp]) = (self.turns.tilt, self.turns.rotary, self.inclination);
         let tip = Vector3::new(
             self.pose.x * c2 + self.across * s2,
@@ -42,7 +41,7 @@ impl ToolMotion {
     }
 
     /// Their derivatives for these rates of the platform's pose, theta1 and theta2.
-    pub(super) fn rates(&self, pose: &PlatformPose, [tilt, rotary]: [f64; 2]) -> [Vector3<f64>; 2] {
+    pub(crate) fn rates(&self, pose: &PlatformPose, [tilt, rotary]: [f64; 2]) -> [Vector3<f64>; 2] {
         let ([s1, c1], [s2, c2], [sp, cp]) = (self.turns.tilt, self.turns.rotary, self.inclination);
         let inclination = pose.alpha - tilt;
         let (y, height) = (self.pose.y, self.height);
