@@ -18,8 +18,11 @@ mod motion;
 mod nearby_pose;
 mod node;
 mod path;
+mod placement;
+mod planned_places;
 mod report;
 mod rows;
+mod set_up;
 mod start;
 mod stretches;
 mod timing;
@@ -32,8 +35,11 @@ pub use healing::{
 };
 pub use joint_segment::Deviation;
 pub use motion::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
+pub use placement::{ActiveMargin, Placement, PlacementRequest, place};
+pub use planned_places::{PlannedPlace, PlannedPlaces};
 pub use report::{Departure, Failure, LeastMargin, MOST_DEPARTURES, MOST_FAILURES, Report};
 pub use rows::{Row, RowKind, Way};
+pub use set_up::{AdjustableProgram, SetUp};
 pub use start::Start;
 pub use timing::{Feed, Governor, Pace, TimedRow, Timer, Times};
 
