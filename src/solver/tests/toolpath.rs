@@ -15,6 +15,7 @@
 //! - `single_slider`: times of motions that are known in closed form.
 //! - `placement`: set-ups with the greatest reserve.
 //! - `random_programs`: programs on machines unlike the built-in one.
+//! - `window`: windows of a parameter against bisection on the verdict.
 //! - `support`: programs, and the check of rows by the forward problem.
 
 #![allow(
@@ -60,3 +61,5 @@ mod timing;
 mod tool_changes;
 #[path = "toolpath/unlimited.rs"]
 mod unlimited;
+#[path = "toolpath/window.rs"]
+mod window;
