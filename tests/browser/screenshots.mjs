@@ -7,10 +7,20 @@ const [address = "http://127.0.0.1:8080", out = "../../target/screenshots", ...o
 
 const DESK = { width: 1280, height: 720 };
 const TABLET = { width: 1024, height: 768 };
+const LARGE = { width: 1920, height: 1080 };
+const PHONE = { width: 390, height: 844 };
+const LANDSCAPE = { width: 844, height: 390 };
+/** The desk at 200 % zoom. */
+const ZOOMED = { width: 640, height: 360 };
 const PICTURES = [
   ["home", DESK, "light", ""],
   ["home-dark", DESK, "dark", ""],
   ["tablet", TABLET, "light", "#workspace=tool&tool=100"],
+  ["large", LARGE, "light", "#joints=398.764,561.144,589.474,-18.904,-30"],
+  ["phone", PHONE, "light", ""],
+  ["phone-dark", PHONE, "dark", ""],
+  ["landscape", LANDSCAPE, "light", ""],
+  ["zoomed", ZOOMED, "dark", ""],
   ["narrow", { width: 768, height: 1024 }, "dark", ""],
   ["assembly-modes", DESK, "light", "#joints=674,685,250,0,0&ghosts=assembly&workspace=hidden"],
   ["inverse-solutions", DESK, "dark", "#joints=287.718,4.604,94.242,0,0&ghosts=platform&workspace=hidden"],

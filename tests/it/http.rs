@@ -9,6 +9,7 @@ mod cross_origin_requests;
 mod dexterity;
 mod documented_failures;
 mod etags_and_ranges;
+mod guide;
 mod jacobian;
 mod job_fairness;
 mod jobs;

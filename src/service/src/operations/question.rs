@@ -101,8 +101,8 @@ impl Question {
     ///
     /// # Errors
     ///
-    /// [`OperationError::OtherVersion`] if the id differs: another version of the service wrote the text and meant
-    /// another answer.
+    /// [`OperationError::OtherVersion`] if the id differs: a binary of another version, or for another target, wrote
+    /// the text and meant another answer.
     pub(crate) fn from_text(text: &[u8], id: ResultId) -> Result<Self, OperationError> {
         let text: QuestionText = serde_json::from_slice(text).map_err(|_| OperationError::OtherVersion)?;
         let machine =

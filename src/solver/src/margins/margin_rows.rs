@@ -1,7 +1,7 @@
 //! All margins of many postures.
 
 use super::interference::{least_distance, nearest_within_legs, rods_of_leg};
-use super::posture_margins::{Margins, range_margins};
+use super::posture_margins::{Margins, limited_crossing, range_margins};
 use crate::clearance::Clearance;
 use crate::fast_math::{MAX_ANGLE, sin_cos_of_turn};
 use crate::machine::Machine;
@@ -37,7 +37,7 @@ impl Kernel for MarginRows {
             let [x, y, z, alpha, rho1, rho2, rho3] = self.postures.each_ref().map(|row| row[i]);
             let (pose, rho) = (PlatformPose { x, y, z, alpha }, [rho1, rho2, rho3]);
             let rods = Rods::with_angle(&machine.mechanism, &pose, rho, sin_cos_of_turn(alpha));
-            let nearest = nearest_within_legs(machine.geometry(), &rods);
+            let nearest = nearest_within_legs(&machine.mechanism, &rods);
             let margins =
                 Margins::of_parallel_module(machine, &pose, rho, &rods, (nearest.distance, rods_of_leg(0)));
             self.set(i, &margins);
@@ -55,7 +55,7 @@ impl MarginRows {
         set(&mut self.slider_joint, i, margins.slider_joint);
         set(&mut self.platform_joint, i, margins.platform_joint);
         self.parallel_singularity[i] = margins.parallel_singularity;
-        self.rod_crossing[i] = margins.rod_crossing;
+        self.rod_crossing[i] = margins.rod_crossing.unwrap_or(0.0);
         self.rod_interference[i] = margins.rod_interference;
     }
 
@@ -91,7 +91,7 @@ impl MarginRows {
             parallel_singularity: self.parallel_singularity[i],
             slider_joint: self.slider_joint.each_ref().map(|row| row[i]),
             platform_joint: self.platform_joint.each_ref().map(|row| row[i]),
-            rod_crossing: self.rod_crossing[i],
+            rod_crossing: limited_crossing(machine, posture.pose.alpha, self.rod_crossing[i]),
             rod_interference,
             nearest_rods,
             tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
@@ -105,7 +105,7 @@ impl MarginRows {
 fn interference_of(machine: &Machine, posture: &Posture) -> (f64, [u8; 2]) {
     let g = machine.geometry();
     let rods = Rods::of(&machine.mechanism, &posture.pose, posture.rho);
-    let (distance, nearest_rods) = least_distance(g, &rods);
+    let (distance, nearest_rods) = least_distance(&machine.mechanism, &rods);
     (distance - 2.0 * g.rod_radius, nearest_rods)
 }
 

@@ -7,12 +7,19 @@ import type { Materials } from "./materials";
 import { outwards, unitOf } from "./mechanism";
 import { bar, box, column, span } from "./solids";
 
+/** The heights of the columns' upper ends and of the floor, base frame, mm. */
+export function extent({ geometry, table, limits }: Machine): { top: number; floor: number } {
+  const u = unitOf(geometry);
+  return {
+    top: Math.min(...limits.stroke.map(([low = 0]) => low)) - 160 * u,
+    floor: table.da + Math.max(Math.abs(table.dt) + 180 * u, 470 * u),
+  };
+}
+
 export class Surroundings {
   readonly group = new Group();
-  /** The floor's height in the base frame, mm. */
-  readonly floor: number;
-  /** The guideways' upper ends. */
-  readonly top: number;
+  private readonly floor: number;
+  private readonly top: number;
   private readonly cradle = new Group();
   private readonly turntable = new Group();
   private readonly unit: number;
@@ -21,10 +28,10 @@ export class Surroundings {
     private readonly machine: Machine,
     private readonly materials: Materials,
   ) {
-    const { geometry, table, limits } = machine;
-    const u = (this.unit = unitOf(geometry));
-    this.floor = table.da + Math.max(Math.abs(table.dt) + 180 * u, 470 * u);
-    this.top = Math.min(...limits.stroke.map(([low = 0]) => low)) - 160 * u;
+    this.unit = unitOf(machine.geometry);
+    const { top, floor } = extent(machine);
+    this.floor = floor;
+    this.top = top;
     for (const part of [this.cradle, this.turntable]) part.matrixAutoUpdate = false;
     this.group.add(this.cradle, this.turntable, ...this.columns(), ...this.posts(), this.grid());
     this.build();

@@ -173,8 +173,9 @@ class Margins:
     parallel_singularity: float
     slider_joint: list[float]
     platform_joint: list[float]
-    rod_crossing: float
     rod_interference: float
+    rod_crossing: float | None = None
+    """None where R1 = r1 and the platform does not turn."""
     tilt: list[float] | None = None
     rotary: list[float] | None = None
     table_clearance: Limit | None = None

@@ -108,7 +108,7 @@ problems! {
         "The machine cannot run the program, or a move of it has no duration.";
         Operation(OperationError::NoJointProgram(_)) => OperationError::NoJointProgram(
             "the machine cannot run the program; the report says why".to_owned());
-    OtherVersion, "other_version", CONFLICT, "Another version of the service created the job.";
+    OtherVersion, "other_version", CONFLICT, "A binary of another version, or for another target, created the job.";
         Operation(OperationError::OtherVersion) => OperationError::OtherVersion;
     BodyTooLarge, "body_too_large", PAYLOAD_TOO_LARGE, "The decoded body is larger than the limit.";
         Request(RequestError::BodyTooLarge(_)) => RequestError::BodyTooLarge(65_536);

@@ -2,45 +2,48 @@
 //!
 //! The arithmetic does not round outwards. Code that compares a bound with zero allows for rounding errors.
 
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::{Add, Mul, Neg, Sub};
+
+use crate::fast_math::sin_cos;
 
 /// All numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Interval {
-    pub(super) low: f64,
-    pub(super) high: f64,
+pub(crate) struct Interval {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
 }
 
 impl Interval {
-    pub(super) const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
-    pub(super) const ZERO: Self = Self { low: 0.0, high: 0.0 };
-    pub(super) const UNIT: Self = Self { low: 0.0, high: 1.0 };
+    pub(crate) const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
+    pub(crate) const ZERO: Self = Self { low: 0.0, high: 0.0 };
+    pub(crate) const UNIT: Self = Self { low: 0.0, high: 1.0 };
 
-    pub(super) const fn new(low: f64, high: f64) -> Self {
+    pub(crate) const fn new(low: f64, high: f64) -> Self {
         Self { low, high }
     }
 
-    pub(super) const fn of(number: f64) -> Self {
+    pub(crate) const fn of(number: f64) -> Self {
         Self { low: number, high: number }
     }
 
-    pub(super) const fn around(radius: f64) -> Self {
+    pub(crate) const fn around(radius: f64) -> Self {
         Self { low: -radius, high: radius }
     }
 
     #[inline]
-    pub(super) fn plus(self, number: f64) -> Self {
+    pub(crate) fn plus(self, number: f64) -> Self {
         Self { low: self.low + number, high: self.high + number }
     }
 
     #[inline]
-    pub(super) fn times(self, factor: f64) -> Self {
+    pub(crate) fn times(self, factor: f64) -> Self {
         let (a, b) = (self.low * factor, self.high * factor);
         if factor < 0.0 { Self { low: b, high: a } } else { Self { low: a, high: b } }
     }
 
     #[inline]
-    pub(super) fn square(self) -> Self {
+    pub(crate) fn square(self) -> Self {
         let least = self.low.max(-self.high).max(0.0);
         let most = self.magnitude();
         Self { low: least * least, high: most * most }
@@ -48,42 +51,71 @@ impl Interval {
 
     /// Greatest absolute value.
     #[inline]
-    pub(super) fn magnitude(self) -> f64 {
+    pub(crate) fn magnitude(self) -> f64 {
         self.high.max(-self.low)
     }
 
     /// 1/x of numbers that are all positive.
     #[inline]
-    pub(super) fn reciprocal(self) -> Self {
+    pub(crate) fn reciprocal(self) -> Self {
         Self { low: 1.0 / self.high, high: 1.0 / self.low }
     }
 
     /// √x of the numbers that are not negative.
     #[inline]
-    pub(super) fn root(self) -> Self {
+    pub(crate) fn root(self) -> Self {
         Self { low: self.low.max(0.0).sqrt(), high: self.high.max(0.0).sqrt() }
     }
 
     #[inline]
-    pub(super) fn hull(self, other: Self) -> Self {
+    pub(crate) fn hull(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
     /// The numbers that are in both, if there are any.
     #[inline]
-    pub(super) fn intersection(self, other: Self) -> Option<Self> {
+    pub(crate) fn intersection(self, other: Self) -> Option<Self> {
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         if low > high { None } else { Some(Self { low, high }) }
     }
 
     #[inline]
-    pub(super) fn clamp(self, low: f64, high: f64) -> Self {
+    pub(crate) fn clamp(self, low: f64, high: f64) -> Self {
         Self { low: self.low.clamp(low, high), high: self.high.clamp(low, high) }
+    }
+
+    #[inline]
+    pub(crate) fn middle(self) -> f64 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// cos x.
+    #[inline]
+    pub(crate) fn cosine(self) -> Self {
+        let (first, last) = ((self.low / PI).ceil(), (self.high / PI).floor());
+        let (a, b) = (sin_cos(self.low).1, sin_cos(self.high).1);
+        let (mut low, mut high) = (a.min(b), a.max(b));
+        if first <= last {
+            let is_even = first.rem_euclid(2.0) == 0.0;
+            if is_even || first < last {
+                high = 1.0;
+            }
+            if !is_even || first < last {
+                low = -1.0;
+            }
+        }
+        Self { low, high }
+    }
+
+    /// sin x.
+    #[inline]
+    pub(crate) fn sine(self) -> Self {
+        self.plus(-FRAC_PI_2).cosine()
     }
 
     /// The sign that all numbers have; 0 where they have both or may be zero.
     #[inline]
-    pub(super) fn sign(self) -> i8 {
+    pub(crate) fn sign(self) -> i8 {
         if self.low > 0.0 {
             1
         } else if self.high < 0.0 {

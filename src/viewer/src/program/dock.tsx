@@ -1,0 +1,21 @@
+/** Below the scene: the time of the program, its plots and its text. */
+
+import { Plots } from "./plots";
+import { plan, program } from "./program_state";
+import { TextList } from "./text_list";
+import { TimeBar, Transport } from "./transport";
+
+export function Dock() {
+  if (!program.value) return null;
+  const planned = plan.value !== null;
+  return (
+    <section class="dock" aria-label="Motion of the program">
+      {planned && <Transport />}
+      {planned && <TimeBar />}
+      <div class="beside">
+        <TextList />
+        {planned && <Plots />}
+      </div>
+    </section>
+  );
+}
