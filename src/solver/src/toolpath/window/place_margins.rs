@@ -8,6 +8,8 @@ use crate::toolpath::PlanOptions;
 use crate::toolpath::planned_places::PlannedPlaces;
 use crate::toolpath::set_up::{AdjustableProgram, SetUp};
 
+/// Places of long parts of the path for each that the choice of tracks examines.
+const DENSITY: f64 = 4.0;
 /// Fraction that stands for a place whose margins are unknown.
 const UNKNOWN: f64 = -1.0;
 
@@ -27,7 +29,7 @@ impl PlaceMargins {
         value: f64,
         options: &PlanOptions,
     ) -> Self {
-        let places = PlannedPlaces::of_program(machine, program, at(&set_ups, value), options);
+        let places = PlannedPlaces::of_program(machine, program, at(&set_ups, value), options, DENSITY);
         let count = u32::try_from(places.places.len()).unwrap_or(u32::MAX);
         Self { places, indices: (0..count).collect(), set_ups }
     }
