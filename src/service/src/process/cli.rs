@@ -171,9 +171,9 @@ impl Cli {
             Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, terminal),
             Command::Dexterity(command) => command.run(out, terminal),
-            Command::ToolpathOrigins(command) => command.run(out, terminal.is_some()),
             Command::Machine(command) => command.run(out, terminal),
             Command::Jobs(command) => command.run(out, terminal),
+            Command::ToolpathOrigins(command) => command.run(out, terminal),
             Command::Openapi => {
                 let document = to_json(&document(), true)?;
                 writeln!(out, "{document}").map_err(|error| format!("cannot write the document: {error}"))
@@ -182,8 +182,8 @@ impl Cli {
             Command::Man(command) => command.run(Self::command_line(), out),
             Command::Toolpath(command) => return command.run(out, err, terminal),
             Command::ToolpathWindow(command) => return command.run(out, terminal),
-            Command::ToolpathPlacement(command) => return command.run(out, terminal.is_some()),
             Command::Kinematics(command) => return command.run(out, err, terminal),
+            Command::ToolpathPlacement(command) => return command.run(out, terminal),
         };
         done.map(|()| ExitCode::SUCCESS)
     }

@@ -12,8 +12,10 @@ use crate::operations::origins::{compute_origins, slice_of_origins};
 use crate::operations::origins_question::CheckedOrigins;
 use crate::operations::toolpath_question::CheckedToolpath;
 use crate::process::cli::answer::{machine, to_json};
+use crate::process::cli::answer_format::AnswerFormat;
 use crate::process::cli::files::{name_of, refuse_equal_files};
 use crate::process::cli::progress::TerminalProgress;
+use crate::process::cli::terminal::Terminal;
 use crate::process::cli::toolpath::{message, receive};
 use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::origins::OriginsFields;
@@ -41,6 +43,8 @@ pub(crate) struct OriginsCommand {
     reading: ProgramQuery,
     #[command(flatten)]
     query: ToolpathQuery,
+    #[command(flatten)]
+    format: AnswerFormat,
 }
 
 /// What the file of --output has.
@@ -50,8 +54,8 @@ enum Output {
 }
 
 impl OriginsCommand {
-    /// Writes the file, and the summary as JSON to `out`, with line breaks if `pretty`.
-    pub(crate) fn run(self, out: &mut impl Write, pretty: bool) -> Result<(), String> {
+    /// Writes the file, and the summary as JSON to `out`, with line breaks on a terminal.
+    pub(crate) fn run(self, out: &mut impl Write, terminal: Option<Terminal>) -> Result<(), String> {
         let output = self.output.as_deref();
         let machine_file = Some(Path::new(&self.query.machine)).filter(|path| path.is_file());
         refuse_equal_files(
@@ -91,7 +95,7 @@ impl OriginsCommand {
             std::fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display()))?;
         }
         let summary: Value = serde_json::from_slice(&region.summary).map_err(|error| error.to_string())?;
-        writeln!(out, "{}", to_json(&summary, pretty)?)
+        writeln!(out, "{}", to_json(&summary, self.format.has_line_breaks(terminal))?)
             .map_err(|error| format!("cannot write the answer: {error}"))
     }
 }

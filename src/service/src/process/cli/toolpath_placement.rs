@@ -13,8 +13,10 @@ use crate::operations::placement_question::CheckedPlacement;
 use crate::operations::toolpath_question::CheckedToolpath;
 use crate::operations::toolpath_report::is_feasible;
 use crate::process::cli::answer::{exit_status, machine, to_json};
+use crate::process::cli::answer_format::AnswerFormat;
 use crate::process::cli::files::{name_of, refuse_equal_files};
 use crate::process::cli::progress::TerminalProgress;
+use crate::process::cli::terminal::Terminal;
 use crate::process::cli::toolpath::{message, receive};
 use crate::wire::json_text::JsonText;
 use crate::wire::placement::{FreeParameters, PlacementFields, Reserve};
@@ -42,12 +44,14 @@ pub(crate) struct PlacementCommand {
     reading: ProgramQuery,
     #[command(flatten)]
     query: ToolpathQuery,
+    #[command(flatten)]
+    format: AnswerFormat,
 }
 
 impl PlacementCommand {
-    /// Writes the answer as JSON, with line breaks if `pretty`. The exit status is 3 if the machine cannot run the
+    /// Writes the answer as JSON, with line breaks on a terminal. The exit status is 3 if the machine cannot run the
     /// program in any set-up that was found.
-    pub(crate) fn run(self, out: &mut impl Write, pretty: bool) -> Result<ExitCode, String> {
+    pub(crate) fn run(self, out: &mut impl Write, terminal: Option<Terminal>) -> Result<ExitCode, String> {
         let machine_file = Some(Path::new(&self.query.machine)).filter(|path| path.is_file());
         refuse_equal_files(&[("the program", Some(&*self.file)), ("the machine", machine_file)], &[])?;
         let file = name_of(&self.file);
@@ -65,7 +69,7 @@ impl PlacementCommand {
         let answer = answer.map_err(faults)?;
         let verdict = is_feasible(&answer);
         let answer: Value = serde_json::from_slice(&answer).map_err(|error| error.to_string())?;
-        writeln!(out, "{}", to_json(&answer, pretty)?)
+        writeln!(out, "{}", to_json(&answer, self.format.has_line_breaks(terminal))?)
             .map_err(|error| format!("cannot write the answer: {error}"))?;
         Ok(exit_status(verdict))
     }
