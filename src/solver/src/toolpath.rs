@@ -17,6 +17,7 @@ mod meridian;
 mod motion;
 mod nearby_pose;
 mod node;
+mod origins;
 mod path;
 mod placement;
 mod planned_places;
@@ -26,6 +27,7 @@ mod set_up;
 mod start;
 mod stretches;
 mod timing;
+mod window;
 
 use std::fmt;
 
@@ -35,6 +37,10 @@ pub use healing::{
 };
 pub use joint_segment::Deviation;
 pub use motion::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
+pub use origins::{
+    OriginRegion, OriginRequest, OriginSlab, OriginSurvey, merge_origins, origin_slab, origin_volume,
+    slice_origins,
+};
 pub use placement::{ActiveMargin, Placement, PlacementRequest, place};
 pub use planned_places::{PlannedPlace, PlannedPlaces};
 pub use report::{Departure, Failure, LeastMargin, MOST_DEPARTURES, MOST_FAILURES, Report};
@@ -42,6 +48,7 @@ pub use rows::{Row, RowKind, Way};
 pub use set_up::{AdjustableProgram, SetUp};
 pub use start::Start;
 pub use timing::{Feed, Governor, Pace, TimedRow, Timer, Times};
+pub use window::{ParametricProgram, WINDOW_PRECISION, Window, WindowInterval, window};
 
 use crate::machine::Machine;
 use cap::Cap;
