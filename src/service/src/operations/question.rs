@@ -188,8 +188,6 @@ mod tests {
     use crate::operations::dexterity_question::DexterityQuestion;
     use crate::operations::family_question::FamilyQuestion;
     use crate::operations::machine_registry::MachineRegistry;
-    use crate::operations::origins_question::OriginsQuestion;
-    use crate::operations::placement_question::PlacementQuestion;
     use crate::operations::question_text::{JobParameters, QuestionHeader};
     use crate::operations::subtask::Subtask;
     use crate::operations::workspace_question::WorkspaceQuestion;
