@@ -92,6 +92,23 @@ test("a failing line of the dome is found in the list, and the proposed change h
   await expect(verdict(page)).toContainText("The machine can run the program.");
   await expect(page.getByLabel("Set-up: z, mm")).toHaveValue("28.188");
   await expect(page.getByText("stretches fail")).toHaveCount(0);
+  // A change that does not please is undone.
+  await press(page, "Undo");
+  await expect(page.getByText("12 stretches fail")).toBeVisible();
+  await press(page, "Redo");
+  await expect(verdict(page)).toContainText("The machine can run the program.");
+});
+
+test("text and plots can be put away, and the program closed", async ({ page }) => {
+  await program(page, "helix.ngc", HELIX);
+  const text = page.getByRole("listbox", { name: "Program text" });
+  await press(page, "Text and plots");
+  await expect(text).toBeHidden();
+  await press(page, "Text and plots");
+  await expect(text).toBeVisible();
+  await press(page, "Close");
+  await expect(where(page)).toHaveCount(0);
+  await expect(page).not.toHaveURL(/program=/);
 });
 
 test("a place out of reach is named, and the machine stands at the last place before it", async ({ page }) => {

@@ -61,10 +61,8 @@ pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, KinematicsE
     postures_or_error(
         |found| {
             found.extend(roots.iter().filter_map(|root| closure.posture(mechanism, rho, root)));
-            if found.iter().any(|posture| posture.working) {
-                let known = level.and_then(|root| closure.posture(mechanism, rho, &root));
-                working::put_working_first(machine, known.as_ref(), found);
-            }
+            let known = || level.and_then(|root| closure.posture(mechanism, rho, &root));
+            working::put_working_first(machine, known, found);
         },
         || infeasibility::no_assembly(mechanism, &closure),
     )

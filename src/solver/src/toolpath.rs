@@ -17,6 +17,7 @@ mod meridian;
 mod motion;
 mod nearby_pose;
 mod node;
+mod origins;
 mod path;
 mod placement;
 mod planned_places;
@@ -35,6 +36,10 @@ pub use healing::{
 };
 pub use joint_segment::Deviation;
 pub use motion::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
+pub use origins::{
+    OriginRegion, OriginRequest, OriginSlab, OriginSurvey, merge_origins, origin_slab, origin_volume,
+    slice_origins,
+};
 pub use placement::{ActiveMargin, Placement, PlacementRequest, place};
 pub use planned_places::{PlannedPlace, PlannedPlaces};
 pub use report::{Departure, Failure, LeastMargin, MOST_DEPARTURES, MOST_FAILURES, Report};

@@ -13,6 +13,7 @@
 //! - `least_margins`: least margins between rows.
 //! - `timing`: times of rows.
 //! - `single_slider`: times of motions that are known in closed form.
+//! - `origins`: the region of origins against plans at random origins.
 //! - `placement`: set-ups with the greatest reserve.
 //! - `random_programs`: programs on machines unlike the built-in one.
 //! - `support`: programs, and the check of rows by the forward problem.
@@ -40,6 +41,8 @@ mod limits;
 mod lines;
 #[path = "toolpath/machines.rs"]
 mod machines;
+#[path = "toolpath/origins.rs"]
+mod origins;
 #[path = "toolpath/placement.rs"]
 mod placement;
 #[path = "toolpath/pole.rs"]

@@ -6,6 +6,8 @@ pub(crate) mod jobs;
 pub(crate) mod joint_program;
 pub(crate) mod kinematics;
 pub(crate) mod machines;
+pub(crate) mod origins;
+pub(crate) mod placement;
 pub(crate) mod programs;
 pub(crate) mod results;
 pub(crate) mod service;

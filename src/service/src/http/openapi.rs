@@ -2,6 +2,7 @@
 
 mod bare_references;
 pub(crate) mod body_schemas;
+pub(crate) mod example;
 pub(crate) mod examples;
 pub(crate) mod machine_schema;
 mod one_media_type;

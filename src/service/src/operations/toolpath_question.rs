@@ -48,9 +48,10 @@ pub(crate) struct ToolpathQuestion {
 /// A request whose numbers are checked, without its program.
 #[derive(Clone, Debug)]
 pub(crate) struct CheckedToolpath {
-    machine: Arc<IdentifiedMachine>,
+    /// The machine.
+    pub machine: Arc<IdentifiedMachine>,
     /// The request, with an empty program.
-    request: CanonicalToolpath,
+    pub request: CanonicalToolpath,
 }
 
 impl CheckedToolpath {

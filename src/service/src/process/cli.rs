@@ -19,6 +19,8 @@ pub(crate) mod shell_help;
 pub(crate) mod store;
 pub(crate) mod terminal;
 pub(crate) mod toolpath;
+pub(crate) mod toolpath_origins;
+pub(crate) mod toolpath_placement;
 pub(crate) mod words;
 pub(crate) mod workspace;
 
@@ -42,6 +44,8 @@ use crate::process::cli::shell_help::{CompletionsCommand, ManCommand};
 use crate::process::cli::store::StoreCommand;
 use crate::process::cli::terminal::Terminal;
 use crate::process::cli::toolpath::ToolpathCommand;
+use crate::process::cli::toolpath_origins::OriginsCommand;
+use crate::process::cli::toolpath_placement::PlacementCommand;
 use crate::process::cli::workspace::WorkspaceCommand;
 use crate::process::config::ServeConfig;
 use crate::process::config::worker::WorkerConfig;
@@ -81,6 +85,12 @@ enum Command {
     ///
     /// The exit status is 3 if the machine cannot run the program.
     Toolpath(Box<ToolpathCommand>),
+    /// Find the set-up, and the tool length, in which a program keeps the greatest distance from the limits.
+    ///
+    /// The exit status is 3 if the machine cannot run the program in any set-up that was found.
+    ToolpathPlacement(Box<PlacementCommand>),
+    /// Compute the region of origins of a program: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
+    ToolpathOrigins(Box<OriginsCommand>),
     /// Print a machine as a JSON file, which every --machine accepts.
     Machine(MachineCommand),
     /// Serve over HTTP.
@@ -157,6 +167,7 @@ impl Cli {
             Command::Dexterity(command) => command.run(out, terminal),
             Command::Machine(command) => command.run(out, terminal),
             Command::Jobs(command) => command.run(out, terminal),
+            Command::ToolpathOrigins(command) => command.run(out, terminal),
             Command::Openapi => {
                 let document = to_json(&document(), true)?;
                 writeln!(out, "{document}").map_err(|error| format!("cannot write the document: {error}"))
@@ -165,6 +176,7 @@ impl Cli {
             Command::Man(command) => command.run(Self::command_line(), out),
             Command::Toolpath(command) => return command.run(out, err, terminal),
             Command::Kinematics(command) => return command.run(out, err, terminal),
+            Command::ToolpathPlacement(command) => return command.run(out, terminal),
         };
         done.map(|()| ExitCode::SUCCESS)
     }

@@ -45,9 +45,7 @@ pub(super) fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, Kine
                     None => _ = found.try_push(known),
                 }
             }
-            if !found.is_empty() {
-                put_working_first(machine, known.as_ref(), found);
-            }
+            put_working_first(machine, || known, found);
         },
         || no_assembly(mechanism, &chart),
     )

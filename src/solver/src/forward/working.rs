@@ -19,14 +19,28 @@ pub(super) fn on_home_side(machine: &Machine, posture: &Posture) -> bool {
 }
 
 /// Of several postures with all sliders above and uncrossed rods, those on home's side of the singularity are in the
-/// working mode, if there is one. `known` becomes the first, or the first of them.
-pub(super) fn put_working_first(machine: &Machine, known: Option<&Posture>, postures: &mut Postures) {
-    if postures.iter().filter(|posture| posture.working).count() > 1 {
-        let sides: ArrayVec<bool, MAX_POSTURES> =
-            postures.iter().map(|posture| posture.working && on_home_side(machine, posture)).collect();
-        if sides.contains(&true) {
-            postures.iter_mut().zip(sides).for_each(|(posture, is_home)| posture.working = is_home);
-        }
+/// working mode, if there is one. The posture that `known` returns becomes the first, or the first of them.
+#[inline]
+pub(super) fn put_working_first(
+    machine: &Machine,
+    known: impl FnOnce() -> Option<Posture>,
+    postures: &mut Postures,
+) {
+    let mut working = postures.iter().enumerate().filter(|(_, posture)| posture.working).map(|(i, _)| i);
+    match (working.next(), working.next()) {
+        (None | Some(0), None) => {}
+        (Some(i), None) => postures.swap(0, i),
+        _ => choose(machine, known(), postures),
+    }
+}
+
+/// The same if there are several.
+#[cold]
+fn choose(machine: &Machine, known: Option<Posture>, postures: &mut Postures) {
+    let sides: ArrayVec<bool, MAX_POSTURES> =
+        postures.iter().map(|posture| posture.working && on_home_side(machine, posture)).collect();
+    if sides.contains(&true) {
+        postures.iter_mut().zip(sides).for_each(|(posture, is_home)| posture.working = is_home);
     }
     let is_known = |posture: &Posture| known.is_some_and(|known| known.pose == posture.pose);
     let first = postures

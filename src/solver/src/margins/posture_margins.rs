@@ -90,15 +90,15 @@ impl Margins {
     ) -> Self {
         let nearest = interference::least_distance(&machine.mechanism, rods);
         let limits = machine.limits();
-        let module = Self::of_parallel_module(machine, pose, rho, rods, nearest);
-        Self {
+        let mut margins = Self {
             tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
             rotary: table.zip(limits.rotary).map(|(table, range)| range_margins(range, table.theta2)),
-            rod_crossing: module
-                .rod_crossing
-                .and_then(|margin| limited_crossing(machine, pose.alpha, margin)),
-            ..module
+            ..Self::of_parallel_module(machine, pose, rho, rods, nearest)
+        };
+        if machine.mechanism.is_delta() && pose.alpha == 0.0 {
+            margins.rod_crossing = None;
         }
+        margins
     }
 
     /// The margins of the sliders' strokes.

@@ -5,6 +5,7 @@
 
 mod active;
 mod criteria;
+mod interior;
 mod linear_program;
 mod local_search;
 mod problem;
@@ -13,6 +14,10 @@ mod starts;
 mod verdict;
 
 pub use active::ActiveMargin;
+pub(super) use criteria::Criteria;
+pub(super) use interior::interior_set_ups;
+pub(super) use problem::{Problem, cut_margin, cut_ranges};
+pub(super) use starts::{even_numbers, representative};
 
 use super::planned_places::PlannedPlaces;
 use super::report::Report;
@@ -21,11 +26,12 @@ use super::{PlanError, PlanOptions, plan};
 use crate::limit::Constraint;
 use crate::machine::Machine;
 use crate::workspace::{Observer, Subprogress};
-use criteria::Criteria;
-use problem::{PARAMETERS, Problem, cut_ranges, number};
+use problem::PARAMETERS;
 use search::{Search, refined};
 use verdict::Verdict;
 
+/// Density of the places with which the search begins.
+const DENSITY: f64 = 4.0;
 /// Number of candidates that are planned.
 const PLANNED: usize = 3;
 /// Number of times that the best plan's own rows improve it.
@@ -49,8 +55,8 @@ pub struct PlacementRequest {
 pub struct Placement {
     /// The set-up.
     pub set_up: SetUp,
-    /// The least ratio of a margin to its reserve in the plan. `None`: the machine does not reach all of the program, or
-    /// the plan has no margin with a reserve.
+    /// The least ratio of a margin to its reserve in the plan. `None`: the machine does not reach all of the program,
+    /// or the plan has no margin with a reserve.
     pub t: Option<f64>,
     /// The report of the plan.
     pub report: Report,
@@ -158,16 +164,18 @@ pub fn place(
     let placer = Placer { machine, program, request, options, criteria, observer };
     let planned = placer.plan(given, [0.0, SHARES[0]])?;
     let begun = (planned.verdict.t, planned.report.is_feasible());
-    let survey = PlannedPlaces::of_program(machine, program, given, options);
-    let search = Search::new(&placer, &survey, [SHARES[0], SHARES[0] + SHARES[1]]);
+    let survey = PlannedPlaces::of_program(machine, program, given, options, DENSITY);
+    let progress = Subprogress::new(observer, SHARES[0], SHARES[0] + SHARES[1]);
+    let search = Search::new([false, true].map(|other| placer.problem(&survey, other, 0.0)), &progress);
     let (candidates, starts) = search.run(given)?;
+    let candidates = candidates.into_iter().map(|candidate| candidate.set_up);
     let mut best = placer.is_within(&given).then_some(planned);
     let mut done = SHARES[0] + SHARES[1];
     let mut part = || {
         done += SHARES[2];
         [done - SHARES[2], done.min(1.0)]
     };
-    for candidate in candidates.into_iter().take(PLANNED) {
+    for candidate in candidates.take(PLANNED) {
         let planned = placer.plan(candidate, part())?;
         if best.as_ref().is_none_or(|best| planned.verdict.is_better_than(&best.verdict)) {
             best = Some(planned);
@@ -189,7 +197,7 @@ pub fn place(
             break;
         }
     }
-    let active = active::active(&placer, &best);
+    let active = active::active(&placer.problem(&best.places, false, 0.0), &best.report, best.verdict.t);
     observer.progress(1.0);
     let Planned { set_up, report, verdict, .. } = best;
     Ok(Placement { set_up, t: verdict.t, report, active, given: begun, starts })
@@ -198,11 +206,8 @@ pub fn place(
 impl Placer<'_> {
     fn is_within(&self, set_up: &SetUp) -> bool {
         let parameters = set_up.parameters();
-        (0..PARAMETERS).all(|i| (self.request.bounds[i][0]..=self.request.bounds[i][1]).contains(&parameters[i]))
-    }
-
-    fn check_cancelled(&self) -> Result<(), PlanError> {
-        if self.observer.cancelled() { Err(PlanError::Cancelled) } else { Ok(()) }
+        (0..PARAMETERS)
+            .all(|i| (self.request.bounds[i][0]..=self.request.bounds[i][1]).contains(&parameters[i]))
     }
 
     /// Plans the program in a set-up. `[from, to]` is the part of the progress.

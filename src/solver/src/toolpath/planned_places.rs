@@ -1,7 +1,7 @@
 //! The places of a plan, and their margins when the set-up changes while the tracks stay.
 //!
-//! A change of the origin, of the rotation about z, and of the tool's length leaves phi1 of a place as it is, and changes
-//! phi2 by the rotation. So the margins of any places are those of [`part_working_rows`], without a plan.
+//! A change of the origin, of the rotation about z, and of the tool's length leaves phi1 of a place as it is, and
+//! changes phi2 by the rotation. So the margins of any places are those of [`part_working_rows`], without a plan.
 
 use super::PlanOptions;
 use super::azimuth::inclination;
@@ -9,7 +9,7 @@ use super::cap::Cap;
 use super::meridian::Meridian;
 use super::motion::{MotionKind, Motions, Standstill, Turning};
 use super::node::Setting;
-use super::path::places;
+use super::path::dense_places;
 use super::rows::{Row, RowKind};
 use super::set_up::{AdjustableProgram, SetUp};
 use super::stretches::stretches;
@@ -25,10 +25,6 @@ use crate::registers::Registers;
 
 /// Most places that are computed together.
 const BLOCK: usize = 256;
-/// Number of places of a program's path for each that the choice of tracks examines, and the greatest number of motions
-/// of a program for which it is more than one.
-const DENSITY: u32 = 4;
-const MOST_DENSE: usize = 10_000;
 
 /// A place of the path in the set-up of the plan. Lengths are millimetres, angles radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,13 +83,15 @@ impl PlannedPlaces {
         }
     }
 
-    /// Places of the exact path of a program in this set-up, on one of its preimages, whether or not the machine reaches
-    /// them.
+    /// Places of the exact path of a program in this set-up, on one of its preimages, whether or not the machine
+    /// reaches them. Long parts of the path have `density` places for each that the choice of tracks examines: a
+    /// sixteenth of the machine's longest dimension, or 0.1 rad.
     pub fn of_program(
         machine: &Machine,
         program: &dyn AdjustableProgram,
         set_up: SetUp,
         options: &PlanOptions,
+        density: f64,
     ) -> Self {
         let motions = program.motions(&set_up);
         let motions = &*motions;
@@ -108,14 +106,13 @@ impl PlannedPlaces {
         };
         let mut meridian = Meridian::new(cap, &stretches, none);
         let mut found = Self::new(machine, motions, set_up, options);
-        let density = if motions.count() > MOST_DENSE { 1 } else { DENSITY };
         for index in 0..motions.count() {
             let motion = motions.motion(index);
             meridian.advance(&motion);
             found.cut += usize::from(motion.kind != MotionKind::Feed);
             for span in &meridian.spans {
                 let count = match &meridian.path {
-                    Some(path) => density * places(machine.longest(), path, span.to - span.from),
+                    Some(path) => dense_places(machine.longest(), path, span.to - span.from, density),
                     None => 1,
                 };
                 for place in 1..=count {
@@ -189,7 +186,8 @@ impl PlannedPlaces {
         (set_up, other): (&SetUp, bool),
         mut found: impl FnMut(usize, Result<&Margins, KinematicsError>),
     ) {
-        let (mut targets, mut rows): (Vec<PartPose>, Vec<(Posture, Option<TableAngles>)>) = Default::default();
+        let (mut targets, mut rows): (Vec<PartPose>, Vec<(Posture, Option<TableAngles>)>) =
+            Default::default();
         let (mut errors, mut all, mut first) = (Vec::new(), Vec::new(), 0);
         while first < places.len() {
             targets.clear();
@@ -215,7 +213,9 @@ impl PlannedPlaces {
             });
             let clearance = Clearance::of(machine, self.table_clearance, length, self.tool_radius);
             all.clear();
-            margin_rows(machine, &rows, clearance.as_ref(), Registers::Widest, |_, margins| all.push(margins));
+            margin_rows(machine, &rows, clearance.as_ref(), Registers::Widest, |_, margins| {
+                all.push(margins)
+            });
             let mut next = all.iter();
             for (i, error) in errors.iter().enumerate() {
                 match error {

@@ -49,8 +49,8 @@ pub trait AdjustableProgram: Sync {
     /// The program's motions with another set-up.
     fn motions(&self, set_up: &SetUp) -> Box<dyn Motions + '_>;
 
-    /// Whether the set-up is the frame of a motion. The motions of other work offsets stay; the tool's length counts for
-    /// all.
+    /// Whether the set-up is the frame of a motion. The motions of other work offsets stay; the tool's length counts
+    /// for all.
     fn is_adjusted(&self, index: usize) -> bool;
 
     /// The set-up with the digits that an answer states: [`Self::motions`] has the same motions for both.

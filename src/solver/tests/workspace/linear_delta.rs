@@ -4,6 +4,7 @@
 use verne_solver::Machine;
 use verne_solver::workspace::{Kind, Measure, Request, Unobserved, Volume, measure, surface};
 
+use crate::column_lattice;
 use crate::machines::changed;
 use crate::requests::request;
 
@@ -85,6 +86,33 @@ fn area_and_volume_are_those_of_the_circles() {
             assert_eq!(answer.jacobian, Some([1.0, 1.0]));
             assert_eq!(answer.inclination, Some(0.0));
         }
+    }
+}
+
+/// Thick rods bind: those of a parallelogram in its own direction, and those of different legs.
+#[test]
+fn areas_and_volumes_with_thick_rods_are_those_of_a_lattice() {
+    for (radius, half_width, direction) in [(36.0, 40.0, -30_f64), (25.0, 60.0, 20.0), (30.0, 70.0, -75.0)] {
+        let machine = changed(|data| {
+            *data = Machine::linear_delta().data().clone();
+            let g = &mut data.geometry;
+            (g.rod_radius, g.parallelogram_half_width) = (radius, half_width);
+            g.parallelogram_direction = direction.to_radians();
+            (g.D1, g.d1, g.D2, g.d2) = (200.0, 540.0, -100.0, -270.0);
+            (g.R2, g.r4) = (173.0, 468.0);
+        });
+        let answer = measure(&machine, &request(Kind::Platform, 0.0, 0.0, 1.0), &Unobserved).unwrap();
+        let rectangle = [[-400.0, -400.0], [400.0, 400.0]];
+        let [area, brute] = column_lattice::area_and_volume(&machine, rectangle, 700);
+        let thin = changed(|data| {
+            *data = machine.data().clone();
+            data.geometry.rod_radius = 0.0;
+        });
+        let without = measure(&thin, &request(Kind::Platform, 0.0, 0.0, 1.0), &Unobserved).unwrap().area;
+        assert!(area > 1e4 && area < 0.99 * without, "{area} of {without}");
+        assert!((answer.area - area).abs() < 5e-4 * area, "{} against {area}", answer.area);
+        let [value, _] = volume(&answer);
+        assert!((value - brute).abs() < 5e-4 * brute, "{value} against {brute}");
     }
 }
 

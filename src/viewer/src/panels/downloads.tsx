@@ -4,6 +4,7 @@ import type { WorkspaceSummary } from "verne-client";
 import { failureOf, verne } from "../api/client";
 import { hasKey } from "../api/key";
 import { failure, section } from "../state/store";
+import { saveFile } from "./save_file";
 
 const MESHES = ["glb", "stl", "ply"] as const;
 const DRAWINGS = ["dxf", "svg"] as const;
@@ -62,9 +63,5 @@ async function saveOrTell(link: string, name: string): Promise<void> {
 }
 
 async function save(file: string, name: string): Promise<void> {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([await verne.file(file)]));
-  link.download = name;
-  link.click();
-  URL.revokeObjectURL(link.href);
+  saveFile(new Blob([await verne.file(file)]), name);
 }

@@ -9,9 +9,11 @@ const HANDS = [
   ["Drag the knobs φ₁, φ₂", "inclines and turns the tool on the part"],
   ["Drag beside, wheel, right button", "turns, zooms and shifts the view"],
   ["Arrow keys in the scene", "shift the view; with Shift they turn it"],
+  ["Arrow keys on the time of a program", "move the machine by one row; Space plays and pauses"],
+  ["Arrow keys in the text of a program", "lead to the next line that moves the machine"],
   ["Arrow keys on a slider", "move the joint by the chosen step; Page Up and Page Down by ten steps"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo and redo"],
-  ["Drop a file", "takes a machine from its JSON file"],
+  ["Drop a file", "opens a program, or takes a machine from its JSON file"],
 ] as const;
 
 export function Help() {

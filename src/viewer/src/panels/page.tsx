@@ -2,11 +2,11 @@
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import { position } from "../state/store";
-import { link } from "../state/address_bar";
 import { drawing } from "../scene/software";
 import type { Side } from "../scene/viewpoint";
 import { World } from "../scene/world";
 import { About } from "./about";
+import { CopyMenu } from "./copy_menu";
 import { Help } from "./help";
 import { JointsPanel } from "./joints";
 import { KeyDialog } from "./key";
@@ -14,6 +14,7 @@ import { MachinePicker } from "./machine";
 import { MachineFaults } from "./machine_faults";
 import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
+import { MeasurementCaption } from "./measurement_caption";
 import { Notices } from "./notices";
 import { openProgramFile, ProgramDialogs, ProgramDock, ProgramSection, showPathIn } from "../program/entry";
 import { PositionsPanel } from "./positions";
@@ -39,7 +40,7 @@ export function Page() {
         <h1>verne</h1>
         <MachinePicker />
         <nav aria-label="Elsewhere">
-          <CopyLink />
+          <CopyMenu />
           <Help />
           <About />
           <a class="button" href="docs/">
@@ -105,35 +106,20 @@ function Scene() {
       <div ref={labels} class="labels" aria-hidden="true" />
       <div class="over">
         <WorkspaceCaption />
+        <MeasurementCaption />
         <Notices />
       </div>
-      <SceneTools />
-      <div class="views" role="group" aria-label="Look from">
-        {SIDES.map(([side, name]) => (
-          <button type="button" key={side} onClick={() => world?.viewpoint.from(side)}>
-            {name}
-          </button>
-        ))}
+      <div class="below">
+        <SceneTools world={world} />
+        <div role="group" aria-label="Look from">
+          {SIDES.map(([side, name]) => (
+            <button type="button" key={side} onClick={() => world?.viewpoint.from(side)}>
+              {name}
+            </button>
+          ))}
+        </div>
       </div>
       {trouble && <p class="trouble">{trouble}</p>}
     </section>
-  );
-}
-
-function CopyLink() {
-  const [copied, setCopied] = useState(false);
-  const copy = async () => {
-    await navigator.clipboard.writeText(await link());
-    setCopied(true);
-  };
-  return (
-    <button
-      type="button"
-      title="An address that shows this view"
-      onClick={() => void copy()}
-      onBlur={() => setCopied(false)}
-    >
-      {copied ? "Link copied" : "Copy link"}
-    </button>
   );
 }

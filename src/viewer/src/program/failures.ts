@@ -2,6 +2,7 @@
 
 import { batch } from "@preact/signals";
 import type { Schemas } from "verne-client";
+import { pass } from "../state/history";
 import { moveTo } from "../state/motion";
 import { change } from "../state/store";
 import { seekRow } from "./player";
@@ -26,6 +27,7 @@ export function goToFailure({ at, lines }: Failure): void {
     return;
   }
   const there = { rho: [a, b, c] as [number, number, number], theta1, theta2 };
+  pass(there);
   batch(() => {
     change({ tool, joints: there, mode: null });
     moveTo({ by: "joints", joints: there, mode: null });

@@ -44,8 +44,12 @@ export interface Waiting {
 
 export const waiting = signal<Waiting | null>(null);
 
-/** Bytes from which a file is compressed: the service waits half a minute for it. */
+/** Sends the file again that the service did not get as a whole; null: there is none. */
+export const unsent = signal<(() => void) | null>(null);
+
+/** Bytes from which a file is compressed on its way to another computer: the service waits half a minute for it. */
 const LARGE = 4_000_000;
+const HERE = /^(localhost|127\.\d+\.\d+\.\d+|\[::1\])$/;
 
 let stop = new AbortController();
 
@@ -71,6 +75,8 @@ export async function openStored(id: string, name: string, wanted: Settings | nu
   try {
     const summary = unwrap(await verne.api.GET("/programs/{id}", { params: { path: { id } } }));
     const source = await verne.file(summary.links.source);
+    // Meanwhile another program may be wanted.
+    if (view.peek().program?.id !== id) return;
     show(summary, name, new Uint8Array(source), wanted);
   } catch (thrown) {
     const gone = thrown instanceof ProblemError && thrown.code === "program_not_found";
@@ -88,10 +94,12 @@ async function send(file: File, reading: Reading): Promise<void> {
   const own = new AbortController();
   stop.abort();
   stop = own;
-  forgetPlan();
+  // What is shown remains until the service has taken the file.
+  trouble.value = null;
+  unsent.value = null;
   activity.value = { words: `Sending ${file.name} …`, fraction: null };
   try {
-    const body = file.size > LARGE ? await compressed(file) : file;
+    const body = file.size > LARGE && !HERE.test(location.hostname) ? await compressed(file) : file;
     const summary = unwrap(
       await verne.api.POST("/programs", {
         params: { query: query(reading) },
@@ -128,6 +136,7 @@ function show(
   const offsets = text && summary.format === "gcode" ? workOffsets(text) : [];
   const initial = initialSettings(summary.tools, view.peek().tool);
   const named = Object.fromEntries(offsets.map((offset) => [offset, ORIGIN]));
+  forgetPlan();
   batch(() => {
     activity.value = null;
     trouble.value = null;
@@ -139,9 +148,16 @@ function show(
 async function refused(file: File, reading: Reading, thrown: unknown, aborted: boolean): Promise<void> {
   if (aborted) {
     trouble.value = "Cancelled.";
+    unsent.value = () => void send(file, reading);
     return;
   }
-  const faults = thrown instanceof ProblemError ? faultsOf(thrown) : [];
+  // Only a file that was read can have faults.
+  if (!(thrown instanceof ProblemError) || thrown.status !== 422) {
+    trouble.value = inWords(thrown);
+    unsent.value = () => void send(file, reading);
+    return;
+  }
+  const faults = faultsOf(thrown);
   const text = faults.length > 0 ? new ProgramText(new Uint8Array(await file.arrayBuffer())) : null;
   waiting.value = { file, reading, refusal: { summary: inWords(thrown), faults, text } };
 }

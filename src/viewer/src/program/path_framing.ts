@@ -35,8 +35,16 @@ export function framePath(stage: Stage, group: Group): void {
     const row = Math.floor((i * (rows.count - 1)) / (SAMPLES - 1));
     return new Vector3().fromArray(rows.tip, 3 * row).applyMatrix4(group.matrix);
   });
-  stage.frame(ball.center, ball.radius, bestDirection(stage, group, ball, points));
+  stage.frame(ends(ball), bestDirection(stage, group, ball, points), false);
   change({ camera: stage.seen() });
+}
+
+/** The ends of a ball along the axes. */
+function ends({ center, radius }: Sphere): Vector3[] {
+  const axes = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
+  return axes.flatMap((axis) =>
+    [-radius, radius].map((along) => center.clone().addScaledVector(axis, along)),
+  );
 }
 
 /** Among the directions in which most of the points are seen, the one that turns the camera least. */
@@ -47,7 +55,7 @@ function bestDirection(stage: Stage, group: Group, ball: Sphere, points: Vector3
   const level = now.clone().addScaledVector(up, -now.dot(up));
   if (level.lengthSq() < 1e-12) level.set(1, 0, 0).transformDirection(group.matrix);
   level.normalize();
-  const far = ball.radius / Math.sin((camera.fov * Math.PI) / 360);
+  const far = ball.radius / Math.sin(stage.angle / 2);
   const solid = solids(stage.scene, group);
   let best = { direction: level, cost: Infinity };
   for (let i = 0; i < DIRECTIONS; i += 1) {

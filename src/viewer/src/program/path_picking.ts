@@ -28,13 +28,11 @@ export function listenForClicks(stage: Stage, lines: Lines): void {
   });
 }
 
-function pick({ canvas, camera, controls }: Stage, { group, rows }: Lines, event: PointerEvent): void {
+function pick({ canvas, camera, pixel }: Stage, { group, rows }: Lines, event: PointerEvent): void {
   if (rows.size === 0) return;
   const { left, top, width, height } = canvas.getBoundingClientRect();
   const u = ((event.clientX - left) / width) * 2 - 1;
   const v = 1 - ((event.clientY - top) / height) * 2;
-  const distance = camera.position.distanceTo(controls.target);
-  const pixel = (2 * distance * Math.tan((camera.fov * Math.PI) / 360)) / height;
   const raycaster = new Raycaster();
   raycaster.setFromCamera(new Vector2(u, v), camera);
   raycaster.params.Line.threshold = NEAR * pixel;

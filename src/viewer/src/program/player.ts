@@ -4,6 +4,7 @@ import { batch, effect, untracked } from "@preact/signals";
 import { unwrap } from "verne-client";
 import { verne } from "../api/client";
 import { latest } from "../api/latest";
+import { pass } from "../state/history";
 import { moveTo } from "../state/motion";
 import { change, machine, overTable, position, refusal, tool } from "../state/store";
 import { postureAt, type Posture } from "./posture";
@@ -102,6 +103,7 @@ function show(stands: boolean): void {
   if (!found || !known || !program.peek() || found.rows.count === 0) return;
   const instant = instantAt(found.time, now.peek());
   const posture = postureAt(found.rows, instant, known.definition, found.lengths);
+  pass(posture.joints);
   batch(() => {
     if (tool.peek() !== posture.length) change({ tool: posture.length, joints: posture.joints, mode: null });
     picture(posture);

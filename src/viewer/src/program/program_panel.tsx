@@ -1,13 +1,12 @@
 /** The program: what it is, whether the machine can run it, and what would change that. */
 
-import { batch } from "@preact/signals";
 import { change } from "../state/store";
 import { mm, number } from "../words/numbers";
 import { count, clock } from "./failure_words";
 import { FailureList } from "./failure_list";
 import { FORMAT_NAMES, type Format } from "./formats";
-import { cancelSending } from "./open_program";
-import { cancelPlanning, forgetPlan, outdated, planAgain } from "./planning";
+import { cancelSending, unsent } from "./open_program";
+import { cancelPlanning, outdated, planAgain } from "./planning";
 import { ProgramDownloads } from "./program_downloads";
 import {
   activity,
@@ -41,20 +40,12 @@ export function ProgramPanel() {
 }
 
 function Name({ open: { summary, name } }: { open: OpenProgram }) {
-  const close = () => {
-    forgetPlan();
-    batch(() => {
-      program.value = null;
-      trouble.value = null;
-      change({ program: null });
-    });
-  };
   return (
     <div class="row between">
       <span class="file-name" title={name}>
         <b>{name}</b> <span class="quiet">{FORMAT_NAMES[summary.format as Format]}</span>
       </span>
-      <button type="button" class="small" onClick={close}>
+      <button type="button" class="small" onClick={() => change({ program: null })}>
         Close
       </button>
     </div>
@@ -95,9 +86,9 @@ function Activity() {
         <p class="trouble" role="status" data-testid="program-trouble">
           {faults.value.length > 0 ? "These lines do not fit the set-up:" : trouble.value}
         </p>
-        {program.value && (
-          <button type="button" class="small" onClick={planAgain}>
-            Plan again
+        {(unsent.value ?? program.value) && (
+          <button type="button" class="small" onClick={unsent.value ?? planAgain}>
+            {unsent.value ? "Send again" : "Plan again"}
           </button>
         )}
       </div>

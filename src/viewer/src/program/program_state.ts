@@ -57,6 +57,8 @@ export const playing = signal(false);
 export const speed = signal(1);
 export const loop = signal(false);
 
+/** Whether text and plots are shown below the time. */
+export const dockOpen = signal(true);
 /** What the plots show of the joints. */
 export type Quantity = "position" | "rate";
 export const quantity = signal<Quantity>("position");

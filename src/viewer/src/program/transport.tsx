@@ -8,6 +8,7 @@ import { pause, play, seek, seekRow, step } from "./player";
 import {
   currentLine,
   currentRow,
+  dockOpen,
   duration,
   failing,
   framing,
@@ -69,6 +70,13 @@ export function Transport() {
       )}
       <button type="button" onClick={() => (framing.value += 1)}>
         Look at the path
+      </button>
+      <button
+        type="button"
+        aria-expanded={dockOpen.value}
+        onClick={() => (dockOpen.value = !dockOpen.peek())}
+      >
+        Text and plots
       </button>
       <output class="where" data-testid="where">
         <b>line {count(currentLine.value)}</b>

@@ -1,5 +1,6 @@
 /** A face of the workspace that the pointer rests on is isolated and named; a click keeps it isolated. */
 
+import { measuring } from "../state/measurement";
 import { keptLimit, pointed, pointedLimit } from "../state/store";
 import { limitInWords } from "../words/elements";
 import { rayOf } from "./pointing";
@@ -59,7 +60,7 @@ export class FacePointer {
     const from = this.pressed;
     this.pressed = null;
     if (!from || Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > STILL) return;
-    if (pointed.peek() !== null) return;
+    if (pointed.peek() !== null || measuring.peek()) return;
     const limit = this.workspace.under(rayOf(this.stage, event));
     keptLimit.value = limit === keptLimit.peek() ? null : limit;
   }

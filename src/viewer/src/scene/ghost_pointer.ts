@@ -2,6 +2,7 @@
 
 import { Vector2 } from "three";
 import { pick } from "../state/motion";
+import { measuring } from "../state/measurement";
 import { ghosts, pointed } from "../state/store";
 import type { Ghosts } from "./ghosts";
 import { onCanvas } from "./pointing";
@@ -19,6 +20,7 @@ export function listenForGhosts(canvas: HTMLCanvasElement, drawn: Ghosts): void 
     if (event.buttons === 0 && ghosts.peek().length > 0) pointed.value = drawn.under(at(event));
   });
   canvas.addEventListener("pointerup", (event) => {
+    if (measuring.peek()) return;
     if (pressed.distanceTo(new Vector2(event.clientX, event.clientY)) > STILL) return;
     const ghost = ghosts.peek()[drawn.under(at(event)) ?? -1];
     if (ghost) pick(ghost);

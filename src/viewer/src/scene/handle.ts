@@ -28,6 +28,7 @@ export class Handle {
     this.controls = new TransformControls(stage.camera, stage.canvas);
     this.controls.setSpace("local");
     this.controls.setSize(0.62);
+    stage.cameraTaken.push((camera) => (this.controls.camera = camera));
     // Arrows along the axes, and the plane of the table.
     this.controls.showYZ = false;
     this.controls.showXZ = false;

@@ -1,12 +1,12 @@
 /** The machine where it stands now: its bodies, the frames with their names, and the part that is near a limit. */
 
 import { effect } from "@preact/signals";
-import { Group } from "three";
+import { Group, OrthographicCamera, Vector3 } from "three";
 import { baseFromTable } from "../geometry/frames";
 import { machine, position, tool, type InUse } from "../state/store";
 import { bars } from "../words/margins";
 import type { Materials } from "./materials";
-import { Mechanism, unitOf } from "./mechanism";
+import { Mechanism, sliderPlace, unitOf } from "./mechanism";
 import type { Palette } from "./palette";
 import type { Stage } from "./stage";
 import { Surroundings } from "./surroundings";
@@ -40,6 +40,14 @@ export class MachineView {
 
   paint(palette: Palette): void {
     for (const triad of [this.baseTriad, this.partTriad]) triad.paint(palette);
+  }
+
+  /** Without perspective, what stands between the camera and the machine is seen through. */
+  clear(): void {
+    const { camera } = this.stage;
+    const towards = camera.getWorldDirection(new Vector3()).negate();
+    const inBase = new Vector3(towards.x, towards.z, -towards.y);
+    this.built?.surroundings.clear(camera instanceof OrthographicCamera ? inBase : null);
   }
 
   private follow(): void {
@@ -77,14 +85,9 @@ export class MachineView {
 
 function sliderLabels({ definition }: InUse) {
   const { geometry: g, limits } = definition;
-  const places: [number, number][] = [
-    [g.d1, 0],
-    [g.d2, -g.r4],
-    [g.d2, g.r4],
-  ];
-  return places.map(([x, y], i) => {
+  return ([0, 1, 2] as const).map((leg, i) => {
     const text = label(`slider ${i + 1}`, "slider");
-    text.position.set(x, y, (limits.stroke[i]?.[0] ?? 0) - 110 * unitOf(g));
+    text.position.copy(sliderPlace(g, leg)).setZ((limits.stroke[i]?.[0] ?? 0) - 110 * unitOf(g));
     return text;
   });
 }

@@ -33,7 +33,10 @@ export class Materials {
   readonly cutLine = new LineBasicMaterial({ depthTest: false, transparent: true });
   /** Hatched, as drawings show cuts: no colour of a limit looks like it. */
   readonly cutFill = new MeshBasicMaterial({ side: DoubleSide });
-  readonly ghost = new MeshLambertMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
+  /** A column between the camera and the machine. */
+  readonly faded = new MeshLambertMaterial({ transparent: true, opacity: 0.08, depthWrite: false });
+  readonly ghost = new MeshLambertMaterial({ transparent: true, opacity: 0.26, depthWrite: false });
+  readonly brokenGhost = new MeshLambertMaterial({ transparent: true, opacity: 0.22, depthWrite: false });
   readonly pointedGhost = new MeshLambertMaterial({ transparent: true, opacity: 0.75 });
 
   paint(palette: Palette): void {
@@ -55,7 +58,9 @@ export class Materials {
     this.cutFill.map?.dispose();
     this.cutFill.map = hatch(palette.cut, palette["cut-line"]);
     this.cutFill.needsUpdate = true;
+    this.faded.color = palette.frame;
     this.ghost.color = palette.ghost;
+    this.brokenGhost.color = palette["broken-ghost"];
     this.pointedGhost.color = palette.accent;
   }
 }

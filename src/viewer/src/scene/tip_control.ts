@@ -3,6 +3,7 @@
 import { effect } from "@preact/signals";
 import { Group, Matrix4, Vector3 } from "three";
 import { sceneFromFrame } from "../geometry/frames";
+import { measuring } from "../state/measurement";
 import { moveTo } from "../state/motion";
 import { drag, machine, position, refusal } from "../state/store";
 import { wantedTip } from "../state/target";
@@ -28,6 +29,8 @@ export class TipControl {
     effect(() => {
       this.place();
       this.mark();
+      // A click measures, whatever it hits.
+      this.handle.show(!measuring.value);
       stage.draw();
     });
   }
@@ -50,7 +53,7 @@ export class TipControl {
     const part = drag.value === "part";
     const tip = part ? at.solution.part : at.solution.tool;
     if (tip) this.handle.place(sceneFrom(part ? "part" : "base"), new Vector3(tip.x, tip.y, tip.z));
-    this.knobs.group.visible = part && at.solution.part !== undefined;
+    this.knobs.group.visible = part && at.solution.part !== undefined && !measuring.value;
     const geometry = machine.peek()?.definition.geometry;
     if (!at.solution.part || !geometry) return;
     const { x, y, z, phi1, phi2 } = at.solution.part;

@@ -10,7 +10,9 @@ import { Ghosts } from "./ghosts";
 import { LabelLayer } from "./label_layer";
 import { MachineView } from "./machine_view";
 import { Materials } from "./materials";
+import { Measure } from "./measure";
 import { followPalette } from "./palette";
+import { picture } from "./picture";
 import { Stage } from "./stage";
 import { TipControl } from "./tip_control";
 import { Viewpoint } from "./viewpoint";
@@ -20,24 +22,30 @@ export class World {
   readonly stage: Stage;
   readonly viewpoint: Viewpoint;
 
-  constructor(canvas: HTMLCanvasElement, labels: HTMLElement, drawing: "software" | "hardware") {
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly labels: HTMLElement,
+    drawing: "software" | "hardware",
+  ) {
     const stage = (this.stage = new Stage(canvas, drawing));
     const materials = new Materials();
     const machineView = new MachineView(stage, materials);
     const workspaceView = new WorkspaceView(stage, materials);
+    const measure = new Measure(stage, materials);
     const tip = new TipControl(stage, materials);
     const otherPositions = new Ghosts(materials, stage);
     const names = new LabelLayer(stage, labels);
-    this.viewpoint = new Viewpoint(stage);
 
     // Everything in the base frame, mm.
     const base = new Group();
     base.matrixAutoUpdate = false;
     base.matrix.copy(SCENE_FROM_BASE);
-    base.add(machineView.group, otherPositions.group, workspaceView.slice);
+    base.add(machineView.group, otherPositions.group, workspaceView.slice, measure.group);
     stage.scene.add(base, workspaceView.surface, tip.group);
+    this.viewpoint = new Viewpoint(stage, [machineView.group, otherPositions.group]);
 
     stage.beforeDrawing.push(
+      () => machineView.clear(),
       () => names.draw(),
       () => tip.tell(),
       () => workspaceView.hurry(),
@@ -55,5 +63,10 @@ export class World {
     });
     listenForGhosts(canvas, otherPositions);
     new FacePointer(stage, workspaceView);
+  }
+
+  /** The scene as it is seen, with its labels. */
+  picture(): Promise<Blob> {
+    return picture(this.stage, this.labels);
   }
 }

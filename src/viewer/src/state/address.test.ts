@@ -29,7 +29,7 @@ test("a view comes back from its address", async () => {
       tolerance: 0.1,
     },
     section: 312.5,
-    camera: { eye: [3, 2, 1], target: [0, -1.1, 0] },
+    camera: { eye: [3, 2, 1], target: [0, -1.1, 0], height: 2.25 },
     program: { id: "0a1b", name: "dôme.cls", settings: { setup: { x: 1, y: 2, z: 3, a: 0, b: 0, c: 90 } } },
   };
   expect(await fromAddress(`#${await toAddress(view)}`)).toEqual({ view, unread: [] });

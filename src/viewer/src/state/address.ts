@@ -27,7 +27,7 @@ export async function toAddress(view: View): Promise<string> {
     ["tolerance", ws.tolerance === base.tolerance ? null : String(ws.tolerance)],
     ["section", view.section === null ? null : numbers([view.section], 3)],
     ["program", view.program && (await packed(view.program))],
-    ["camera", view.camera && numbers([...view.camera.eye, ...view.camera.target], 3)],
+    ["camera", view.camera && cameraNumbers(view.camera)],
   ];
   const said = entries.filter((entry): entry is [string, string] => entry[1] !== null);
   return said.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
@@ -66,7 +66,7 @@ export async function fromAddress(hash: string): Promise<Said> {
       tolerance: said.positive("tolerance") ?? base.tolerance,
     },
     section: said.numbers("section", 1)?.[0] ?? null,
-    camera: asCamera(said.numbers("camera", 6)),
+    camera: asCamera(said.numbers("camera", 7) ?? said.numbers("camera", 6)),
     program: said.check("program", asProgram(await unpacked(said.text("program") ?? ""))),
   };
   return { view, unread: said.unread() };
@@ -124,6 +124,10 @@ function asMachine(found: unknown): Machine | null {
   return typeof found === "object" && found !== null && "geometry" in found ? (found as Machine) : null;
 }
 
+function cameraNumbers({ eye, target, height }: Camera): string {
+  return numbers([...eye, ...target, ...(height === null ? [] : [height])], 3);
+}
+
 function asJoints(list: number[] | null): Joints | null {
   if (!list) return null;
   const [r1, r2, r3, theta1, theta2] = list as [number, number, number, number, number];
@@ -139,7 +143,7 @@ function asPose(list: number[] | null): PlatformPose | null {
 function asCamera(list: number[] | null): Camera | null {
   if (!list) return null;
   const [a, b, c, d, e, f] = list as [number, number, number, number, number, number];
-  return { eye: [a, b, c], target: [d, e, f] };
+  return { eye: [a, b, c], target: [d, e, f], height: list[6] ?? null };
 }
 
 function asProgram(found: unknown): ProgramView | null {

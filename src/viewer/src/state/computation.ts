@@ -30,7 +30,7 @@ const MANY = 12_000;
 const FEW = 5_000;
 
 /** The question as text, so that equal ones are equal. */
-const question = computed(() => {
+export const question = computed(() => {
   const known = machine.value;
   if (!known || !wanted.value.shown) return null;
   const { kind, tolerance } = wanted.value;

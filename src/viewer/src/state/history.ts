@@ -5,9 +5,12 @@ import { failureOf } from "../api/client";
 import { loadMachine } from "./machines";
 import { stay } from "./motion";
 import { change, failure, machine, view } from "./store";
-import type { View } from "./view";
+import type { Joints, View } from "./view";
 
-type Snapshot = Pick<View, "machine" | "own" | "joints" | "mode" | "tool" | "radius" | "clearance">;
+type Snapshot = Pick<
+  View,
+  "machine" | "own" | "joints" | "mode" | "tool" | "radius" | "clearance" | "program"
+>;
 
 /** Changes of the same fields that follow each other faster are one step, ms. */
 const PAUSE = 700;
@@ -18,6 +21,9 @@ const past = signal<Snapshot[]>([]);
 const future = signal<Snapshot[]>([]);
 export const canUndo = computed(() => past.value.length > 0);
 export const canRedo = computed(() => future.value.length > 0);
+
+/** Joints of a program that is played: they are no steps. */
+const passed = new WeakSet<Joints>();
 
 let current: Snapshot | null = null;
 let fields = "";
@@ -39,6 +45,11 @@ export function keepHistory(): void {
   });
 }
 
+/** The machine comes to these joints without a step that can be undone. */
+export function pass(joints: Joints): void {
+  passed.add(joints);
+}
+
 export function undo(): void {
   step(past, future);
 }
@@ -52,6 +63,10 @@ function record(next: Snapshot): void {
   if (before && same(before, next)) return;
   const now = performance.now();
   const differing = before ? different(before, next) : "";
+  if (before && next.joints && passed.has(next.joints) && next.program === before.program) {
+    current = next;
+    return;
+  }
   const follows = differing === fields && now - changed < PAUSE && past.peek().length > 0;
   current = next;
   fields = differing;
@@ -82,8 +97,8 @@ async function restore(otherMachine: boolean): Promise<void> {
   }
 }
 
-function snapshot({ machine, own, joints, mode, tool, radius, clearance }: View): Snapshot {
-  return { machine, own, joints, mode, tool, radius, clearance };
+function snapshot({ machine, own, joints, mode, tool, radius, clearance, program }: View): Snapshot {
+  return { machine, own, joints, mode, tool, radius, clearance, program };
 }
 
 function same(a: Snapshot, b: Snapshot): boolean {

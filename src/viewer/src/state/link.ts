@@ -68,7 +68,11 @@ function takeCamera(): string[] {
   if (!camera || !g) return [];
   const size = (g.L1 + g.L2 + g.L3) / 1000;
   const distance = Math.hypot(...camera.eye.map((at, i) => at - (camera.target[i] ?? 0)));
-  const sees = distance > 0.02 * size && distance < 12 * size && Math.hypot(...camera.target) < 4 * size;
+  const sees =
+    distance > 0.02 * size &&
+    distance < 12 * size &&
+    Math.hypot(...camera.target) < 4 * size &&
+    (camera.height ?? size) > 0;
   if (sees) return [];
   change({ camera: null });
   return ["Its camera does not see the machine: all of the machine is shown."];

@@ -136,7 +136,9 @@ async function show(found: Position, target: Target): Promise<void> {
     refusal.value = null;
     change({ joints: found.joints, mode: working ? null : platform });
   });
-  ghosts.value = await others(found);
+  // Feasible ones first; sorting keeps the order of equal ones.
+  const rank = ({ solution: { feasible, working } }: Position) => (feasible ? 0 : 2) + (working ? 0 : 1);
+  ghosts.value = (await others(found)).sort((a, b) => rank(a) - rank(b));
 }
 
 /** Every position with the same sliders, or with the same tool pose. */
@@ -173,9 +175,13 @@ async function inverse(frame: "platform" | "part", pose: TargetPose, here: Joint
 }
 
 async function forward(joints: Joints, mode: PlatformPose | null): Promise<Answer> {
-  const body = { ...question(), joints };
+  return unwrap(await verne.api.POST("/fk", { body: forwardQuestion(joints, mode) }));
+}
+
+/** The request for the posture at some joints: the working one, or the one nearest to `mode`. */
+export function forwardQuestion(joints: Joints, mode: PlatformPose | null) {
   const more = mode ? { solutions: "all" as const, near: mode } : { solutions: "working" as const };
-  return unwrap(await verne.api.POST("/fk", { body: { ...body, ...more } }));
+  return { ...question(), joints, ...more };
 }
 
 function question() {

@@ -61,6 +61,8 @@ export interface WorkspaceView {
 export interface Camera {
   eye: [number, number, number];
   target: [number, number, number];
+  /** The height of the picture in the scene, metres, of a camera without perspective; null with perspective. */
+  height: number | null;
 }
 
 export const INITIAL: View = {

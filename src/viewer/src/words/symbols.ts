@@ -42,7 +42,7 @@ export const MODES: readonly Entry[] = [
     "",
     "every slider is above its platform joint, leg 1 is not crossed, and the determinant has the same sign as at home: the mode in which the machine runs",
   ),
-  entry("leg 2 below", "", "the slider of leg 2 is below its platform joint"),
+  entry("leg 2 below", "", "the slider of the leg is below its platform joint"),
   entry("crossed", "", "the two rods of leg 1 cross each other; a real machine cannot get there"),
   entry(
     "other branch",

@@ -92,6 +92,8 @@ problems! {
         Lookup(LookupError::Mesh(_)) => LookupError::Mesh("1f2e".to_owned());
     NoSlice, "no_slice", NOT_FOUND, "Only a single workspace has slices.";
         Lookup(LookupError::Slice(_)) => LookupError::Slice("1f2e".to_owned());
+    NoRegion, "no_region", NOT_FOUND, "Only a region of origins has a mesh and slices.";
+        Lookup(LookupError::Region(_)) => LookupError::Region("1f2e".to_owned());
     NoCells, "no_cells", NOT_FOUND, "Only a dexterity map has a grid of points.";
         Lookup(LookupError::Grid(_)) => LookupError::Grid("1f2e".to_owned());
     JobNotFound, "job_not_found", NOT_FOUND, "No job record has this id.";

@@ -162,7 +162,7 @@ fn plan(
 }
 
 /// Reads the program.
-fn receive(
+pub(crate) fn receive(
     path: &Path,
     reading: &ProgramQuery,
     faults: impl Fn(OperationError) -> String,
@@ -186,7 +186,7 @@ fn receive(
 }
 
 /// An error as a message: faults of the program with the places in the file, invalid fields with their flags.
-fn message(file: &str, error: OperationError) -> String {
+pub(crate) fn message(file: &str, error: OperationError) -> String {
     match error {
         OperationError::ProgramFaults(refused) => {
             let stopped = if refused.complete { "" } else { "\n  the reader stopped here" };

@@ -3,13 +3,15 @@
 use rayon::prelude::*;
 
 use super::criteria::Criteria;
-use super::{Placer, Planned, number};
+use super::problem::{Problem, number};
 use crate::limit::{Constraint, Element, Margin};
+use crate::toolpath::report::Report;
 
 /// Greatest number of margins in the answer.
 const MOST: usize = 24;
-/// Excess over the least value, in fractions of a range, of a margin that counts as active.
+/// Excess over the least value of a margin that counts as active: in fractions of a range, and of the least value.
 const NEAR: f64 = 1e-6;
+const NEAR_FRACTION: f64 = 1e-4;
 /// Places that one task examines.
 const PLACES_PER_TASK: usize = 4096;
 
@@ -26,22 +28,22 @@ pub struct ActiveMargin {
 
 /// The active margins of a plan at its rows, worst first: those that limit t, and those without a reserve that are zero
 /// or less. Of each motion and element the worst.
-pub(super) fn active(placer: &Placer<'_>, planned: &Planned) -> Vec<ActiveMargin> {
-    let problem = placer.problem(&planned.places, false, 0.0);
-    let criteria = &placer.criteria;
-    let all: Vec<u32> = (0..planned.places.places.len()).map(number).collect();
-    let least = planned.verdict.t.map_or(f64::NEG_INFINITY, |t| t * criteria.unit);
+pub(super) fn active(problem: &Problem<'_>, report: &Report, t: Option<f64>) -> Vec<ActiveMargin> {
+    let (criteria, places) = (problem.criteria, problem.places);
+    let all: Vec<u32> = (0..places.places.len()).map(number).collect();
+    let least = t.map_or(f64::NEG_INFINITY, |t| t * criteria.unit);
+    let near = if least.is_finite() { NEAR.max(NEAR_FRACTION * least.abs()) } else { NEAR };
     let parts: Vec<Vec<(f64, ActiveMargin)>> = all
         .par_chunks(PLACES_PER_TASK)
         .map(|part| {
             let mut found = Vec::new();
-            problem.places.margins(problem.machine, part, (&planned.set_up, false), |i, margins| {
+            places.margins(problem.machine, part, (&places.set_up, false), |i, margins| {
                 let Ok(margins) = margins else { return };
-                let place = &planned.places.places[part[i] as usize];
+                let place = &places.places[part[i] as usize];
                 let values = criteria.values(problem.machine, Ok(margins));
                 for (index, value) in values.into_iter().enumerate() {
                     let limit = if criteria.has_reserve[index] { least } else { 0.0 };
-                    if value <= limit + NEAR
+                    if value <= limit + near
                         && let Some(margin) = Criteria::margin(index, margins)
                     {
                         let reserve = criteria.reserve(margin.constraint);
@@ -53,7 +55,7 @@ pub(super) fn active(placer: &Placer<'_>, planned: &Planned) -> Vec<ActiveMargin
         })
         .collect();
     let mut found: Vec<(f64, ActiveMargin)> = parts.into_iter().flatten().collect();
-    found.extend(rotary(placer, planned, least));
+    found.extend(rotary(criteria, report, least));
     found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.motion.cmp(&b.1.motion)));
     let mut active: Vec<ActiveMargin> = Vec::new();
     for (_, margin) in found {
@@ -70,9 +72,8 @@ pub(super) fn active(placer: &Placer<'_>, planned: &Planned) -> Vec<ActiveMargin
 }
 
 /// The least margin of the rotary axis, if it is active.
-fn rotary(placer: &Placer<'_>, planned: &Planned, least: f64) -> Option<(f64, ActiveMargin)> {
-    let criteria = &placer.criteria;
-    let of_plan = planned.report.least.iter().find(|least| least.margin.constraint == Constraint::Rotary)?;
+fn rotary(criteria: &Criteria, report: &Report, least: f64) -> Option<(f64, ActiveMargin)> {
+    let of_plan = report.least.iter().find(|least| least.margin.constraint == Constraint::Rotary)?;
     let margin = of_plan.margin;
     let limit = if criteria.rotary_has_reserve { least } else { 0.0 };
     let value = margin.value * criteria.rotary;

@@ -14,7 +14,7 @@ const REACH: usize = VALUES - 1;
 const OUT_OF_REACH: f64 = -0.05;
 
 /// The values of a place. They are infinite where there is none.
-pub(super) type Values = [f64; VALUES];
+pub(in crate::toolpath) type Values = [f64; VALUES];
 
 /// The constraint and the element of each value but the last, which has none; those of distances between rods and of
 /// the table's plane differ from place to place.
@@ -64,14 +64,39 @@ fn numbers(margins: &Margins) -> [f64; VALUES - 1] {
     let clearance = margins.table_clearance.map_or(f64::INFINITY, |margin| margin.value);
     let Margins { parallel_singularity, rod_crossing, rod_interference, .. } = *margins;
     [
-        s1[0], s1[1], s2[0], s2[1], s3[0], s3[1], l1, l2, l3, a, b, c, d, e, f, g, h, i, j, k, l,
-        parallel_singularity, rod_crossing, rod_interference, low, high, clearance,
+        s1[0],
+        s1[1],
+        s2[0],
+        s2[1],
+        s3[0],
+        s3[1],
+        l1,
+        l2,
+        l3,
+        a,
+        b,
+        c,
+        d,
+        e,
+        f,
+        g,
+        h,
+        i,
+        j,
+        k,
+        l,
+        parallel_singularity,
+        rod_crossing,
+        rod_interference,
+        low,
+        high,
+        clearance,
     ]
 }
 
 /// How the margins of a place compare.
 #[derive(Clone, Debug)]
-pub(super) struct Criteria {
+pub(in crate::toolpath) struct Criteria {
     factors: [f64; VALUES - 1],
     /// Whether a value has a reserve.
     pub(super) has_reserve: [bool; VALUES],
@@ -84,7 +109,14 @@ pub(super) struct Criteria {
 }
 
 impl Criteria {
-    pub(super) fn new(machine: &Machine, reserve: &[(Constraint, f64)]) -> Self {
+    /// Every margin as a fraction of its range, as great as possible.
+    pub(super) fn fractions(machine: &Machine) -> Self {
+        let mut criteria = Self::new(machine, &[]);
+        criteria.has_reserve = std::array::from_fn(|i| i != REACH);
+        criteria
+    }
+
+    pub(in crate::toolpath) fn new(machine: &Machine, reserve: &[(Constraint, f64)]) -> Self {
         let mut of = [None; Constraint::COUNT];
         for (constraint, reserve) in reserve {
             of[*constraint as usize] = Some(*reserve);
@@ -118,7 +150,11 @@ impl Criteria {
     }
 
     /// The values of a place with these margins, or without any.
-    pub(super) fn values(&self, machine: &Machine, margins: Result<&Margins, KinematicsError>) -> Values {
+    pub(in crate::toolpath) fn values(
+        &self,
+        machine: &Machine,
+        margins: Result<&Margins, KinematicsError>,
+    ) -> Values {
         let mut values = [f64::INFINITY; VALUES];
         match margins {
             Ok(margins) => {

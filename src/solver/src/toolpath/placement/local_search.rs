@@ -94,7 +94,8 @@ fn step(
         (lower[i], upper[i]) = (low.max(-region), high.min(region));
     }
     let [reserve, limit] = [VARIABLES - 2, VARIABLES - 1];
-    (lower[reserve], upper[reserve]) = (-MOST, MOST);
+    let has_reserve = problem.score(sampled).reserve.is_finite();
+    (lower[reserve], upper[reserve]) = (-MOST, if has_reserve { MOST } else { 0.0 });
     (lower[limit], upper[limit]) = (-MOST, 0.0);
     (objective[reserve], objective[limit]) = (1.0, PENALTY);
     let mut all: Vec<(HalfSpace, bool, f64)> = Vec::new();

@@ -21,20 +21,20 @@ const SECTORS: usize = 64;
 const PLACES_PER_TASK: usize = 4096;
 
 /// A placement with frozen tracks.
-pub(super) struct Problem<'a> {
-    pub(super) machine: &'a Machine,
-    pub(super) places: &'a PlannedPlaces,
-    pub(super) criteria: &'a Criteria,
+pub(in crate::toolpath) struct Problem<'a> {
+    pub(in crate::toolpath) machine: &'a Machine,
+    pub(in crate::toolpath) places: &'a PlannedPlaces,
+    pub(in crate::toolpath) criteria: &'a Criteria,
     /// Bounds of each parameter; equal ones fix it.
-    pub(super) bounds: [[f64; 2]; PARAMETERS],
+    pub(in crate::toolpath) bounds: [[f64; 2]; PARAMETERS],
     /// What counts as a millimetre of each parameter.
-    pub(super) units: [f64; PARAMETERS],
+    pub(in crate::toolpath) units: [f64; PARAMETERS],
     /// Whether all places are on the other preimage than planned.
-    pub(super) other: bool,
+    pub(in crate::toolpath) other: bool,
     /// Least value, as a fraction of the range, of margins without a reserve.
-    pub(super) guard: f64,
+    pub(in crate::toolpath) guard: f64,
     /// Middle and half of the range of theta2 of cuts in the set-up of the plan, and whether it turns with the set-up.
-    pub(super) cuts: Vec<([f64; 2], bool)>,
+    pub(in crate::toolpath) cuts: Vec<([f64; 2], bool)>,
 }
 
 /// The values of places, and the margins of the rotary axis in each cut.
@@ -53,9 +53,10 @@ pub(super) struct Score {
 }
 
 impl Score {
-    /// By what set-ups compare.
+    /// By what set-ups compare. Where no place is reached there is no reserve.
     pub(super) fn merit(&self) -> f64 {
-        self.reserve + PENALTY * self.limit
+        let reserve = if self.reserve.is_finite() { self.reserve } else { 0.0 };
+        reserve + PENALTY * self.limit
     }
 }
 
@@ -72,12 +73,10 @@ impl Problem<'_> {
     /// The margins of the rotary axis on the best winding of each cut, as values.
     fn rotary(&self, set_up: &SetUp) -> Vec<f64> {
         let Some([low, high]) = self.machine.limits().rotary else { return Vec::new() };
-        let middle = 0.5 * (low + high);
         let turn = set_up.turn - self.places.set_up.turn;
         let of_cut = |([centre, half], is_turned): &([f64; 2], bool)| {
-            let centre = centre - if *is_turned { turn } else { 0.0 } + if self.other { PI } else { 0.0 };
-            let centre = centre - TAU * ((centre - middle) / TAU).round();
-            ((centre - half - low).min(high - centre - half)) * self.criteria.rotary
+            let centre = centre - if *is_turned { turn } else { 0.0 };
+            cut_margin([low, high], [centre, *half], self.other) * self.criteria.rotary
         };
         self.cuts.iter().map(of_cut).collect()
     }
@@ -86,9 +85,8 @@ impl Problem<'_> {
     pub(super) fn score(&self, sampled: &Sampled) -> Score {
         let mut score = Score { limit: 0.0, reserve: f64::INFINITY };
         let rotary = sampled.cuts.iter().map(|value| (*value, self.criteria.rotary_has_reserve));
-        let places = sampled.places.iter().flat_map(|values| {
-            values.iter().copied().zip(self.criteria.has_reserve)
-        });
+        let places =
+            sampled.places.iter().flat_map(|values| values.iter().copied().zip(self.criteria.has_reserve));
         for (value, has_reserve) in places.chain(rotary) {
             if has_reserve {
                 score.reserve = score.reserve.min(value);
@@ -101,7 +99,7 @@ impl Problem<'_> {
 
     /// The places with the least value of each kind in each part of the program, with these values less the limit, or
     /// the least reserve, that they compare with. Every place of the program takes part.
-    pub(super) fn worst_places(&self, set_up: &SetUp) -> Vec<(u32, bool, f64)> {
+    pub(in crate::toolpath) fn worst_places(&self, set_up: &SetUp) -> Vec<(u32, bool, f64)> {
         let all: Vec<u32> = (0..self.places.places.len()).map(number).collect();
         let parts: Vec<Vec<(u32, bool, f64)>> = all
             .par_chunks(PLACES_PER_TASK)
@@ -133,8 +131,16 @@ impl Problem<'_> {
     }
 }
 
+/// The margin of the rotary axis, rad, on the best winding of a cut whose theta2 has this middle and this half width,
+/// on the planned preimage or on the other.
+pub(in crate::toolpath) fn cut_margin([low, high]: [f64; 2], [centre, half]: [f64; 2], other: bool) -> f64 {
+    let centre = centre + if other { PI } else { 0.0 };
+    let centre = centre - TAU * ((centre - 0.5 * (low + high)) / TAU).round();
+    (centre - half - low).min(high - centre - half)
+}
+
 /// The ranges of theta2 of the cuts: the widest ones in sectors of their middles.
-pub(super) fn cut_ranges(places: &PlannedPlaces) -> Vec<([f64; 2], bool)> {
+pub(in crate::toolpath) fn cut_ranges(places: &PlannedPlaces) -> Vec<([f64; 2], bool)> {
     let mut widest = [[None::<[f64; 2]>; SECTORS]; 2];
     let mut note = |range: Option<([f64; 2], bool)>| {
         let Some(([low, high], is_turned)) = range else { return };
@@ -174,6 +180,6 @@ fn sector(angle: f64) -> usize {
 }
 
 /// The number of a place. A program has fewer places than 32 bits can number.
-pub(super) fn number(index: usize) -> u32 {
+pub(in crate::toolpath) fn number(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX)
 }

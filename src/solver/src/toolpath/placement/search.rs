@@ -2,12 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::Placer;
 use super::local_search::local_search;
 use super::problem::{PARAMETERS, Problem, Score};
 use super::starts::{even_set_ups, representative};
 use crate::toolpath::PlanError;
-use crate::toolpath::planned_places::PlannedPlaces;
 use crate::toolpath::set_up::SetUp;
 use crate::workspace::{Observer, Subprogress};
 
@@ -28,21 +26,35 @@ const ROUNDING: f64 = 1e-10;
 const APART: f64 = 0.05;
 const DISTINCT: f64 = 0.1;
 
+/// A set-up that the search found.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::toolpath) struct Candidate {
+    /// The set-up.
+    pub(in crate::toolpath) set_up: SetUp,
+    /// Its worst values.
+    pub(super) score: Score,
+    /// Whether its places are on the other preimage.
+    pub(in crate::toolpath) other: bool,
+}
+
 /// The search with the tracks of a survey.
 pub(super) struct Search<'a> {
-    placer: &'a Placer<'a>,
     problems: [Problem<'a>; 2],
-    progress: Subprogress<'a>,
+    progress: &'a Subprogress<'a>,
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(placer: &'a Placer<'a>, places: &'a PlannedPlaces, [from, to]: [f64; 2]) -> Self {
-        let problems = [false, true].map(|other| placer.problem(places, other, 0.0));
-        Self { placer, problems, progress: Subprogress::new(placer.observer, from, to) }
+    /// `problems` are that of the planned preimage and that of the other.
+    pub(super) fn new(problems: [Problem<'a>; 2], progress: &'a Subprogress<'a>) -> Self {
+        Self { problems, progress }
+    }
+
+    fn check_cancelled(&self) -> Result<(), PlanError> {
+        if self.progress.cancelled() { Err(PlanError::Cancelled) } else { Ok(()) }
     }
 
     /// The best set-ups, best first, and the number of starts.
-    pub(super) fn run(&self, given: SetUp) -> Result<(Vec<SetUp>, u32), PlanError> {
+    pub(super) fn run(&self, given: SetUp) -> Result<(Vec<Candidate>, u32), PlanError> {
         let set = representative(self.problems[0].places);
         let starts = self.starts(&set, given)?;
         self.progress.progress(0.3);
@@ -56,7 +68,7 @@ impl<'a> Search<'a> {
                 Some((found, score, *side))
             })
             .collect();
-        self.placer.check_cancelled()?;
+        self.check_cancelled()?;
         self.progress.progress(0.6);
         let count = u32::try_from(starts.len()).unwrap_or(u32::MAX);
         let mut found: Vec<_> = searched.into_iter().flatten().collect();
@@ -72,21 +84,17 @@ impl<'a> Search<'a> {
         }
         let mut all = Vec::new();
         for (start, _, side) in distinct {
-            self.placer.check_cancelled()?;
-            all.push(refined(&self.problems[side], set.clone(), start));
+            self.check_cancelled()?;
+            let (parameters, score) = refined(&self.problems[side], set.clone(), start);
+            all.push(Candidate { set_up: SetUp::of_parameters(parameters), score, other: side == 1 });
         }
-        all.sort_by(|a, b| b.1.merit().total_cmp(&a.1.merit()));
+        all.sort_by(|a, b| b.score.merit().total_cmp(&a.score.merit()));
         self.progress.progress(1.0);
-        Ok((all.into_iter().map(|(parameters, _)| SetUp::of_parameters(parameters)).collect(), count))
+        Ok((all, count))
     }
 
     /// The greatest difference of a parameter between two set-ups, in units that depend on its bounds' width and unit.
-    fn distance(
-        &self,
-        a: &[f64; PARAMETERS],
-        b: &[f64; PARAMETERS],
-        unit: impl Fn(f64, f64) -> f64,
-    ) -> f64 {
+    fn distance(&self, a: &[f64; PARAMETERS], b: &[f64; PARAMETERS], unit: impl Fn(f64, f64) -> f64) -> f64 {
         let problem = &self.problems[0];
         let of = |i: usize| {
             let width = problem.bounds[i][1] - problem.bounds[i][0];
@@ -114,7 +122,7 @@ impl<'a> Search<'a> {
                     (problem.score(&sampled).merit(), number)
                 })
                 .collect();
-            self.placer.check_cancelled()?;
+            self.check_cancelled()?;
             scored.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
             let first = starts.len();
             starts.push((given, side));

@@ -11,7 +11,7 @@ const ALONG: usize = 64;
 const DIMENSIONS: usize = 6;
 
 /// The places with which the search begins, ascending.
-pub(super) fn representative(places: &PlannedPlaces) -> Vec<u32> {
+pub(in crate::toolpath) fn representative(places: &PlannedPlaces) -> Vec<u32> {
     let all = &places.places;
     if all.len() <= 2 * ALONG {
         return (0..all.len()).map(number).collect();
@@ -73,7 +73,7 @@ pub(super) fn even_set_ups(problem: &Problem<'_>, count: u32) -> Vec<[f64; PARAM
 }
 
 /// The i-th of a sequence of points that fill the unit cube evenly.
-fn even_numbers<const N: usize>(i: u32) -> [f64; N] {
+pub(in crate::toolpath) fn even_numbers<const N: usize>(i: u32) -> [f64; N] {
     let mut root = 1.5_f64;
     let dimension = u32::try_from(N).unwrap_or(1);
     for _ in 0..64 {

@@ -81,7 +81,9 @@ fn keep_one_working(legs: &Legs, found: &mut [Found]) {
         found.working && beside && legs.rates(&found.q, &found.rho).determinant() * home > 0.0
     };
     if found.iter().any(is_home) {
-        found.iter_mut().for_each(|found| found.working = is_home(found));
+        for found in found.iter_mut() {
+            found.working = is_home(found);
+        }
     }
 }
 
