@@ -7,7 +7,6 @@ use verne_store::Store;
 
 use super::JobExecutor;
 use crate::operations::machine_registry::MachineRegistry;
-use crate::operations::placement::answer_placement;
 use crate::operations::question::Question;
 use crate::operations::question_text::JobParameters;
 use crate::operations::results::{MESH, Results};

@@ -9,10 +9,19 @@ use crate::process::service::Service;
 use crate::test_service;
 
 async fn post(service: &Service, path: &str, body: &Value) -> (StatusCode, Value) {
-    let request = Request::post(path).header(CONTENT_TYPE, "application/json");
-    let (status, _, bytes) =
-        test_service::send(service, request.body(body.to_string().into()).unwrap()).await;
-    (status, serde_json::from_slice(&bytes).unwrap_or_default())
+    let ask = || async {
+        let request = Request::post(path).header(CONTENT_TYPE, "application/json");
+        let (status, _, bytes) =
+            test_service::send(service, request.body(body.to_string().into()).unwrap()).await;
+        (status, serde_json::from_slice::<Value>(&bytes).unwrap_or_default())
+    };
+    let (status, answer) = ask().await;
+    if status != StatusCode::ACCEPTED {
+        return (status, answer);
+    }
+    // The events end with the job.
+    get(service, answer["links"]["events"].as_str().unwrap()).await;
+    ask().await
 }
 
 async fn get(service: &Service, path: &str) -> (StatusCode, HeaderMap, Bytes) {
