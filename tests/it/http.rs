@@ -35,6 +35,7 @@ mod shutdown;
 mod table;
 mod table_workspaces;
 mod toolpath;
+mod toolpath_window;
 mod transport;
 mod viewer;
 mod workspace;

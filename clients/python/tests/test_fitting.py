@@ -1,4 +1,4 @@
-"""Placements of programs, and regions of origins."""
+"""Windows of parameters, placements of programs, and regions of origins."""
 
 from __future__ import annotations
 
@@ -22,6 +22,18 @@ def test_a_placement_is_no_worse_than_the_given_set_up(client: verne.Client, dom
     assert report.verdict == "ok"
     least = min(margin.margin / reserve[margin.constraint] for margin in report.margins if margin.constraint in reserve)
     assert least == best.t
+
+
+def test_the_ends_of_a_window_are_those_of_the_verdict(client: verne.Client, dome: Path) -> None:
+    found = client.window(dome, "tool_length", (0.0, 900.0), setup={"z": 560}).result()
+    (interval,) = found.intervals
+    assert interval.ends[1].kind == "limit"
+    assert interval.ends[1].constraint is not None
+    verdicts = [
+        client.toolpath(dome, tool_length=length, setup={"z": 560}).result().verdict
+        for length in (interval.from_, interval.to, interval.to + found.precision)
+    ]
+    assert verdicts == ["ok", "ok", "fails"]
 
 
 def test_a_region_of_origins_has_a_mesh(client: verne.Client, dome: Path) -> None:

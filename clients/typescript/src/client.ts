@@ -17,6 +17,8 @@ import type {
   PlacementRequest,
   ToolpathReport,
   ToolpathRequest,
+  Window,
+  WindowRequest,
   WorkspaceRequest,
   WorkspaceSummary,
 } from "./schemas.js";
@@ -84,6 +86,11 @@ export class Verne {
   /** The report on a tool path. */
   async toolpath(body: ToolpathRequest, options: Wait = {}): Promise<ToolpathReport> {
     return this.settled(unwrap(await this.api.POST("/toolpath", { body, ...asked(options) })), options);
+  }
+
+  /** The values of a parameter with which the machine can run a program. */
+  async window(body: WindowRequest, options: Wait = {}): Promise<Window> {
+    return this.settled(unwrap(await this.api.POST("/toolpath/window", { body, ...asked(options) })), options);
   }
 
   /** The set-up in which a program keeps the greatest distance from the limits. */

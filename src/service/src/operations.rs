@@ -80,6 +80,8 @@ pub(crate) mod toolpath_report;
 pub(crate) mod toolpath_request;
 pub(crate) mod toolpath_row_text;
 pub(crate) mod toolpath_rows;
+pub(crate) mod window;
+pub(crate) mod window_question;
 pub(crate) mod workspace;
 pub(crate) mod workspace_colours;
 pub(crate) mod workspace_question;

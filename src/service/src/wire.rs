@@ -60,6 +60,7 @@ pub(crate) mod toolpath_row;
 pub(crate) mod toolpath_time;
 pub(crate) mod toolpath_with;
 pub(crate) mod windings;
+pub(crate) mod window;
 pub(crate) mod workspace;
 pub(crate) mod workspace_query;
 pub(crate) mod workspace_summary;

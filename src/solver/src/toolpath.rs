@@ -27,6 +27,7 @@ mod set_up;
 mod start;
 mod stretches;
 mod timing;
+mod window;
 
 use std::fmt;
 
@@ -47,6 +48,7 @@ pub use rows::{Row, RowKind, Way};
 pub use set_up::{AdjustableProgram, SetUp};
 pub use start::Start;
 pub use timing::{Feed, Governor, Pace, TimedRow, Timer, Times};
+pub use window::{ParametricProgram, WINDOW_PRECISION, Window, WindowInterval, window};
 
 use crate::machine::Machine;
 use cap::Cap;

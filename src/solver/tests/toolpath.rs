@@ -16,6 +16,7 @@
 //! - `origins`: the region of origins against plans at random origins.
 //! - `placement`: set-ups with the greatest reserve.
 //! - `random_programs`: programs on machines unlike the built-in one.
+//! - `window`: windows of a parameter against bisection on the verdict.
 //! - `support`: programs, and the check of rows by the forward problem.
 
 #![allow(
@@ -63,3 +64,5 @@ mod timing;
 mod tool_changes;
 #[path = "toolpath/unlimited.rs"]
 mod unlimited;
+#[path = "toolpath/window.rs"]
+mod window;

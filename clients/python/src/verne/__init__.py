@@ -3,7 +3,7 @@
 Lengths are millimetres and angles degrees.
 """
 
-from verne.answers.fitting import OriginsSummary, Placement
+from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.machine import Machine, MachineEntry, MachineId
 from verne.answers.solution import ForwardResult, InverseResult, Joints, Limit, PartPose, PlatformPose, Solution
 from verne.answers.toolpath import ProgramSummary, ToolpathFailure, ToolpathReport
@@ -16,12 +16,13 @@ from verne.async_job import (
     AsyncOriginsJob,
     AsyncPlacementJob,
     AsyncToolpathJob,
+    AsyncWindowJob,
     AsyncWorkspaceJob,
 )
 from verne.batch import JointBatch, Membership, PoseBatch
 from verne.client import Client
 from verne.decoding import DecodingError
-from verne.job import DexterityJob, FamilyJob, Job, OriginsJob, PlacementJob, ToolpathJob, WorkspaceJob
+from verne.job import DexterityJob, FamilyJob, Job, OriginsJob, PlacementJob, ToolpathJob, WindowJob, WorkspaceJob
 from verne.local_service import LocalService, find_binary, local
 from verne.problem import Problem, ProblemError
 from verne.table import Table
@@ -34,6 +35,7 @@ __all__ = [
     "AsyncOriginsJob",
     "AsyncPlacementJob",
     "AsyncToolpathJob",
+    "AsyncWindowJob",
     "AsyncWorkspaceJob",
     "Client",
     "DecodingError",
@@ -68,6 +70,8 @@ __all__ = [
     "ToolpathFailure",
     "ToolpathJob",
     "ToolpathReport",
+    "Window",
+    "WindowJob",
     "WorkspaceJob",
     "WorkspaceSummary",
     "find_binary",

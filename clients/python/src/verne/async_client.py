@@ -13,6 +13,7 @@ from verne.async_job import (
     AsyncOriginsJob,
     AsyncPlacementJob,
     AsyncToolpathJob,
+    AsyncWindowJob,
     AsyncWorkspaceJob,
 )
 from verne.operations import batches, fitting, kinematics, publications, toolpaths, workspaces
@@ -66,6 +67,7 @@ class AsyncClient(Awaiting[Session]):
     dexterity = awaiting_job(workspaces.dexterity, AsyncDexterityJob)
     program = awaiting(toolpaths.program)
     toolpath = awaiting_job(toolpaths.toolpath, AsyncToolpathJob)
+    window = awaiting_job(fitting.window, AsyncWindowJob)
     placement = awaiting_job(fitting.placement, AsyncPlacementJob)
     origins = awaiting_job(fitting.origins, AsyncOriginsJob)
     machines = awaiting(publications.machines)

@@ -7,7 +7,7 @@ from typing import Self
 
 import httpx
 
-from verne.job import DexterityJob, FamilyJob, OriginsJob, PlacementJob, ToolpathJob, WorkspaceJob
+from verne.job import DexterityJob, FamilyJob, OriginsJob, PlacementJob, ToolpathJob, WindowJob, WorkspaceJob
 from verne.operations import batches, fitting, kinematics, publications, toolpaths, workspaces
 from verne.runners import Blocking, blocking, blocking_job
 from verne.session import DEFAULT_RETRIES, DEFAULT_URL, TIMEOUT, Session
@@ -67,6 +67,7 @@ class Client(Blocking[Session]):
     dexterity = blocking_job(workspaces.dexterity, DexterityJob)
     program = blocking(toolpaths.program)
     toolpath = blocking_job(toolpaths.toolpath, ToolpathJob)
+    window = blocking_job(fitting.window, WindowJob)
     placement = blocking_job(fitting.placement, PlacementJob)
     origins = blocking_job(fitting.origins, OriginsJob)
     machines = blocking(publications.machines)

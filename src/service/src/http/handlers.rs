@@ -13,4 +13,5 @@ pub(crate) mod results;
 pub(crate) mod service;
 pub(crate) mod toolpath;
 pub(crate) mod toolpath_rows;
+pub(crate) mod window;
 pub(crate) mod workspace;

@@ -56,7 +56,7 @@ impl Surface {
                 return Err(HttpError::field("/query/set", detail));
             }
             (QuestionKind::Origins, _) => MESH,
-            (QuestionKind::Toolpath | QuestionKind::Placement, _) => {
+            (QuestionKind::Toolpath | QuestionKind::Window | QuestionKind::Placement, _) => {
                 return Err(LookupError::Result(id.to_string()).into());
             }
             (QuestionKind::Family | QuestionKind::Subtask, _) => {
@@ -153,9 +153,11 @@ fn description(question: &Question, set: Option<SetName>) -> Result<MeshDescript
         Question::Workspace(workspace) => Ok(MeshDescription::of_workspace(workspace)),
         Question::Dexterity(map) => Ok(MeshDescription::of_set(map, set.unwrap_or(SetName::Reachable))),
         Question::Origins(region) => Ok(MeshDescription::of_origins(region)),
-        Question::Family(_) | Question::Toolpath(_) | Question::Placement(_) | Question::Subtask(_) => {
-            Err(OperationError::Internal)
-        }
+        Question::Family(_)
+        | Question::Toolpath(_)
+        | Question::Window(_)
+        | Question::Placement(_)
+        | Question::Subtask(_) => Err(OperationError::Internal),
     }
 }
 

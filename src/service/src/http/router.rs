@@ -19,7 +19,7 @@ use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Pro
 use crate::http::format_paths;
 use crate::http::handlers::{
     batch, dexterity, jobs, joint_program, kinematics, machines, origins, placement, programs, results,
-    service, toolpath, toolpath_rows, workspace,
+    service, toolpath, toolpath_rows, window, workspace,
 };
 use crate::http::openapi::{self, Document, problem_responses, security};
 use crate::http::state::SharedState;
@@ -35,7 +35,7 @@ pub fn document() -> Value {
 }
 
 /// Each route with its access.
-fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 35] {
+fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 36] {
     [
         (Key(Read, Fast), routes!(kinematics::get_fk, kinematics::post_fk)),
         (Key(Read, Fast), routes!(kinematics::get_ik, kinematics::post_ik)),
@@ -57,6 +57,7 @@ fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 35] {
         (Key(Compute, Other), routes!(origins::post_origins)),
         (Key(Read, Other), routes!(origins::get_origins_mesh)),
         (Key(Read, Other), routes!(origins::get_origins_slice)),
+        (Key(Compute, Other), routes!(window::post_window)),
         (Key(Read, Other), routes!(toolpath::get_report)),
         (Key(Read, Other), routes!(toolpath_rows::get_rows)),
         (Key(Read, Other), routes!(joint_program::get_joint_program)),

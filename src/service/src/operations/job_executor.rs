@@ -25,6 +25,7 @@ use crate::operations::question_text::JobParameters;
 use crate::operations::results::{CELLS, MESH, Results, pack_mesh};
 use crate::operations::subtask::{Subtask, SubtaskRequest};
 use crate::operations::toolpath_job::answer_toolpath;
+use crate::operations::window::answer_window;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::telemetry::metrics::computations::ComputationMetrics;
@@ -65,6 +66,7 @@ impl JobExecutor {
             Question::Family(family) => self.family(question, family, parameters, observer),
             Question::Dexterity(map) => self.dexterity(question, map, parameters, observer),
             Question::Toolpath(path) => answer_toolpath(&self.store, path, &self.computations, observer),
+            Question::Window(asked) => answer_window(&self.store, asked, &self.computations, observer),
             Question::Placement(asked) => answer_placement(&self.store, asked, &self.computations, observer),
             Question::Origins(region) => self.origins(region, parameters, observer),
             Question::Subtask(subtask) => self.subtask(subtask, parameters, observer).map(drop),
@@ -208,6 +210,7 @@ impl JobExecutor {
         let (subtasks, blobs): (_, &[&str]) = match question {
             Question::Workspace(_)
             | Question::Toolpath(_)
+            | Question::Window(_)
             | Question::Placement(_)
             | Question::Subtask(_) => return Vec::new(),
             Question::Family(family) => (Subtask::of_family(family), &[]),

@@ -15,6 +15,7 @@ use crate::operations::placement_question::PlacementQuestion;
 use crate::operations::question_text::{CanonicalRequest, JobParameters, QuestionKind, QuestionText};
 use crate::operations::subtask::Subtask;
 use crate::operations::toolpath_question::ToolpathQuestion;
+use crate::operations::window_question::WindowQuestion;
 use crate::operations::workspace_question::{WorkspaceQuestion, check_triangles, workspace_cost};
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
@@ -22,6 +23,7 @@ use crate::wire::machine::MachineObject;
 use crate::wire::origins::CanonicalOrigins;
 use crate::wire::placement::CanonicalPlacement;
 use crate::wire::result_id::ResultId;
+use crate::wire::window::CanonicalWindow;
 
 /// About the bytes of a question's text.
 const TEXT_BYTES: usize = 2048;
@@ -37,6 +39,8 @@ pub(crate) enum Question {
     Dexterity(DexterityQuestion),
     /// A tool path.
     Toolpath(Box<ToolpathQuestion>),
+    /// A window.
+    Window(Box<WindowQuestion>),
     /// A placement.
     Placement(Box<PlacementQuestion>),
     /// A region of origins.
@@ -53,6 +57,7 @@ impl Question {
             Self::Family(question) => question.id,
             Self::Dexterity(question) => question.id,
             Self::Toolpath(question) => question.id,
+            Self::Window(question) => question.id,
             Self::Placement(question) => question.id,
             Self::Origins(question) => question.id,
             Self::Subtask(subtask) => subtask.id(),
@@ -66,6 +71,7 @@ impl Question {
             Self::Family(_) => QuestionKind::Family,
             Self::Dexterity(_) => QuestionKind::Dexterity,
             Self::Toolpath(_) => QuestionKind::Toolpath,
+            Self::Window(_) => QuestionKind::Window,
             Self::Placement(_) => QuestionKind::Placement,
             Self::Origins(_) => QuestionKind::Origins,
             Self::Subtask(_) => QuestionKind::Subtask,
@@ -84,6 +90,7 @@ impl Question {
             Self::Family(family) => (family.triangles(observer)?, family.count()),
             Self::Dexterity(question) => return Ok(question.cost()),
             Self::Toolpath(question) => return Ok(question.cost),
+            Self::Window(question) => return Ok(question.cost()),
             Self::Placement(question) => return Ok(question.cost()),
             Self::Origins(question) => return Ok(question.cost()),
             Self::Subtask(_) => return Err(OperationError::Internal),
@@ -101,6 +108,9 @@ impl Question {
             Self::Toolpath(path) => {
                 (&path.machine, CanonicalRequest::Toolpath(Box::new(path.request.clone())))
             }
+            Self::Window(question) => {
+                (&question.toolpath.machine, CanonicalRequest::Window(Box::new(question.request())))
+            }
             Self::Placement(question) => {
                 (&question.toolpath.machine, CanonicalRequest::Placement(Box::new(question.request())))
             }
@@ -113,6 +123,7 @@ impl Question {
         let machine = MachineObject::from(machine.data());
         let cost = match self {
             Self::Toolpath(question) => Some(question.cost),
+            Self::Window(question) => Some(question.toolpath.cost),
             Self::Placement(question) => Some(question.toolpath.cost),
             Self::Origins(question) => Some(question.toolpath.cost),
             _ => None,
@@ -137,6 +148,10 @@ impl Question {
             CanonicalRequest::Family(request) => Self::Family(FamilyQuestion::of(machine, request)),
             CanonicalRequest::Dexterity(request) => Self::Dexterity(DexterityQuestion::of(machine, request)),
             CanonicalRequest::Toolpath(request) => Self::Toolpath(Box::new(toolpath(machine, *request))),
+            CanonicalRequest::Window(request) => {
+                let CanonicalWindow { toolpath: path, parameter, from, to } = *request;
+                Self::Window(Box::new(WindowQuestion::of(toolpath(machine, path), parameter, [from, to])))
+            }
             CanonicalRequest::Placement(request) => {
                 let CanonicalPlacement { toolpath: path, free, reserve } = *request;
                 Self::Placement(Box::new(PlacementQuestion::of(toolpath(machine, path), free, reserve)))

@@ -18,11 +18,12 @@ use crate::wire::machine::MachineObject;
 use crate::wire::origins::CanonicalOrigins;
 use crate::wire::placement::CanonicalPlacement;
 use crate::wire::result_id::ResultId;
+use crate::wire::window::CanonicalWindow;
 use crate::wire::workspace::CanonicalWorkspace;
 
-/// The kind of a result: `workspace`; `family`, a table of workspaces; `dexterity`, a map; `toolpath`;
-/// `placement` of a program; `origins`, the region of its origins; `subtask`, a part of a family, of a map or of a
-/// region.
+/// The kind of a result: `workspace`; `family`, a table of workspaces; `dexterity`, a map; `toolpath`; `window` of a
+/// parameter of a program; `placement` of a program; `origins`, the region of its origins; `subtask`, a part of a
+/// family, of a map or of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum QuestionKind {
@@ -34,6 +35,8 @@ pub(crate) enum QuestionKind {
     Dexterity,
     /// A tool path.
     Toolpath,
+    /// A window of a parameter of a program.
+    Window,
     /// A placement of a program.
     Placement,
     /// The region of origins of a program.
@@ -47,7 +50,7 @@ impl QuestionKind {
     pub(crate) fn path(self, id: ResultId) -> String {
         match self {
             Self::Workspace | Self::Family | Self::Dexterity | Self::Subtask => id.path(),
-            Self::Toolpath | Self::Placement | Self::Origins => id.toolpath(),
+            Self::Toolpath | Self::Window | Self::Placement | Self::Origins => id.toolpath(),
         }
     }
 
@@ -58,6 +61,7 @@ impl QuestionKind {
             Self::Family => "family",
             Self::Dexterity => "dexterity",
             Self::Toolpath => "toolpath",
+            Self::Window => "window",
             Self::Placement => "placement",
             Self::Origins => "origins",
             Self::Subtask => "subtask",
@@ -116,6 +120,7 @@ pub(crate) enum CanonicalRequest {
     Family(CanonicalFamily),
     Dexterity(CanonicalDexterity),
     Toolpath(Box<CanonicalToolpath>),
+    Window(Box<CanonicalWindow>),
     Placement(Box<CanonicalPlacement>),
     Origins(Box<CanonicalOrigins>),
     Subtask(SubtaskRequest),

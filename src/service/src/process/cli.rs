@@ -21,6 +21,7 @@ pub(crate) mod terminal;
 pub(crate) mod toolpath;
 pub(crate) mod toolpath_origins;
 pub(crate) mod toolpath_placement;
+pub(crate) mod toolpath_window;
 pub(crate) mod words;
 pub(crate) mod workspace;
 
@@ -46,6 +47,7 @@ use crate::process::cli::terminal::Terminal;
 use crate::process::cli::toolpath::ToolpathCommand;
 use crate::process::cli::toolpath_origins::OriginsCommand;
 use crate::process::cli::toolpath_placement::PlacementCommand;
+use crate::process::cli::toolpath_window::WindowCommand;
 use crate::process::cli::workspace::WorkspaceCommand;
 use crate::process::config::ServeConfig;
 use crate::process::config::worker::WorkerConfig;
@@ -91,6 +93,10 @@ enum Command {
     ToolpathPlacement(Box<PlacementCommand>),
     /// Compute the region of origins of a program: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
     ToolpathOrigins(Box<OriginsCommand>),
+    /// Find the values of the tool's length, or of a number of the set-up, with which the machine can run a program.
+    ///
+    /// The exit status is 3 if there is none.
+    ToolpathWindow(Box<WindowCommand>),
     /// Print a machine as a JSON file, which every --machine accepts.
     Machine(MachineCommand),
     /// Serve over HTTP.
@@ -175,6 +181,7 @@ impl Cli {
             Command::Completions(command) => command.run(Self::command_line(), out),
             Command::Man(command) => command.run(Self::command_line(), out),
             Command::Toolpath(command) => return command.run(out, err, terminal),
+            Command::ToolpathWindow(command) => return command.run(out, terminal),
             Command::Kinematics(command) => return command.run(out, err, terminal),
             Command::ToolpathPlacement(command) => return command.run(out, terminal),
         };

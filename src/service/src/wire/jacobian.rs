@@ -80,8 +80,8 @@ const fn angular(name: &'static str) -> Rate {
 }
 
 /// A singularity: `parallel_singularity`, the platform can move while the joints stand still; `pole`, phi1 is zero, and
-/// theta2 turns the tool's axis about itself; `inverse_singularity`, the joints can move while the tool end and the axis
-/// stand still, because a rod is perpendicular to its guideway or two inverse solutions coincide.
+/// theta2 turns the tool's axis about itself; `inverse_singularity`, the joints can move while the tool end and the
+/// axis stand still, because a rod is perpendicular to its guideway or two inverse solutions coincide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 #[schema(as = Singularity)]
@@ -167,8 +167,8 @@ pub(crate) struct ErrorAmplification {
     pub theta2: f64,
 }
 
-/// Columns of the Jacobian in a batch: `condition`, `det_p`, the condition number and, with drives, the greatest speeds;
-/// `matrix`, the matrix, too.
+/// Columns of the Jacobian in a batch: `condition`, `det_p`, the condition number and, with drives, the greatest
+/// speeds; `matrix`, the matrix, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum JacobianColumns {
@@ -199,8 +199,8 @@ pub(crate) struct JacobianLists {
     pub matrix: Option<Vec<Option<MatrixObject>>>,
 }
 
-/// Checks the fields `jacobian` and `characteristic_length`. `lacking` describes what the request lacks to determine the
-/// table's angles, if it lacks that.
+/// Checks the fields `jacobian` and `characteristic_length`. `lacking` describes what the request lacks to determine
+/// the table's angles, if it lacks that.
 pub(crate) fn check_jacobian(
     is_requested: bool,
     characteristic_length: Option<f64>,

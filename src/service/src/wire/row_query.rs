@@ -53,8 +53,8 @@ pub(crate) struct IkRowsQuery {
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Columns of the Jacobian that the answer has. `condition`: det_p, condition_number and, if the machine has drives,
-    /// speed_x, speed_y, speed_z. `matrix`: j11 to j55, too. Only frame `part` has it.
+    /// Columns of the Jacobian that the answer has. `condition`: det_p, condition_number and, if the machine has
+    /// drives, speed_x, speed_y, speed_z. `matrix`: j11 to j55, too. Only frame `part` has it.
     #[arg(long)]
     #[param(nullable = false)]
     pub jacobian: Option<JacobianColumns>,
@@ -125,8 +125,8 @@ pub(crate) struct FkRowsQuery {
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
-    /// Columns of the Jacobian that the answer has. `condition`: det_p, condition_number and, if the machine has drives,
-    /// speed_x, speed_y, speed_z. `matrix`: j11 to j55, too. Needs theta1 and theta2.
+    /// Columns of the Jacobian that the answer has. `condition`: det_p, condition_number and, if the machine has
+    /// drives, speed_x, speed_y, speed_z. `matrix`: j11 to j55, too. Needs theta1 and theta2.
     #[arg(long)]
     #[param(nullable = false)]
     pub jacobian: Option<JacobianColumns>,

@@ -34,8 +34,8 @@ pub struct GreatestSpeed {
 ///
 /// # Units
 ///
-/// Rows: velocity of the tool's end along x, y and z of the part frame, mm/s; phi1' and sin(phi1) phi2', rad/s. Columns:
-/// rho1', rho2', rho3', mm/s; theta1', theta2', rad/s.
+/// Rows: velocity of the tool's end along x, y and z of the part frame, mm/s; phi1' and sin(phi1) phi2', rad/s.
+/// Columns: rho1', rho2', rho3', mm/s; theta1', theta2', rad/s.
 ///
 /// # References
 ///
@@ -52,8 +52,8 @@ pub struct ToolJacobian {
 }
 
 impl ToolJacobian {
-    /// Computes the Jacobian of a posture, for a tool of length `tool_length` from P. The answer is `None` at a parallel
-    /// singularity.
+    /// Computes the Jacobian of a posture, for a tool of length `tool_length` from P. The answer is `None` at a
+    /// parallel singularity.
     ///
     /// # Units
     ///
@@ -188,9 +188,9 @@ impl ToolJacobian {
         each.into_iter().filter_map(|(is_present, kind)| is_present.then_some(kind)).collect()
     }
 
-    /// Computes the greatest speed of the tool's end along x, y and z of the part frame, in both senses, while the other
-    /// two components and the tool's axis stand still: the least over the joints of the drive's velocity over the rate
-    /// of the joint. theta2 stands still, also at the pole. The answer is `None` at an inverse singularity.
+    /// Computes the greatest speed of the tool's end along x, y and z of the part frame, in both senses, while the
+    /// other two components and the tool's axis stand still: the least over the joints of the drive's velocity over the
+    /// rate of the joint. theta2 stands still, also at the pole. The answer is `None` at an inverse singularity.
     ///
     /// # Units
     ///
@@ -232,8 +232,8 @@ impl ToolJacobian {
         Some([along(0)?, along(1)?, along(2)?])
     }
 
-    /// Computes how far the tool's end moves, to the first order, when one joint is off: `slider` is the error of each of
-    /// rho1 to rho3, `table` that of theta1 and of theta2.
+    /// Computes how far the tool's end moves, to the first order, when one joint is off: `slider` is the error of each
+    /// of rho1 to rho3, `table` that of theta1 and of theta2.
     ///
     /// # Units
     ///

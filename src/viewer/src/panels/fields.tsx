@@ -13,6 +13,8 @@ export interface NumberProps {
   step?: number;
   min?: number;
   max?: number;
+  /** A tooltip, where the symbol has none of its own. */
+  hint?: string | undefined;
   /** Why the value cannot be used; empty where another element says it. */
   fault?: string | undefined;
   commit: (value: number) => void;
@@ -28,6 +30,7 @@ export function NumberField({
   step = 1,
   min = -Infinity,
   max = Infinity,
+  hint,
   fault,
   commit,
 }: NumberProps) {
@@ -54,7 +57,7 @@ export function NumberField({
   const words = outOfRange ? range(min, max, unit) : fault;
   return (
     <label class="number">
-      <span class="name" title={tooltip(symbol ?? label)} aria-hidden={symbol ? "true" : undefined}>
+      <span class="name" title={hint ?? tooltip(symbol ?? label)} aria-hidden={symbol ? "true" : undefined}>
         {symbol ?? label}
       </span>
       <span class="box">
@@ -62,7 +65,7 @@ export function NumberField({
           ref={input}
           type="number"
           inputMode="decimal"
-          aria-label={symbol ? `${label}, ${spoken(unit)}` : undefined}
+          aria-label={symbol ? `${label}, ${spoken(unit)}` : label}
           aria-invalid={words !== undefined}
           aria-describedby={words ? id : undefined}
           step={step}
@@ -88,9 +91,9 @@ export function NumberField({
 /** The values that a field takes, in words. */
 function range(min: number, max: number, unit: string): string {
   const space = unit === "°" ? "" : "\u00a0";
-  if (max === Infinity) return `at least ${min}${space}${unit}`;
+  if (max === Infinity) return `at least ${min}${space}${unit}`.trim();
   if (min === -Infinity) return `at most ${max}${space}${unit}`;
-  return `from ${min} to ${max}${space}${unit}`;
+  return `from ${min} to ${max}${space}${unit}`.trim();
 }
 
 interface ChoiceProps<T extends string> {

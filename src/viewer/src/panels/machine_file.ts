@@ -3,6 +3,7 @@
 import { signal } from "@preact/signals";
 import { ProblemError, type Machine, type Schemas } from "verne-client";
 import { inWords } from "../api/client";
+import { machineSchema, typeFaults } from "../state/machine_schema";
 import { takeOwn } from "../state/machines";
 
 /** A file that makes no machine. */
@@ -44,6 +45,12 @@ export async function offer(file: File): Promise<void> {
     // What GET /machines/{name} answers holds the machine as `definition`.
     const machine = "definition" in content ? content.definition : content;
     content = machine;
+    const wrong = Object.entries(typeFaults(machine, await machineSchema()));
+    if (wrong.length > 0) {
+      const faults = wrong.map(([pointer, detail]) => ({ pointer: pointer && `/${pointer}`, detail }));
+      reject("Some fields are no numbers, missing or unknown.", content, faults);
+      return;
+    }
     await takeOwn(machine as Machine);
   } catch (thrown) {
     const faults = thrown instanceof ProblemError ? thrown.errors : [];

@@ -11,6 +11,7 @@ import { Help } from "./help";
 import { JointsPanel } from "./joints";
 import { KeyDialog } from "./key";
 import { MachinePicker } from "./machine";
+import { MachineForm } from "./machine_form";
 import { MachineFaults } from "./machine_faults";
 import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
@@ -54,6 +55,7 @@ export function Page() {
           <ToolPanel />
           <ToolTipPanel />
           <PositionsPanel />
+          <MachineForm />
         </div>
         <Scene />
         <div class="panel right">

@@ -3,8 +3,8 @@
 import { batch } from "@preact/signals";
 import { unwrap, type Machine, type MachineRef } from "verne-client";
 import { verne } from "../api/client";
-import { change, refusal, ghosts, machine, published, workspace, type InUse } from "./store";
-import { stay } from "./motion";
+import { change, refusal, view, ghosts, machine, published, workspace, type InUse } from "./store";
+import { arrive, stay } from "./motion";
 import type { Joints, View } from "./view";
 
 export async function listMachines(): Promise<void> {
@@ -36,6 +36,17 @@ export async function takeOwn(own: Machine): Promise<void> {
   change({ own, joints: null, mode: null });
   use(next);
   stay();
+}
+
+/** Takes a changed machine, which stands where it stood if it can; the service's faults are thrown. */
+export async function changeMachine(own: Machine): Promise<void> {
+  const next = await examined(own, own);
+  const { joints } = view.peek();
+  change({ own });
+  use(next);
+  if (joints && (await arrive(joints)) === null) return;
+  change({ joints: null, mode: null });
+  await arrive(next.home.joints);
 }
 
 function use(next: InUse): void {

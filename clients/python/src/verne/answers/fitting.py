@@ -55,6 +55,59 @@ class ActiveMargin:
 
 
 @dataclass(frozen=True, slots=True)
+class WindowEnd:
+    """What ends an interval of a window."""
+
+    kind: str
+    """``limit``: the limit that breaks first outside; ``bound``: the range of the request."""
+    constraint: str | None = None
+    element: str | None = None
+    line: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class WindowInterval:
+    """An interval of values. The verdict of a tool path is ``ok`` with both of its ends."""
+
+    from_: float
+    """The least value."""
+    to: float
+    """The greatest value."""
+    ends: tuple[WindowEnd, WindowEnd]
+    step: float
+    """Greatest distance of two values, one after the other, with which the whole program was planned."""
+
+
+@dataclass(frozen=True, slots=True)
+class NearestToWindow:
+    """The examined value that comes nearest to a window."""
+
+    value: float
+    margin: ToolpathMargin | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """The values of a parameter with which the machine can run a program."""
+
+    id: str
+    machine: MachineId
+    program: str
+    request: dict[str, Any]
+    unit: str
+    """``mm`` or ``deg``."""
+    intervals: list[WindowInterval]
+    precision: float
+    """Greatest distance between an end and the nearest value with which the machine cannot run the program."""
+    resolution: float
+    """Width of the intervals, and of the gaps between them, that the search may have missed."""
+    plans: int
+    not_checked: list[str]
+    nearest: NearestToWindow | None = None
+    """Only a window without an interval has it."""
+
+
+@dataclass(frozen=True, slots=True)
 class PlacementLinks:
     """Paths of a placement."""
 

@@ -58,8 +58,8 @@ def ik_batch(
         continuous: Whether each row continues from the row before. All rows then travel in one request, and its size
             must be below the service's limit: 16 MiB by default, or 300,000 rows.
         start: Joints from which the first row continues: rho1, rho2, rho3 in mm, theta1, theta2 in degrees.
-        jacobian: Columns of the Jacobian in the answer: ``condition`` (det_p, condition_number, and speed_x to speed_z if
-            the machine has drives), or ``matrix`` (j11 to j55, too). Only frame ``part`` has it.
+        jacobian: Columns of the Jacobian in the answer: ``condition`` (det_p, condition_number, and speed_x to speed_z
+            if the machine has drives), or ``matrix`` (j11 to j55, too). Only frame ``part`` has it.
         characteristic_length: Length by which the Jacobian's lengths are divided before its condition number is
             computed, mm. By default it is R1 of the machine.
         machine: Name of a published machine.
@@ -104,8 +104,8 @@ def fk_batch(
         tool_length: Distance from P to the tool end, mm.
         table_clearance: Least height over the table, mm. By default it is the machine's limit, if it has one.
         tool_radius: Radius of the tool's end circle, mm. Only ``table_clearance`` uses it.
-        jacobian: Columns of the Jacobian in the answer: ``condition`` (det_p, condition_number, and speed_x to speed_z if
-            the machine has drives), or ``matrix`` (j11 to j55, too). It needs theta1 and theta2.
+        jacobian: Columns of the Jacobian in the answer: ``condition`` (det_p, condition_number, and speed_x to speed_z
+            if the machine has drives), or ``matrix`` (j11 to j55, too). It needs theta1 and theta2.
         characteristic_length: Length by which the Jacobian's lengths are divided before its condition number is
             computed, mm. By default it is R1 of the machine.
         machine: Name of a published machine.

@@ -1,11 +1,11 @@
-"""Placements of programs, and regions of origins."""
+"""Windows of parameters, placements of programs, and regions of origins."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any, Literal, TypeAlias, TypedDict, Unpack
 
-from verne.answers.fitting import OriginsSummary, Placement
+from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.machine import Machine
 from verne.answers.toolpath import ProgramSummary
 from verne.operations.jobs import Submission, submit
@@ -13,6 +13,7 @@ from verne.operations.start import Start, joints_of
 from verne.operations.toolpaths import ProgramFormat, Setup, Source, Tolerance, lengths_of, program
 from verne.session import Operation, Session, given
 
+WindowParameter = Literal["tool_length", "setup.x", "setup.y", "setup.z", "setup.a", "setup.b", "setup.c"]
 FreeParameter = Literal["setup.x", "setup.y", "setup.z", "setup.c", "tool_length"]
 Bounds: TypeAlias = tuple[float, float]
 """Least and greatest value."""
@@ -65,6 +66,33 @@ def placement(
     ranges = {name: list(bounds) for name, bounds in free.items()}
     body = _body(source, options) | {"free": ranges, "reserve": dict(reserve)}
     return (yield from submit(session, "toolpath/placement", body, Placement))
+
+
+def window(
+    session: Session,
+    source: Source | ProgramSummary,
+    parameter: WindowParameter,
+    between: Bounds,
+    *,
+    format: ProgramFormat | None = None,
+    **options: Unpack[ToolpathOptions],
+) -> Operation[Submission[Window]]:
+    """Submits the search for the values of a parameter with which the machine can run a program.
+
+    Args:
+        source: A program as for ``toolpath``.
+        parameter: ``tool_length``, or a number of the set-up such as ``setup.x``. Its own value takes no part.
+        between: The least and the greatest value, mm or degrees.
+        format: Format of the file, as for ``program``.
+        **options: As for ``toolpath``.
+
+    Raises:
+        Problem: The program has faults, or the service refused the request.
+    """
+    source = yield from _stored(session, source, format)
+    least, greatest = between
+    body = _body(source, options) | {"parameter": parameter, "from": least, "to": greatest}
+    return (yield from submit(session, "toolpath/window", body, Window))
 
 
 def origins(

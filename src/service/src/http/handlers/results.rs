@@ -47,7 +47,10 @@ pub(crate) async fn get_summary(
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
     let record = record(&state, id).await?;
-    if matches!(record.kind, QuestionKind::Toolpath | QuestionKind::Placement | QuestionKind::Origins) {
+    if matches!(
+        record.kind,
+        QuestionKind::Toolpath | QuestionKind::Placement | QuestionKind::Window | QuestionKind::Origins
+    ) {
         return Err(LookupError::Result(record.id.to_string()).into());
     }
     summary(&state, record).cached(IMMUTABLE).respond(&conditions)

@@ -133,7 +133,8 @@ pub(crate) async fn get_report(
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
-    let kinds = [QuestionKind::Toolpath, QuestionKind::Placement, QuestionKind::Origins];
+    let kinds =
+        [QuestionKind::Toolpath, QuestionKind::Window, QuestionKind::Placement, QuestionKind::Origins];
     let record = stored_of_toolpath(&state, id, &kinds).await?;
     summary(&state, record).cached(IMMUTABLE).respond(&conditions)
 }

@@ -80,7 +80,7 @@ impl ToSchema for Summary {}
 
 impl PartialSchema for ToolpathResult {
     fn schema() -> RefOr<Schema> {
-        one_of(&["ToolpathReport", "Placement", "OriginsSummary"]).into()
+        one_of(&["ToolpathReport", "Window", "Placement", "OriginsSummary"]).into()
     }
 }
 

@@ -7,4 +7,5 @@ pub(crate) mod page;
 pub(crate) mod solutions;
 pub(crate) mod table;
 pub(crate) mod values;
+pub(crate) mod windows;
 pub(crate) mod workspaces;

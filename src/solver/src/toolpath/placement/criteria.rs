@@ -62,7 +62,8 @@ fn numbers(margins: &Margins) -> [f64; VALUES - 1] {
     let [i, j, k, l] = margins.platform_joint;
     let [low, high] = margins.tilt.unwrap_or([f64::INFINITY; 2]);
     let clearance = margins.table_clearance.map_or(f64::INFINITY, |margin| margin.value);
-    let Margins { parallel_singularity, rod_crossing, rod_interference, .. } = *margins;
+    let Margins { parallel_singularity, rod_interference, .. } = *margins;
+    let rod_crossing = margins.rod_crossing.unwrap_or(f64::INFINITY);
     [
         s1[0],
         s1[1],

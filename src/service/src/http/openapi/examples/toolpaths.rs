@@ -10,12 +10,15 @@ use crate::operations::placement::compute_placement;
 use crate::operations::placement_question::CheckedPlacement;
 use crate::operations::toolpath::compute_toolpath;
 use crate::operations::toolpath_request::{ProgramSource, read_fields, read_request};
+use crate::operations::window::compute_window;
+use crate::operations::window_question::CheckedWindow;
 use crate::wire::error::OperationError;
 use crate::wire::origins::OriginsBody;
 use crate::wire::parse::parse_body;
 use crate::wire::placement::PlacementBody;
+use crate::wire::window::WindowBody;
 
-/// The examples of tool paths, placements and regions of origins.
+/// The examples of tool paths, windows, placements and regions of origins.
 pub(super) fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
     let points = json!([
         {"x": 0, "y": 0, "z": 350, "i": 0, "j": 0, "k": 1},
@@ -25,6 +28,8 @@ pub(super) fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
     let request = json!({"program": {"points": points}, "setup": {"x": 10}, "tool_length": 120,
                          "tolerance": {"tip": 0.05}});
     let report = json_of(toolpath_report(&request, machines));
+    let window = json!({"program": {"points": request["program"]["points"]}, "setup": {"x": 10},
+                        "parameter": "tool_length", "from": 0, "to": 800});
     let placement = json!({"program": {"points": request["program"]["points"]}, "setup": {"x": 10},
                            "tool_length": 120, "free": {"setup.z": [-200, 400]},
                            "reserve": {"stroke": 20, "slider_joint": 2}});
@@ -45,6 +50,7 @@ pub(super) fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
             file: Some(PROGRAM),
             answer: None,
         },
+        post("/toolpath/window", window, |body| window_of(body, machines)),
         post("/toolpath/placement", placement, |body| placed(body, machines)),
         Example { method: "post", path: "/toolpath/origins", request: origins, file: None, answer: None },
         get("/toolpath/{id}/mesh.glb", of_region(), None),
@@ -70,6 +76,15 @@ fn toolpath_report(request: &Value, machines: &MachineRegistry) -> Result<Value,
     let ProgramSource::Received(program) = &source else { return Err(OperationError::Internal) };
     let question = checked.question(source.id());
     value_of(compute_toolpath(&question, &program.program, |_| Ok(Vec::new()), |_, _| Ok(()), &Unobserved))
+}
+
+/// The window of a parameter of a program whose request has points.
+fn window_of(body: &[u8], machines: &MachineRegistry) -> Result<Value, OperationError> {
+    let request: WindowBody = parse_body(body)?;
+    let (mut checked, source) = read_fields(&request.toolpath, machines)?;
+    let ProgramSource::Received(program) = &source else { return Err(OperationError::Internal) };
+    let fields = CheckedWindow::new(&request.more, &mut checked)?;
+    value_of(compute_window(&fields.question(checked.question(source.id())), &program.program, &Unobserved))
 }
 
 /// The placement of a program whose request has points.
