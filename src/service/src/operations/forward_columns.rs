@@ -65,7 +65,7 @@ impl RowAnswer for ForwardColumns {
         let parts: Vec<_> = answered.iter().map(|row| row.part.as_ref()).collect();
         let mut columns: Vec<_> = number_columns(PLATFORM, &poses).collect();
         columns.extend(number_columns(self.part(), &parts));
-        let outcomes: Vec<_> = answered.iter().map(|row| &row.outcome).collect();
+        let outcomes: Vec<_> = answered.into_iter().map(|row| row.outcome).collect();
         columns.extend(self.outcomes.of(chunk, &outcomes)?);
         Ok(columns)
     }

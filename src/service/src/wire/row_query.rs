@@ -27,7 +27,8 @@ pub(crate) struct IkRowsQuery {
     #[arg(skip)]
     #[param(inline, nullable = false)]
     pub format: Option<RowFormat>,
-    /// Name of the machine. On the command line it may also be the path of a machine file.
+    /// Name of the machine, or in a query a machine object as JSON. On the command line it may also be the path of a
+    /// machine file.
     #[serde(default = "reference_name")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
@@ -91,7 +92,8 @@ pub(crate) struct FkRowsQuery {
     #[arg(skip)]
     #[param(inline, nullable = false)]
     pub format: Option<RowFormat>,
-    /// Name of the machine. On the command line it may also be the path of a machine file.
+    /// Name of the machine, or in a query a machine object as JSON. On the command line it may also be the path of a
+    /// machine file.
     #[serde(default = "reference_name")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
@@ -142,7 +144,8 @@ pub(crate) struct ContainsRowsQuery {
     #[arg(skip)]
     #[param(inline, nullable = false)]
     pub format: Option<RowFormat>,
-    /// Name of the machine. On the command line it may also be the path of a machine file.
+    /// Name of the machine, or in a query a machine object as JSON. On the command line it may also be the path of a
+    /// machine file.
     #[serde(default = "reference_name")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]

@@ -8,6 +8,10 @@ use crate::rods::{FAMILY, RODS, Rods};
 /// Square of the difference of two rods' directions below which they count as parallel. Any point of the one then
 /// serves as the start: the distance does not depend on it.
 const PARALLEL: f64 = 1e-14;
+/// Square of the sine of the angle between two lines below which their distance loses digits.
+const NEARLY_PARALLEL: f64 = 1e-6;
+/// Allowance for rounding in the square of the distance of two lines, as a factor.
+const LINE_ROUNDING: f64 = 1.0 + 1e-9;
 /// Allowance for rounding in the square of a distance, as a factor.
 const ROUNDING: f64 = 1.0 + 1e-12;
 
@@ -157,7 +161,7 @@ fn squares_of_parallelograms(g: &Geometry, rods: &Rods) -> [f64; 2] {
 fn others_are_farther(nearest: f64, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> bool {
     let half = g.parallelogram_half_width;
     let from_leg_one =
-        |i: usize, j: usize| is_farther(nearest, &to_middle(ends, i, j, half), rods, [i, j], half);
+        |i: usize, j: usize| lines_are_farther(nearest, &to_middle(ends, i, j, half), rods, [i, j], half);
     let gap = difference(ends[2], ends[4]);
     let parallelograms = is_farther(nearest, &gap, rods, [2, 4], 2.0 * half);
     from_leg_one(0, 2) & from_leg_one(0, 4) & from_leg_one(1, 2) & from_leg_one(1, 4) & parallelograms
@@ -187,6 +191,17 @@ fn is_farther(nearest: f64, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shi
     let square_gap = dot(gap, gap);
     let apart = square_gap - greater(dot(a, gap), 0.0) + lesser(dot(b, gap), 0.0) - shift * gap[0].abs();
     (apart > 0.0) & (apart * apart >= nearest * square_gap)
+}
+
+/// Whether the lines on which two rods lie, and so the rods, are certainly at least as far apart as the nearest pair,
+/// whose distance's square is given, if one of them is shifted along x by up to `shift` either way. Rods of leg I cross
+/// the others at a large angle and at a distance: nearly always this decides.
+#[inline(always)]
+fn lines_are_farther(nearest: f64, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
+    let normal = cross(&rods.directions[FAMILY[i]], &rods.directions[FAMILY[j]]);
+    let square = dot(&normal, &normal);
+    let apart = dot(gap, &normal).abs() - shift * normal[0].abs();
+    (square > NEARLY_PARALLEL) & (apart > 0.0) & (apart * apart >= LINE_ROUNDING * nearest * square)
 }
 
 #[inline(always)]
@@ -240,6 +255,11 @@ fn to_middle(ends: &[[f64; 3]; 6], i: usize, j: usize, half_width: f64) -> [f64;
 #[inline(always)]
 fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline(always)]
+fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline(always)]

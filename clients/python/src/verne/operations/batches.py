@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import pyarrow
 
+from verne.answers.machine import Machine
 from verne.arrow_stream import MEDIA_TYPE, read_stream, write_stream
 from verne.batch import JOINTS, JointBatch, Membership, PoseBatch
 from verne.operations.kinematics import Frame
@@ -40,7 +41,7 @@ def ik_batch(
     tool_radius: float = 0.0,
     continuous: bool = False,
     start: Start | None = None,
-    machine: str = "verne",
+    machine: str | Machine = "verne",
 ) -> Operation[JointBatch]:
     """Solves the inverse problem for many poses: one solution in the working mode for each.
 
@@ -55,7 +56,7 @@ def ik_batch(
         continuous: Whether each row continues from the row before. All rows then travel in one request, and its size
             must be below the service's limit: 16 MiB by default, or 300,000 rows.
         start: Joints from which the first row continues: rho1, rho2, rho3 in mm, theta1, theta2 in degrees.
-        machine: Name of a published machine.
+        machine: Name of a published machine, or a machine.
 
     Raises:
         ValueError: An array does not have these columns, or another column has a name of the answer's.
@@ -69,7 +70,7 @@ def ik_batch(
         tool_radius=tool_radius,
         continuous=continuous or None,
         start=None if start is None else json.dumps(joints_of(start)),
-        machine=machine,
+        machine=machine if isinstance(machine, str) else json.dumps(machine),
     )
     layouts = (POSE, POSE_WITH_AXIS) if frame == "part" else (POSITION,)
     is_divisible = not continuous
@@ -83,7 +84,7 @@ def fk_batch(
     tool_length: float = 0.0,
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
-    machine: str = "verne",
+    machine: str | Machine = "verne",
 ) -> Operation[PoseBatch]:
     """Solves the forward problem for many joints: one solution in the working mode for each row.
 
@@ -93,7 +94,7 @@ def fk_batch(
         tool_length: Distance from P to the tool end, mm.
         table_clearance: Least height over the table, mm. By default it is the machine's limit, if it has one.
         tool_radius: Radius of the tool's end circle, mm. Only ``table_clearance`` uses it.
-        machine: Name of a published machine.
+        machine: Name of a published machine, or a machine.
 
     Raises:
         ValueError: An array does not have these columns, or another column has a name of the answer's.
@@ -104,7 +105,7 @@ def fk_batch(
         tool_length=tool_length,
         table_clearance=table_clearance,
         tool_radius=tool_radius,
-        machine=machine,
+        machine=machine if isinstance(machine, str) else json.dumps(machine),
     )
     return (yield from _batch(session, "fk/batch", joints, (JOINTS, JOINTS[:3]), options, PoseBatch))
 
@@ -119,7 +120,7 @@ def contains(
     phi2: float = 0.0,
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
-    machine: str = "verne",
+    machine: str | Machine = "verne",
 ) -> Operation[Membership]:
     """Tests which points are inside a workspace, without computing it.
 
@@ -132,7 +133,7 @@ def contains(
         phi2: Azimuth of the tool in the part frame, degrees. Only kind ``part`` uses it.
         table_clearance: Least height over the table, mm. By default it is the machine's limit, if it has one.
         tool_radius: Radius of the tool's end circle, mm. Only ``table_clearance`` uses it.
-        machine: Name of a published machine.
+        machine: Name of a published machine, or a machine.
 
     Raises:
         ValueError: An array does not have these columns, or another column has a name of the answer's.
@@ -145,7 +146,7 @@ def contains(
         phi2=phi2,
         table_clearance=table_clearance,
         tool_radius=tool_radius,
-        machine=machine,
+        machine=machine if isinstance(machine, str) else json.dumps(machine),
     )
     return (yield from _batch(session, "workspace/contains", points, (POSITION,), options, Membership))
 
@@ -172,8 +173,8 @@ def _batch(
         parts.append(read_stream(response.content))
     answer = pyarrow.concat_tables(parts).unify_dictionaries()
     for name in reversed(others):
-        if name in answer.column_names:
-            raise ValueError(f"{name} is a column of the answer, too: rename it, or leave it out")
-        answer = answer.add_column(0, table.schema.field(name), table.column(name))
+        # A column of the answer replaces one of its name, as in the service.
+        if name not in answer.column_names:
+            answer = answer.add_column(0, table.schema.field(name), table.column(name))
     # The metadata contains the index of a data frame of pandas.
     return kind(answer.replace_schema_metadata(table.schema.metadata))
