@@ -18,10 +18,17 @@ export default defineConfig({
     fs: { allow: ["../.."] },
     // `npm run dev` beside a running service.
     proxy: Object.fromEntries(
-      ["/fk", "/ik", "/machines", "/workspace", "/jobs", "/docs", "/openapi.json"].map((path) => [
-        path,
-        "http://127.0.0.1:8080",
-      ]),
+      [
+        "/fk",
+        "/ik",
+        "/machines",
+        "/workspace",
+        "/programs",
+        "/toolpath",
+        "/jobs",
+        "/docs",
+        "/openapi.json",
+      ].map((path) => [path, "http://127.0.0.1:8080"]),
     ),
   },
   test: { include: ["src/**/*.test.ts"] },

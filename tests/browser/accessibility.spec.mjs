@@ -16,6 +16,8 @@ for (const colorScheme of ["light", "dark"]) {
     ["desk", { width: 1280, height: 720 }],
     ["tablet", { width: 1024, height: 768 }],
     ["narrow", { width: 768, height: 1024 }],
+    ["phone", { width: 390, height: 844 }],
+    ["landscape", { width: 844, height: 390 }],
   ]) {
     test.describe(`${colorScheme}, ${name}`, () => {
       test.use({ colorScheme, viewport, provoked: [/status of 422/] });
@@ -25,7 +27,19 @@ for (const colorScheme of ["light", "dark"]) {
         await expect(page.getByTestId("slice-area")).toBeVisible();
         await expect(page.getByTestId("ghost-count")).toBeVisible();
         await page.getByRole("button", { name: /^Show all/ }).click();
+        await page.getByText("Colours and words").click();
+        const x = page.getByLabel("X on the part, mm");
+        await x.fill("1e12");
+        await x.press("Enter");
+        await expect(page.locator(".fault")).toBeVisible();
+        await page.getByRole("button", { name: "Measure" }).click();
+        await page.locator("summary", { hasText: "Copy" }).click();
         expect(await violations(page)).toEqual([]);
+        await page.keyboard.press("Escape");
+        await page.getByRole("button", { name: "Help" }).click();
+        await expect(page.getByRole("dialog")).toBeVisible();
+        expect(await violations(page)).toEqual([]);
+        await page.keyboard.press("Escape");
         await drop(page, "broken.json", '{"name": "x"}');
         await expect(page.getByRole("dialog")).toBeVisible();
         expect(await violations(page)).toEqual([]);

@@ -32,7 +32,7 @@ test("the viewer asks for a key and uses it for machines, jobs, meshes and files
   await page.goto("/#workspace=tool&section=1200");
   const dialog = page.getByRole("dialog", { name: "This service asks for a key" });
   await dialog.getByLabel("Key").fill("wrong");
-  await dialog.getByRole("button").click();
+  await dialog.getByRole("button", { name: "Go on" }).click();
   await expect(dialog.getByRole("alert")).toBeVisible();
   await dialog.getByLabel("Key").fill(key);
   await dialog.getByLabel("Key").press("Enter");
@@ -47,4 +47,18 @@ test("the viewer asks for a key and uses it for machines, jobs, meshes and files
   await page.reload();
   await page.locator("canvas[data-ready=yes]").waitFor();
   await expect(dialog).toBeHidden();
+});
+
+test("without a key the page says why it is empty, and asks again", async ({ page }) => {
+  await page.goto("/");
+  const dialog = page.getByRole("dialog", { name: "This service asks for a key" });
+  await dialog.getByRole("button", { name: "Cancel" }).click();
+  await expect(dialog).toBeHidden();
+  await expect(page.getByRole("alert")).toContainText("This service answers only with a key.");
+  await page.getByRole("button", { name: "Enter a key" }).click();
+  await dialog.getByLabel("Key").fill(key);
+  await dialog.getByLabel("Key").press("Enter");
+  await page.locator("canvas[data-ready=yes]").waitFor();
+  await expect(page.getByRole("alert")).toHaveCount(0);
+  await expect(page.getByLabel("Machine", { exact: true })).toHaveValue("verne");
 });

@@ -8,13 +8,22 @@ const [address = "http://127.0.0.1:8080"] = process.argv.slice(2);
 const DRAG_MS = 4000;
 const TOLERANCES = [1, 0.037];
 
-const html = await (await fetch(`${address}/`)).text();
-let bytes = 0;
-for (const [, name] of html.matchAll(/(?:src|href)="(\.\/assets\/[^"]+)"/g)) {
-  const body = Buffer.from(await (await fetch(new URL(name, `${address}/`))).arrayBuffer());
-  bytes += brotliCompressSync(body).length;
+/** The bytes of files of the page, compressed, and the texts of them. */
+async function weigh(names) {
+  let [bytes, text] = [0, ""];
+  for (const name of new Set(names)) {
+    const body = Buffer.from(await (await fetch(new URL(name, `${address}/`))).arrayBuffer());
+    bytes += brotliCompressSync(body).length;
+    text += body.toString();
+  }
+  return { bytes, text };
 }
-console.log(`bundle, brotli: ${(bytes / 1000).toFixed(0)} kB`);
+
+const html = await (await fetch(`${address}/`)).text();
+const first = await weigh([...html.matchAll(/(?:src|href)="(\.\/assets\/[^"]+)"/g)].map(([, name]) => name));
+// What the page loads when a program is opened.
+const later = await weigh([...first.text.matchAll(/"\.\/(program-[\w-]+\.(?:js|css))"/g)].map(([, name]) => `./assets/${name}`));
+console.log(`bundle, brotli: ${(first.bytes / 1000).toFixed(0)} kB, and ${(later.bytes / 1000).toFixed(0)} kB for programs`);
 
 const browser = await chromium.launch(LAUNCH);
 const context = await browser.newContext({ viewport: { width: 1280, height: 720 } });

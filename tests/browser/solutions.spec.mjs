@@ -53,3 +53,37 @@ test("every inverse solution of the tool's pose is shown, and a user selects one
   await list.getByRole("button").last().click();
   await expect(list.getByRole("button").last()).toHaveAttribute("aria-pressed", "true");
 });
+
+test("solutions are numbered in the list as in the scene, feasible ones first; their words are explained", async ({
+  page,
+}) => {
+  await open(page, "#joints=674,685,250,0,0&ghosts=assembly&workspace=hidden");
+  const list = page.getByRole("list", { name: "Assembly modes" });
+  await expect(list.getByRole("listitem")).toHaveCount(4);
+  const broken = await list.locator(".index").evaluateAll((all) => all.map((one) => one.classList.contains("broken")));
+  expect(broken).toEqual([...broken].sort());
+  expect(broken[0]).toBe(false);
+  // The machine itself stands at the first; the ghosts have the numbers of the list.
+  const numbers = page.locator(".label.ghost:visible");
+  await expect(numbers).toHaveText(["2", "3", "4"]);
+  for (const reason of await list.locator(".reason").allTextContents()) expect(reason).toMatch(/too far|below|cross|too/);
+  await page.getByText("Colours and words").click();
+  await expect(page.locator(".words").getByText("the two rods of leg 1 cross each other")).toBeVisible();
+});
+
+test("the whole is seen with its ghosts", async ({ page }) => {
+  await open(page, "#joints=674,685,250,0,0&ghosts=assembly&workspace=hidden");
+  await expect(page.getByTestId("ghost-count")).toHaveText("4");
+  const before = await page.locator("canvas").getAttribute("data-pictures");
+  await page.getByRole("button", { name: "Whole" }).click();
+  await expect(page.locator("canvas")).not.toHaveAttribute("data-pictures", before);
+  await page.locator("canvas[data-picture=good]").waitFor();
+  const scene = await page.locator(".scene").boundingBox();
+  for (const number of await page.locator(".label.ghost:visible").all()) {
+    const { x, y, width, height } = await number.boundingBox();
+    expect(x).toBeGreaterThan(scene.x);
+    expect(y).toBeGreaterThan(scene.y);
+    expect(x + width).toBeLessThan(scene.x + scene.width);
+    expect(y + height).toBeLessThan(scene.y + scene.height);
+  }
+});

@@ -59,3 +59,11 @@ export async function drop(page, name, content) {
 export async function verne(request) {
   return (await (await request.get("/machines/verne")).json()).definition;
 }
+
+/** A value of the canvas's data, `u,v` from -1 to 1 both ways, as a point of the page. */
+export async function pointOf(page, name) {
+  const canvas = page.locator("canvas");
+  const { x, y, width, height } = await canvas.boundingBox();
+  const [u, v] = (await canvas.getAttribute(`data-${name}`)).split(",").map(Number);
+  return [x + ((u + 1) / 2) * width, y + ((1 - v) / 2) * height];
+}

@@ -2,6 +2,7 @@
 
 mod batch;
 mod commands;
+mod terminal;
 
 use std::ffi::OsString;
 use std::io::{Read, Write};
@@ -11,14 +12,14 @@ use std::thread::{self, JoinHandle};
 
 use clap::Parser;
 use serde_json::Value;
-use verne_service::Cli;
+use verne_service::{Cli, Terminal};
 
 use crate::http::get;
 
 pub(crate) fn verne(line: &str) -> Result<String, String> {
     let words = std::iter::once("verne").chain(line.split_whitespace()).map(OsString::from);
     let mut out = Vec::new();
-    Cli::read(words).map_err(|error| error.to_string())?.run(&mut out, &mut std::io::sink(), false)?;
+    Cli::read(words).map_err(|error| error.to_string())?.run(&mut out, &mut std::io::sink(), None)?;
     Ok(String::from_utf8(out).unwrap())
 }
 
@@ -31,10 +32,15 @@ struct Ran {
 }
 
 fn run(line: &str) -> Ran {
+    run_on(line, None)
+}
+
+/// Runs a command whose standard output is this terminal, or a pipe.
+fn run_on(line: &str, terminal: Option<Terminal>) -> Ran {
     let words = std::iter::once("verne").chain(line.split_whitespace()).map(OsString::from);
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let status = match Cli::read(words) {
-        Ok(cli) => cli.run(&mut out, &mut err, false).map(|status| {
+        Ok(cli) => cli.run(&mut out, &mut err, terminal).map(|status| {
             let known = (0..=u8::MAX).find(|code| ExitCode::from(*code) == status);
             known.unwrap()
         }),
@@ -99,7 +105,7 @@ fn toolpath(text: &str, options: &str) -> (String, String, String) {
     let line = format!("verne toolpath {} {options}", file.display());
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let cli = Cli::read(line.split_whitespace().map(OsString::from)).unwrap();
-    let status = match cli.run(&mut out, &mut err, false) {
+    let status = match cli.run(&mut out, &mut err, None) {
         Ok(status) => format!("{status:?}"),
         Err(message) => message,
     };

@@ -14,7 +14,7 @@ use crate::http::{Reply, get, json_request, send_to, service};
 async fn the_committed_document_equals_the_generated_one() {
     let committed = get("/openapi.json").await.json;
     let generated = verne_service::document();
-    let difference = difference("", &generated, &committed);
+    let difference = difference("", &with_numbered_ids(&generated), &with_numbered_ids(&committed));
     assert_eq!(
         difference, None,
         "openapi/openapi.json is stale; renew it: cargo run --release -- openapi > openapi/openapi.json"
@@ -37,7 +37,8 @@ fn the_api_guide_lists_every_problem_code_as_the_service_does() {
 
 #[tokio::test]
 async fn every_example_has_its_documented_answer() {
-    let document = get("/openapi.json").await.json;
+    // The committed document has the ids of another build.
+    let document = verne_service::document();
     // One service for all: results are asked for after /workspace has computed them.
     let service = service().await;
     let mut sent = 0;
@@ -67,7 +68,7 @@ async fn every_example_has_its_documented_answer() {
             sent += 1;
         }
     }
-    assert_eq!(sent, 43);
+    assert_eq!(sent, 53);
 }
 
 async fn send_example(service: &Router, path: &str, method: &str, operation: &Value) -> Reply {
@@ -100,6 +101,26 @@ async fn send_example(service: &Router, path: &str, method: &str, operation: &Va
 /// The media type of a body and its example, if the document has one.
 fn example_of_body(body: &Value) -> Option<(&String, &Value)> {
     body["content"].as_object()?.iter().find_map(|(media, body)| Some((media, body.get("example")?)))
+}
+
+/// The document with the numbers 0, 1, ... in place of its ids, in their order: ids differ between targets.
+fn with_numbered_ids(document: &Value) -> Value {
+    let mut text = document.to_string();
+    let is_word = |c: char| c.is_ascii_alphanumeric();
+    let words = text.split(|c| !is_word(c));
+    let ids = words.filter(|word| word.len() == 64 && word.chars().all(|c| c.is_ascii_hexdigit()));
+    let mut seen = Vec::new();
+    for id in ids {
+        if !seen.contains(&id) {
+            seen.push(id);
+        }
+    }
+    let seen: Vec<_> = seen.into_iter().map(str::to_owned).collect();
+    assert!(seen.len() > 3, "{seen:?}");
+    for (number, id) in seen.iter().enumerate() {
+        text = text.replace(id, &number.to_string());
+    }
+    serde_json::from_str(&text).unwrap()
 }
 
 /// The differences of two documents. Numbers may differ by rounding: sines differ between platforms.

@@ -38,10 +38,13 @@ class Process:
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline:
             try:
-                if Client(self.port).ask("GET", "/readyz").status == 200:
+                client = Client(self.port)
+                if client.ask("GET", "/readyz").status == 200:
                     return self
             except OSError:
                 pass
+            finally:
+                client.close()
             if self.process.poll() is not None:
                 break
             time.sleep(0.02)

@@ -3,7 +3,7 @@
 
     check_texts.py target/debug/verne
 
-Checks the help of every command, openapi/openapi.json, README.md, clients/python/README.md and docs/*.md. A sentence
+Checks the help of every command, openapi/openapi.json, README.md, clients/python/README.md and the Markdown files in docs. A sentence
 must not begin with What, Who, Whoever, Whose or Of, nor with That as a conjunction: such a sentence hides who does what.
 It must not contain "told of", "is held" or "whoever". Questions and headings may begin with any word.
 """
@@ -81,7 +81,7 @@ def markdown_texts(path):
 def main(verne):
     texts = list(help_texts(verne))
     texts += document_texts(json.loads((ROOT / "openapi/openapi.json").read_text()))
-    for path in [ROOT / "README.md", ROOT / "clients/python/README.md", *sorted((ROOT / "docs").glob("*.md"))]:
+    for path in [ROOT / "README.md", ROOT / "clients/python/README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
         texts += markdown_texts(path)
     failed = False
     for place, sentence in dict.fromkeys((place, fault) for place, text in texts for fault in faults(text)):

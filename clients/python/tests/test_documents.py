@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 
 import verne
-from verne.answers import job, machine, solution, toolpath, workspace
+from verne.answers import fitting, job, machine, solution, toolpath, workspace
 
 PACKAGE = Path(__file__).parents[1]
 ROOT = PACKAGE.parents[1]
@@ -26,6 +26,7 @@ SCHEMAS: dict[str, Any] = json.loads((ROOT / "openapi" / "openapi.json").read_te
 NAMES = {
     "Deviation": "DeviationObject",
     "ForwardResult": "Answer",
+    "FrameSetup": "Setup",
     "InverseResult": "Answer",
     "JobStatus": "Job",
     "Turning": "TurningObject",
@@ -55,7 +56,7 @@ def dataclasses_of(*modules: ModuleType) -> list[Any]:
 
 
 @pytest.mark.parametrize(
-    "kind", dataclasses_of(job, machine, solution, toolpath, workspace), ids=lambda kind: kind.__name__
+    "kind", dataclasses_of(fitting, job, machine, solution, toolpath, workspace), ids=lambda kind: kind.__name__
 )
 def test_a_dataclass_has_the_fields_of_its_schema(kind: Any) -> None:
     properties, required = schema(NAMES.get(kind.__name__, kind.__name__))
@@ -72,7 +73,7 @@ def test_the_clients_have_the_same_operations() -> None:
         return {name.removeprefix("a") for name in vars(kind) if not name.startswith("_")}
 
     assert public(verne.Client) == public(verne.AsyncClient)
-    for name in ("Job", "WorkspaceJob", "FamilyJob", "DexterityJob", "ToolpathJob"):
+    for name in ("Job", "WorkspaceJob", "FamilyJob", "DexterityJob", "ToolpathJob", "PlacementJob", "OriginsJob"):
         assert public(getattr(verne, name)) == public(getattr(verne, f"Async{name}"))
 
 

@@ -10,9 +10,15 @@ import type {
   DexteritySummary,
   FamilySummary,
   Job,
+  OriginsRequest,
+  OriginsSummary,
   paths,
+  Placement,
+  PlacementRequest,
   ToolpathReport,
   ToolpathRequest,
+  Window,
+  WindowRequest,
   WorkspaceRequest,
   WorkspaceSummary,
 } from "./schemas.js";
@@ -80,6 +86,24 @@ export class Verne {
   /** The report on a tool path. */
   async toolpath(body: ToolpathRequest, options: Wait = {}): Promise<ToolpathReport> {
     return this.settled(unwrap(await this.api.POST("/toolpath", { body, ...asked(options) })), options);
+  }
+
+  /** The values of a parameter with which the machine can run a program. */
+  async window(body: WindowRequest, options: Wait = {}): Promise<Window> {
+    return this.settled(unwrap(await this.api.POST("/toolpath/window", { body, ...asked(options) })), options);
+  }
+
+  /** The set-up in which a program keeps the greatest distance from the limits. */
+  async placement(body: PlacementRequest, options: Wait = {}): Promise<Placement> {
+    return this.settled(
+      unwrap(await this.api.POST("/toolpath/placement", { body, ...asked(options) })),
+      options,
+    );
+  }
+
+  /** The summary of the region of origins of a program; `links.mesh` is its surface. */
+  async origins(body: OriginsRequest, options: Wait = {}): Promise<OriginsSummary> {
+    return this.settled(unwrap(await this.api.POST("/toolpath/origins", { body, ...asked(options) })), options);
   }
 
   /** A file of a stored result, such as `/workspace/ID/mesh.glb`. If the service evicted it, a job computes it again. */

@@ -37,7 +37,7 @@ export async function* jobEvents(
   const response = await send(new Request(address, { headers, signal: signal ?? null }));
   if (!response.ok) throw await readProblem(response);
   if (!response.body) return;
-  const decoded = response.body.pipeThrough(new TextDecoderStream() as TransformStream<Uint8Array, string>);
+  const decoded = response.body.pipeThrough(new TextDecoderStream());
   const reader = decoded.pipeThrough(new EventSourceParserStream()).getReader();
   try {
     for (;;) {

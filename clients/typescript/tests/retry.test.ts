@@ -60,8 +60,8 @@ suite("a request that the service postpones", () => {
 
 suite("an answer without a problem document", () => {
   test("is an error with its status", async () => {
-    const fetch = async () =>
-      new Response("<h1>Bad gateway</h1>", { status: 502, statusText: "Bad Gateway" });
+    const bad = new Response("<h1>Bad gateway</h1>", { status: 502, statusText: "Bad Gateway" });
+    const fetch = () => Promise.resolve(bad);
     const verne = new Verne("http://verne.test", { fetch });
     await assert.rejects(verne.file("/workspace/1/mesh.glb"), { status: 502, code: null, errors: [] });
   });

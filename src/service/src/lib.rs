@@ -20,5 +20,6 @@ mod wire;
 
 pub use http::router::document;
 pub use process::cli::Cli;
+pub use process::cli::terminal::Terminal;
 pub use process::config::ServeConfig;
 pub use process::service::{Service, serve_on};

@@ -8,7 +8,8 @@
 //!   and [`dexterity_map`] compute answers; [`mesh_files`], [`slice`] and [`drawing`] write files.
 //! - Programs: a client's file is read while it arrives and kept in the result store ([`programs`]).
 //! - Tool paths: [`toolpath_question`] checks requests; [`program_motions`] are what the planner reads; [`toolpath`]
-//!   plans, [`toolpath_rows`] and [`toolpath_report`] are what it leaves.
+//!   plans, [`toolpath_rows`] and [`toolpath_report`] are what it leaves. [`placement`] finds the best set-up,
+//!   [`origins`] the region of origins.
 //! - Jobs: a [`question`] is submitted as text ([`question_text`]); [`job_executor`] answers it, large ones in
 //!   [`subtask`]s, and stores the [`results`].
 //!
@@ -39,6 +40,8 @@ pub(crate) mod inverse;
 pub(crate) mod inverse_batch;
 pub(crate) mod inverse_columns;
 pub(crate) mod inverse_rows;
+pub(crate) mod jacobian_columns;
+pub(crate) mod jacobians;
 pub(crate) mod job_executor;
 pub(crate) mod joint_program;
 pub(crate) mod machine_hash;
@@ -46,8 +49,13 @@ pub(crate) mod machine_registry;
 pub(crate) mod mesh_files;
 pub(crate) mod nearest;
 pub(crate) mod observers;
+pub(crate) mod origins;
+pub(crate) mod origins_job;
+pub(crate) mod origins_question;
 pub(crate) mod outcome_columns;
 pub(crate) mod part_row;
+pub(crate) mod placement;
+pub(crate) mod placement_question;
 pub(crate) mod program_motions;
 pub(crate) mod program_pace;
 pub(crate) mod programs;
@@ -73,6 +81,8 @@ pub(crate) mod toolpath_report;
 pub(crate) mod toolpath_request;
 pub(crate) mod toolpath_row_text;
 pub(crate) mod toolpath_rows;
+pub(crate) mod window;
+pub(crate) mod window_question;
 pub(crate) mod workspace;
 pub(crate) mod workspace_colours;
 pub(crate) mod workspace_question;

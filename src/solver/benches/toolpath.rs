@@ -1,4 +1,5 @@
-//! What a planned row costs in working inverse problems of the part frame: `cargo bench --bench toolpath`.
+//! What a planned row costs in working inverse problems of the part frame, and how long a placement takes:
+//! `cargo bench --bench toolpath`.
 //!
 //! Both are timed in turns of about the same length, so that other load on the machine slows both down. The target is at
 //! most six.
@@ -7,8 +8,12 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use verne_solver::axis::{Preimages, preimages};
-use verne_solver::toolpath::{Curve, Motion, MotionKind, PlanOptions, ToolPosition, Turning, plan};
-use verne_solver::{Machine, PartPose, part_working};
+use verne_solver::toolpath::{
+    AdjustableProgram, Curve, Motion, MotionKind, Motions, PlacementRequest, PlanOptions, SetUp,
+    ToolPosition, Turning, place, plan,
+};
+use verne_solver::workspace::Unobserved;
+use verne_solver::{Constraint, Machine, PartPose, part_working};
 
 const ROUNDS: usize = 21;
 /// Inverse problems for each row, which is the target.
@@ -46,8 +51,53 @@ fn number(count: usize) -> f64 {
     f64::from(u32::try_from(count).unwrap_or(u32::MAX))
 }
 
+/// A dome in its own frame.
+struct Clamped(Vec<Motion>);
+
+impl AdjustableProgram for Clamped {
+    fn motions(&self, set_up: &SetUp) -> Box<dyn Motions + '_> {
+        let (s, c) = set_up.turn.sin_cos();
+        let turned = |[x, y, z]: [f64; 3]| [c * x - s * y, s * x + c * y, z];
+        let motions = self.0.iter().map(|motion| {
+            let tip = turned(motion.end.tip);
+            let tip = std::array::from_fn(|i| set_up.origin[i] + tip[i]);
+            let end = ToolPosition { tip, axis: turned(motion.end.axis) };
+            Motion { end, tool_length: set_up.tool_length, ..*motion }
+        });
+        Box::new(motions.collect::<Vec<_>>())
+    }
+
+    fn is_adjusted(&self, _: usize) -> bool {
+        true
+    }
+
+    fn stated(&self, set_up: &SetUp) -> SetUp {
+        *set_up
+    }
+}
+
+/// Places a dome of 100,000 rows with all parameters free, from a set-up in which the machine can run it and from one in
+/// which it cannot.
+fn placements(machine: &Machine) {
+    let program = Clamped(dome(200, 500));
+    for origin in [[10.0, -20.0, 0.0], [150.0, 150.0, -260.0]] {
+        let given = SetUp { origin, turn: 0.1, tool_length: 100.0 };
+        let request = PlacementRequest {
+            bounds: [[-200.0, 200.0], [-200.0, 200.0], [-280.0, 320.0], [-3.0, 3.0], [50.0, 200.0]],
+            reserve: vec![(Constraint::Stroke, 20.0), (Constraint::SliderJoint, 0.035)],
+        };
+        let start = Instant::now();
+        let placed = place(machine, &program, given, &request, &PlanOptions::default(), &Unobserved);
+        let Ok(placed) = placed else { continue };
+        let seconds = start.elapsed().as_secs_f64();
+        let rows = placed.report.rows;
+        println!("placement of {rows} rows: {seconds:.2} s, t from {:?} to {:?}", placed.given.0, placed.t);
+    }
+}
+
 fn main() {
     let machine = Machine::verne();
+    placements(&machine);
     for (lines, points) in [(100, 500), (2_000, 12)] {
         let program = dome(lines, points);
         let targets: Vec<PartPose> = program

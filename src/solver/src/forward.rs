@@ -1,8 +1,12 @@
 //! Forward kinematics: from the sliders to the platform (section III.D).
 
+mod box_search;
 mod elimination;
+mod family_edge;
 mod infeasibility;
+mod leg_one_chart;
 mod rows;
+mod working;
 
 use std::f64::consts::PI;
 
@@ -45,19 +49,28 @@ pub use rows::forward_working_rows;
 /// ```
 pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, KinematicsError> {
     let mechanism = &machine.mechanism;
+    if mechanism.at_family_edge {
+        check_numbers(mechanism, &rho, &[])?;
+        return family_edge::forward(machine, rho);
+    }
     let closure = closure(mechanism, rho)?;
     let mut roots = Roots::new();
     // The working mode's posture is the one that `forward_working` answers, to the last bit.
-    find_roots(&closure, PI, from_level_platform(&closure), &mut roots);
+    let level = from_level_platform(&closure);
+    find_roots(&closure, PI, level, &mut roots);
     postures_or_error(
-        |found| found.extend(roots.iter().filter_map(|root| closure.posture(mechanism, rho, root))),
+        |found| {
+            found.extend(roots.iter().filter_map(|root| closure.posture(mechanism, rho, root)));
+            let known = || level.and_then(|root| closure.posture(mechanism, rho, &root));
+            working::put_working_first(machine, known, found);
+        },
         || infeasibility::no_assembly(mechanism, &closure),
     )
 }
 
 /// Finds the assembly mode in the working mode. It needs no start value.
 ///
-/// If there are two, which takes sliders far outside their strokes, it is the one whose det_P has the sign of home.
+/// If there are several, which takes sliders far outside their strokes, it is one whose det_P has the sign of home.
 ///
 /// # Units
 ///
@@ -86,6 +99,9 @@ pub fn forward(machine: &Machine, rho: [f64; 3]) -> Result<Postures, KinematicsE
 /// ```
 pub fn forward_working(machine: &Machine, rho: [f64; 3]) -> Result<Posture, KinematicsError> {
     let mechanism = &machine.mechanism;
+    if mechanism.at_family_edge {
+        return working_at_family_edge(machine, rho);
+    }
     let closure = closure(mechanism, rho)?;
     // Newton's method on the branch λ > 0 from the level platform finds the working mode in practice. Its result
     // counts only if it is in the working mode and on home's side of the singularity.
@@ -98,6 +114,18 @@ pub fn forward_working(machine: &Machine, rho: [f64; 3]) -> Result<Posture, Kine
         return Ok(posture);
     }
     working_among_all(machine, &closure, rho, level)
+}
+
+/// [`forward_working`] of a machine with R1 = r1 or e1 = e2, or nearly so.
+#[cold]
+fn working_at_family_edge(machine: &Machine, rho: [f64; 3]) -> Result<Posture, KinematicsError> {
+    check_numbers(&machine.mechanism, &rho, &[])?;
+    if let Some(posture) = family_edge::working_from_home(machine, rho) {
+        return Ok(posture);
+    }
+    let postures = family_edge::forward(machine, rho)?;
+    let out_of_mode = || KinematicsError::Unreachable(infeasibility::out_of_mode(machine, &postures));
+    postures.first().filter(|first| first.working).copied().ok_or_else(out_of_mode)
 }
 
 /// The posture in the working mode among all roots.
@@ -115,13 +143,13 @@ fn working_among_all(
     find_roots(closure, mechanism.uncrossed, known, &mut roots);
     for root in roots {
         let working = closure.posture(mechanism, rho, &root).filter(|posture| posture.working);
-        if let Some(posture) = working
-            && (found.is_none() || on_home_side(machine, closure, &root))
-        {
-            found = Some(posture);
+        let Some(posture) = working else { continue };
+        if on_home_side(machine, closure, &root) {
+            return Ok(posture);
         }
+        found = found.or(Some(posture));
     }
-    found.ok_or_else(|| KinematicsError::Unreachable(infeasibility::out_of_mode(machine, rho, closure)))
+    found.ok_or_else(|| KinematicsError::Unreachable(infeasibility::no_working(machine, rho, closure)))
 }
 
 /// Whether det_P has the sign of home. The closure's determinant is det_P times a factor that has the sign of e1 - e2.

@@ -4,9 +4,12 @@
 //! of rod 11 is (bx, by, bz, -R1 sin a · by + R1 cos a · bz) against (x, y, z, a) and -bz against its slider. The
 //! other rods differ in the sign and length of the arm.
 
+mod tool_jacobian;
+
 use nalgebra::{Matrix4, Matrix4x3};
 
 pub use crate::parallel_matrix::ParallelMatrix;
+pub use tool_jacobian::{GreatestSpeed, Singularity, ToolJacobian};
 
 use crate::machine::Machine;
 use crate::parallel_matrix::{determinant, matrix};

@@ -4,6 +4,7 @@ pub(crate) mod data;
 mod drives;
 mod error;
 mod home;
+mod linear_delta;
 mod reference;
 mod validate;
 
@@ -16,8 +17,8 @@ use crate::margins::normalization::Normalization;
 use crate::mechanism::Mechanism;
 use home::Home;
 
-/// A valid machine. Every value of this type has positive lengths, ordered ranges, a solvable elimination (e1 ≠ e2,
-/// R1 > r1) and a home posture in the working mode away from singularity.
+/// A valid machine. Every value of this type has positive lengths, ordered ranges, R1 ≥ r1, and a home posture in the
+/// working mode away from singularity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
     data: MachineData,
@@ -38,13 +39,12 @@ impl Machine {
     /// # Errors
     ///
     /// Every invalid field, each with the path of its field, such as `limits/stroke/0`. A machine needs finite numbers,
-    /// positive lengths, ordered ranges, positive velocities and accelerations, D1 - d1 different from D2 - d2, R1
-    /// greater than r1, and a home posture in the working mode away from parallel singularity.
+    /// positive lengths, ordered ranges, positive velocities and accelerations, R1 not less than r1, and a home posture
+    /// in the working mode away from parallel singularity.
     ///
     /// # References
     ///
-    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(7), Fig. 3; the
-    /// conditions e1 ≠ e2 and R1 ≠ r1 stem from the elimination (see the crate's documentation).
+    /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(7), Fig. 3.
     ///
     /// # Examples
     ///

@@ -1,5 +1,7 @@
 //! The check of every solution by Eqs (3)-(6) before the solver returns it.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Matrix4, Vector4};
 
 use crate::fast_math::{greater, sin_cos_of_turn, wrapped};
@@ -18,6 +20,10 @@ pub(crate) const CORRECTION_THRESHOLD: f64 = 1e-15;
 const MAX_CORRECTED: f64 = 1e-9;
 /// Newton steps of a correction.
 const STEPS: usize = 4;
+/// Newton steps from a start that is no solution.
+const CLOSING_STEPS: usize = 30;
+/// Step, relative to the machine, after which a correction does the rest.
+const CLOSED_STEP: f64 = 1e-7;
 
 /// A pose and its error in Eqs (3)-(6).
 #[derive(Clone, Copy, Debug)]
@@ -45,19 +51,43 @@ pub(crate) fn checked_once(mechanism: &Mechanism, pose: PlatformPose, rho: [f64;
     (CheckedPose { pose, residual }, is_rounded)
 }
 
+/// Newton's method on (3)-(6) from any start. `None` if it does not converge.
+pub(crate) fn closed(mechanism: &Mechanism, start: PlatformPose, rho: [f64; 3]) -> Option<CheckedPose> {
+    let mut pose = start;
+    for _ in 0..CLOSING_STEPS {
+        let (next, length) = moved(mechanism, &pose, rho, &errors(mechanism, &pose, rho))?;
+        pose = next;
+        if length < CLOSED_STEP * mechanism.longest {
+            return Some(corrected(mechanism, pose, rho));
+        }
+    }
+    None
+}
+
+/// A pose after a Newton step, and the step's length, mm. `None` at a singularity, or if the step is out of proportion.
+fn moved(
+    mechanism: &Mechanism,
+    pose: &PlatformPose,
+    rho: [f64; 3],
+    error: &[f64; 4],
+) -> Option<(PlatformPose, f64)> {
+    let rows = matrix(&mechanism.geometry, &Rods::of(mechanism, pose, rho));
+    let jacobian = Matrix4::from_fn(|row, column| rows[row][column]);
+    let step = jacobian.lu().solve(&Vector4::from(*error))?;
+    let turn = step[3] / mechanism.geometry.R1;
+    let (x, y, z) = (pose.x - step[0], pose.y - step[1], pose.z - step[2]);
+    let moved = PlatformPose { x, y, z, alpha: wrapped(pose.alpha - turn) };
+    let length = step.amax().max(turn.abs() * mechanism.longest);
+    (turn.abs() <= PI && length.is_finite()).then_some((moved, length))
+}
+
 /// Newton's method on (3)-(6) in (x, y, z, a), as long as the error decreases.
 #[cold]
 fn corrected(mechanism: &Mechanism, pose: PlatformPose, rho: [f64; 3]) -> CheckedPose {
-    let radius = mechanism.geometry.R1;
     let mut error = errors(mechanism, &pose, rho);
     let mut best = CheckedPose { pose, residual: largest(&error) };
     for _ in 0..STEPS {
-        let rows = matrix(&mechanism.geometry, &Rods::of(mechanism, &best.pose, rho));
-        let jacobian = Matrix4::from_fn(|row, column| rows[row][column]);
-        let Some(step) = jacobian.lu().solve(&Vector4::from(error)) else { break };
-        let p = best.pose;
-        let alpha = wrapped(p.alpha - step[3] / radius);
-        let pose = PlatformPose { x: p.x - step[0], y: p.y - step[1], z: p.z - step[2], alpha };
+        let Some((pose, _)) = moved(mechanism, &best.pose, rho, &error) else { break };
         error = errors(mechanism, &pose, rho);
         let residual = largest(&error);
         if residual < best.residual {

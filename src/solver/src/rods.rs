@@ -59,16 +59,16 @@ impl Rods {
 
     /// Platform ends B of the six rods from P, in the base frame's directions.
     #[inline(always)]
-    pub(crate) fn platform_ends(&self, g: &Geometry) -> [[f64; 3]; 6] {
-        let half = g.parallelogram_half_width;
+    pub(crate) fn platform_ends(&self, mechanism: &Mechanism) -> [[f64; 3]; 6] {
+        let (g, [along, across]) = (&mechanism.geometry, mechanism.pair_offset);
         let (first, others) = ([g.R1 * self.c, g.R1 * self.s], [g.R2 * self.c, g.R2 * self.s]);
         [
             [g.D1, first[0], first[1]],
             [g.D1, -first[0], -first[1]],
-            [g.D2 + half, -others[0], -others[1]],
-            [g.D2 - half, -others[0], -others[1]],
-            [g.D2 + half, others[0], others[1]],
-            [g.D2 - half, others[0], others[1]],
+            [g.D2 + along, -others[0] + across, -others[1]],
+            [g.D2 - along, -others[0] - across, -others[1]],
+            [g.D2 + along, others[0] - across, others[1]],
+            [g.D2 - along, others[0] + across, others[1]],
         ]
     }
 }

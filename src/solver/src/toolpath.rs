@@ -17,13 +17,17 @@ mod meridian;
 mod motion;
 mod nearby_pose;
 mod node;
+mod origins;
 mod path;
+mod placement;
+mod planned_places;
 mod report;
 mod rows;
+mod set_up;
 mod start;
 mod stretches;
 mod timing;
-mod tool_motion;
+mod window;
 
 use std::fmt;
 
@@ -33,10 +37,18 @@ pub use healing::{
 };
 pub use joint_segment::Deviation;
 pub use motion::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
+pub use origins::{
+    OriginRegion, OriginRequest, OriginSlab, OriginSurvey, merge_origins, origin_slab, origin_volume,
+    slice_origins,
+};
+pub use placement::{ActiveMargin, Placement, PlacementRequest, place};
+pub use planned_places::{PlannedPlace, PlannedPlaces};
 pub use report::{Departure, Failure, LeastMargin, MOST_DEPARTURES, MOST_FAILURES, Report};
 pub use rows::{Row, RowKind, Way};
+pub use set_up::{AdjustableProgram, SetUp};
 pub use start::Start;
 pub use timing::{Feed, Governor, Pace, TimedRow, Timer, Times};
+pub use window::{ParametricProgram, WINDOW_PRECISION, Window, WindowInterval, window};
 
 use crate::machine::Machine;
 use cap::Cap;

@@ -13,7 +13,10 @@
 //! - `least_margins`: least margins between rows.
 //! - `timing`: times of rows.
 //! - `single_slider`: times of motions that are known in closed form.
+//! - `origins`: the region of origins against plans at random origins.
+//! - `placement`: set-ups with the greatest reserve.
 //! - `random_programs`: programs on machines unlike the built-in one.
+//! - `window`: windows of a parameter against bisection on the verdict.
 //! - `support`: programs, and the check of rows by the forward problem.
 
 #![allow(
@@ -39,6 +42,10 @@ mod limits;
 mod lines;
 #[path = "toolpath/machines.rs"]
 mod machines;
+#[path = "toolpath/origins.rs"]
+mod origins;
+#[path = "toolpath/placement.rs"]
+mod placement;
 #[path = "toolpath/pole.rs"]
 mod pole;
 #[path = "support/random.rs"]
@@ -57,3 +64,5 @@ mod timing;
 mod tool_changes;
 #[path = "toolpath/unlimited.rs"]
 mod unlimited;
+#[path = "toolpath/window.rs"]
+mod window;

@@ -2,34 +2,30 @@
 
 import { effect } from "@preact/signals";
 import { render } from "preact";
-import { inWords } from "./api/client";
 import { Page } from "./panels/page";
-import { keepAddress, onNewAddress, viewOfAddress } from "./state/address_bar";
+import { followLinks } from "./program/entry";
+import { keepAddress, onNewAddress, saidByAddress } from "./state/address_bar";
 import { keepWorkspace } from "./state/computation";
-import { listMachines, loadMachine } from "./state/machines";
+import { keepHistory } from "./state/history";
+import { keepJointWays } from "./state/joint_ways";
+import { follow } from "./state/link";
+import { listMachines } from "./state/machines";
 import { stay } from "./state/motion";
-import { failure, ghostKind, machine, overTable, tool, view } from "./state/store";
-import type { View } from "./state/view";
-
-async function load(next: View): Promise<void> {
-  view.value = next;
-  try {
-    await loadMachine(next);
-  } catch (thrown) {
-    failure.value = inWords(thrown);
-  }
-}
+import { ghostKind, machine, overTable, tool } from "./state/store";
 
 async function start(): Promise<void> {
   const root = document.getElementById("page");
   if (root) render(<Page />, root);
-  const first = viewOfAddress().then(load);
+  const first = saidByAddress().then(follow);
   void listMachines().catch(() => undefined);
   await first;
   keepWorkspace();
+  keepJointWays();
+  keepHistory();
   keepAddress();
-  onNewAddress((next) => void load(next));
+  onNewAddress((said) => void follow(said));
   followTool();
+  followLinks();
 }
 
 /** Another tool, another height over the table or other ghosts: the same joints are solved anew. */

@@ -119,7 +119,8 @@ fn margins(machine: &Machine, posture: &Posture, question: &[f64]) {
         finite(&margins.serial_singularity);
         finite(&margins.slider_joint);
         finite(&margins.platform_joint);
-        finite(&[margins.parallel_singularity, margins.rod_crossing, margins.rod_interference]);
+        finite(&[margins.parallel_singularity, margins.rod_interference]);
+        finite(margins.rod_crossing.as_slice());
         margins.tilt.iter().chain(&margins.rotary).for_each(|ends| finite(ends));
     }
     let TableAngles { theta1, theta2 } = table;

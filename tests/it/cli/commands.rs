@@ -107,7 +107,9 @@ async fn a_dexterity_map_is_that_of_the_service() {
 
 #[test]
 fn shells_and_manual_pages_know_every_command() {
-    for (shell, beginning) in [("bash", "_verne()"), ("zsh", "#compdef verne"), ("fish", "#")] {
+    for (shell, beginning) in
+        [("bash", "_verne()"), ("zsh", "#compdef verne"), ("fish", "#"), ("powershell", "\nusing namespace")]
+    {
         let script = verne(&format!("completions {shell}")).unwrap();
         assert!(script.starts_with(beginning), "{shell}");
         assert!(script.contains("toolpath") && script.contains("tool-length"), "{shell}");

@@ -20,7 +20,7 @@ use super::{Reply, config, get, get_from, json_request, opened, send_to};
 pub(super) fn fresh(name: &str, role: &str) -> (String, String) {
     let (mut entry, mut key) = (Vec::new(), Vec::new());
     let words = ["verne", "key", "new", "--name", name, "--role", role];
-    Cli::try_parse_from(words).unwrap().run(&mut entry, &mut key, false).unwrap();
+    Cli::try_parse_from(words).unwrap().run(&mut entry, &mut key, None).unwrap();
     (String::from_utf8(key).unwrap().trim_end().to_owned(), String::from_utf8(entry).unwrap())
 }
 

@@ -13,13 +13,43 @@ use super::{config, get, opened, post, send_to};
 const REFERENCE: &str = include_str!("../../reference/machine-verne.json");
 
 #[tokio::test]
-async fn the_built_in_machine_is_marked_as_invented() {
+async fn the_built_in_machines_are_marked_as_invented() {
     let reply = get("/machines/verne").await;
     let reference: Value = serde_json::from_str(REFERENCE).unwrap();
     assert_eq!(as_floats(&reply.json["definition"]), as_floats(&reference));
     let list = get("/machines").await;
-    assert_eq!(list.json["machines"][0]["hash"], reply.json["machine"]["hash"]);
-    assert!(list.json["machines"][0]["description"].as_str().unwrap().contains("Not Fatronik's"));
+    let [delta, verne] = [0, 1].map(|i| &list.json["machines"][i]);
+    assert_eq!(verne["hash"], reply.json["machine"]["hash"]);
+    assert!(verne["description"].as_str().unwrap().contains("Not Fatronik's"));
+    assert_eq!(delta["name"], "linear-delta");
+    assert!(delta["description"].as_str().unwrap().contains("invented"));
+}
+
+#[tokio::test]
+async fn a_linear_delta_has_no_margin_of_crossed_rods_and_does_not_turn() {
+    let definition = get("/machines/linear-delta").await.json["definition"].clone();
+    assert_eq!(definition["geometry"]["parallelogram_direction"], -30.0);
+    let all = get("/ik?frame=platform&x=120&y=-80&z=800&machine=linear-delta&solutions=all").await;
+    assert_eq!(all.solutions().len(), 16);
+    let working = &all.solutions()[0];
+    assert!(working["working"] == true && working["feasible"] == true);
+    assert_eq!(working["platform"]["alpha"].to_string(), "0.0");
+    assert!(working["margins"].get("rod_crossing").is_none());
+    for crossed in all.solutions().iter().filter(|solution| solution["mode"]["crossed"] == true) {
+        assert!(crossed["margins"]["rod_crossing"].as_f64().unwrap() < 0.0 && crossed["feasible"] == false);
+    }
+    let body = json!({"machine": definition, "joints": {"rho": working["joints"]["rho"]}});
+    let back = post("/fk", body).await;
+    assert_eq!(back.json["machine"]["hash"], all.json["machine"]["hash"]);
+    assert!((back.solutions()[0]["platform"]["x"].as_f64().unwrap() - 120.0).abs() < 1e-9);
+}
+
+#[tokio::test]
+async fn a_parallelogram_in_another_direction_needs_a_platform_that_does_not_turn() {
+    let mut machine: Value = serde_json::from_str(REFERENCE).unwrap();
+    machine["geometry"]["parallelogram_direction"] = json!(-30);
+    let body = json!({"machine": machine, "joints": {"rho": [674, 685, 250]}});
+    post("/fk", body).await.assert_bad_field("/machine/geometry/parallelogram_direction");
 }
 
 #[tokio::test]

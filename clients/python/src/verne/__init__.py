@@ -3,16 +3,26 @@
 Lengths are millimetres and angles degrees.
 """
 
+from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.machine import Machine, MachineEntry, MachineId
 from verne.answers.solution import ForwardResult, InverseResult, Joints, Limit, PartPose, PlatformPose, Solution
 from verne.answers.toolpath import ProgramSummary, ToolpathFailure, ToolpathReport
 from verne.answers.workspace import DexteritySummary, FamilySummary, Slice, WorkspaceSummary
 from verne.async_client import AsyncClient
-from verne.async_job import AsyncDexterityJob, AsyncFamilyJob, AsyncJob, AsyncToolpathJob, AsyncWorkspaceJob
+from verne.async_job import (
+    AsyncDexterityJob,
+    AsyncFamilyJob,
+    AsyncJob,
+    AsyncOriginsJob,
+    AsyncPlacementJob,
+    AsyncToolpathJob,
+    AsyncWindowJob,
+    AsyncWorkspaceJob,
+)
 from verne.batch import JointBatch, Membership, PoseBatch
 from verne.client import Client
 from verne.decoding import DecodingError
-from verne.job import DexterityJob, FamilyJob, Job, ToolpathJob, WorkspaceJob
+from verne.job import DexterityJob, FamilyJob, Job, OriginsJob, PlacementJob, ToolpathJob, WindowJob, WorkspaceJob
 from verne.local_service import LocalService, find_binary, local
 from verne.problem import Problem, ProblemError
 from verne.table import Table
@@ -22,7 +32,10 @@ __all__ = [
     "AsyncDexterityJob",
     "AsyncFamilyJob",
     "AsyncJob",
+    "AsyncOriginsJob",
+    "AsyncPlacementJob",
     "AsyncToolpathJob",
+    "AsyncWindowJob",
     "AsyncWorkspaceJob",
     "Client",
     "DecodingError",
@@ -41,7 +54,11 @@ __all__ = [
     "MachineEntry",
     "MachineId",
     "Membership",
+    "OriginsJob",
+    "OriginsSummary",
     "PartPose",
+    "Placement",
+    "PlacementJob",
     "PlatformPose",
     "PoseBatch",
     "Problem",
@@ -53,6 +70,8 @@ __all__ = [
     "ToolpathFailure",
     "ToolpathJob",
     "ToolpathReport",
+    "Window",
+    "WindowJob",
     "WorkspaceJob",
     "WorkspaceSummary",
     "find_binary",

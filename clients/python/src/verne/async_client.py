@@ -7,8 +7,16 @@ from typing import Self
 
 import httpx
 
-from verne.async_job import AsyncDexterityJob, AsyncFamilyJob, AsyncToolpathJob, AsyncWorkspaceJob
-from verne.operations import batches, kinematics, publications, toolpaths, workspaces
+from verne.async_job import (
+    AsyncDexterityJob,
+    AsyncFamilyJob,
+    AsyncOriginsJob,
+    AsyncPlacementJob,
+    AsyncToolpathJob,
+    AsyncWindowJob,
+    AsyncWorkspaceJob,
+)
+from verne.operations import batches, fitting, kinematics, publications, toolpaths, workspaces
 from verne.runners import Awaiting, awaiting, awaiting_job
 from verne.session import DEFAULT_RETRIES, DEFAULT_URL, TIMEOUT, Session
 
@@ -59,5 +67,8 @@ class AsyncClient(Awaiting[Session]):
     dexterity = awaiting_job(workspaces.dexterity, AsyncDexterityJob)
     program = awaiting(toolpaths.program)
     toolpath = awaiting_job(toolpaths.toolpath, AsyncToolpathJob)
+    window = awaiting_job(fitting.window, AsyncWindowJob)
+    placement = awaiting_job(fitting.placement, AsyncPlacementJob)
+    origins = awaiting_job(fitting.origins, AsyncOriginsJob)
     machines = awaiting(publications.machines)
     machine = awaiting(publications.machine)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TypeVar
 
+from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.toolpath import ToolpathReport
 from verne.answers.workspace import DexteritySummary, FamilySummary, WorkspaceSummary
 from verne.job import JobView
@@ -64,3 +65,18 @@ class AsyncToolpathJob(AsyncJob[ToolpathReport]):
     rows = awaiting(joint_motion.rows)
     program = awaiting(joint_motion.joint_program)
     path = awaiting(joint_motion.path)
+
+
+class AsyncWindowJob(AsyncJob[Window]):
+    """A job that finds the values of a parameter with which the machine can run a program."""
+
+
+class AsyncPlacementJob(AsyncJob[Placement]):
+    """A job that finds the set-up in which a program keeps the greatest distance from the limits."""
+
+
+class AsyncOriginsJob(AsyncJob[OriginsSummary]):
+    """A job that computes the region of origins of a program."""
+
+    mesh = awaiting(meshes.origins_mesh)
+    to_trimesh = awaiting(meshes.origins_trimesh)

@@ -45,6 +45,25 @@ class Batch(Table):
         """The reason why a row is invalid, for people. None for other rows."""
         return self["detail"]
 
+    @property
+    def condition_number(self) -> NDArray[np.float64]:
+        """Condition number of the Jacobian. NaN without a solution and at a singularity.
+
+        Raises:
+            KeyError: The batch was asked for without ``jacobian``.
+        """
+        return self["condition_number"]
+
+    @property
+    def jacobian(self) -> NDArray[np.float64]:
+        """A matrix of five rows and columns for each row: see ``Jacobian``. NaN without a solution.
+
+        Raises:
+            KeyError: The batch was asked for without ``jacobian="matrix"``.
+        """
+        entries = (f"j{row}{column}" for row in range(1, 6) for column in range(1, 6))
+        return self.to_numpy(*entries).reshape(-1, 5, 5)
+
 
 class JointBatch(Batch):
     """Solutions of the inverse problem."""

@@ -7,8 +7,8 @@ from typing import Self
 
 import httpx
 
-from verne.job import DexterityJob, FamilyJob, ToolpathJob, WorkspaceJob
-from verne.operations import batches, kinematics, publications, toolpaths, workspaces
+from verne.job import DexterityJob, FamilyJob, OriginsJob, PlacementJob, ToolpathJob, WindowJob, WorkspaceJob
+from verne.operations import batches, fitting, kinematics, publications, toolpaths, workspaces
 from verne.runners import Blocking, blocking, blocking_job
 from verne.session import DEFAULT_RETRIES, DEFAULT_URL, TIMEOUT, Session
 
@@ -67,5 +67,8 @@ class Client(Blocking[Session]):
     dexterity = blocking_job(workspaces.dexterity, DexterityJob)
     program = blocking(toolpaths.program)
     toolpath = blocking_job(toolpaths.toolpath, ToolpathJob)
+    window = blocking_job(fitting.window, WindowJob)
+    placement = blocking_job(fitting.placement, PlacementJob)
+    origins = blocking_job(fitting.origins, OriginsJob)
     machines = blocking(publications.machines)
     machine = blocking(publications.machine)

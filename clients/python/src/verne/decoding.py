@@ -78,7 +78,9 @@ def _dataclass_decoder(kind: Any) -> Any:
         ]
 
     def decoded(value: Any) -> Any:
-        return kind(**{name: item(value[name]) for name, required, item in fields() if required or name in value})
+        # A field that would be a keyword of Python, such as "from", ends with an underscore.
+        keys = ((name, name.removesuffix("_"), required, item) for name, required, item in fields())
+        return kind(**{name: item(value[key]) for name, key, required, item in keys if required or key in value})
 
     return decoded
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Generic, TypeVar
 
+from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.toolpath import ToolpathReport
 from verne.answers.workspace import DexteritySummary, FamilySummary, WorkspaceSummary
 from verne.operations import joint_motion, meshes
@@ -107,3 +108,18 @@ class ToolpathJob(Job[ToolpathReport]):
     rows = blocking(joint_motion.rows)
     program = blocking(joint_motion.joint_program)
     path = blocking(joint_motion.path)
+
+
+class WindowJob(Job[Window]):
+    """A job that finds the values of a parameter with which the machine can run a program."""
+
+
+class PlacementJob(Job[Placement]):
+    """A job that finds the set-up in which a program keeps the greatest distance from the limits."""
+
+
+class OriginsJob(Job[OriginsSummary]):
+    """A job that computes the region of origins of a program."""
+
+    mesh = blocking(meshes.origins_mesh)
+    to_trimesh = blocking(meshes.origins_trimesh)

@@ -120,6 +120,8 @@ pub(crate) enum LookupError {
     Slice(String),
     #[error("{0:?} is not a dexterity map, so it has no grid.")]
     Grid(String),
+    #[error("{0:?} is not a region of origins, so it has no mesh and no slices.")]
+    Region(String),
     #[error("No job has the id {0:?}, or the service has removed its record; GET /jobs lists the jobs.")]
     Job(String),
 }

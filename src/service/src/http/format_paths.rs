@@ -23,8 +23,12 @@ type NameAndMedia = (&'static str, &'static str);
 /// The formats that have paths of their own: of the file at a path, or of the tables that it accepts besides JSON.
 fn formats(path: &str) -> Vec<NameAndMedia> {
     match path {
-        "/workspace/{id}/mesh" => MeshFormat::ALL.map(|format| (format.name(), format.media())).into(),
-        "/workspace/{id}/slice" => SliceFormat::ALL.map(|format| (format.name(), format.media()[0])).into(),
+        "/workspace/{id}/mesh" | "/toolpath/{id}/mesh" => {
+            MeshFormat::ALL.map(|format| (format.name(), format.media())).into()
+        }
+        "/workspace/{id}/slice" | "/toolpath/{id}/slice" => {
+            SliceFormat::ALL.map(|format| (format.name(), format.media()[0])).into()
+        }
         "/toolpath/{id}/rows" | "/workspace/{id}/cells" => {
             RowFormat::ALL.map(|format| (format.name(), format.media())).into()
         }

@@ -2,6 +2,7 @@
 
 mod bare_references;
 pub(crate) mod body_schemas;
+pub(crate) mod example;
 pub(crate) mod examples;
 pub(crate) mod machine_schema;
 mod one_media_type;
@@ -59,9 +60,14 @@ use crate::wire::workspace_summary::WorkspaceSummary;
             rejects unknown and repeated fields.\n\n\
             **Errors** are `application/problem+json` (RFC 9457) with a stable `code`. `errors` lists the invalid \
             fields, each with a JSON Pointer into the body, or `/query/<name>`; for `program_fault` it lists the \
-            faults of the program, each with line, column and word."
+            faults of the program, each with line, column and word.\n\n\
+            **Stability**: within a series of versions, such as 0.1, nothing in this document is removed, and no \
+            meaning changes. Versions may add paths, optional parameters, fields, names and codes: a client must \
+            accept those that it does not know. Ids change with the version and the target of the service's binary. \
+            Parts that a later series will lose are marked `deprecated`. `docs/stability.md` has the whole promise."
     ),
     servers((url = "/", description = "This service.")),
+    external_docs(url = "/guide/", description = "The guide: quick starts, limits, workspaces and tool paths."),
     tags(
         (name = "kinematics", description = "Forward and inverse kinematics."),
         (name = "workspace", description = "Positions that the machine can reach."),

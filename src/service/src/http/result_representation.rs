@@ -39,6 +39,7 @@ pub(crate) async fn summary_or_job(
 /// A surface of a result.
 pub(crate) struct Surface {
     id: ResultId,
+    kind: QuestionKind,
     /// The set of a dexterity map.
     set: Option<SetName>,
     /// The blob with its mesh.
@@ -54,13 +55,16 @@ impl Surface {
                 let detail = "is allowed only for dexterity maps: a workspace has one mesh";
                 return Err(HttpError::field("/query/set", detail));
             }
-            (QuestionKind::Toolpath, _) => return Err(LookupError::Result(id.to_string()).into()),
+            (QuestionKind::Origins, _) => MESH,
+            (QuestionKind::Toolpath | QuestionKind::Window | QuestionKind::Placement, _) => {
+                return Err(LookupError::Result(id.to_string()).into());
+            }
             (QuestionKind::Family | QuestionKind::Subtask, _) => {
                 return Err(LookupError::Mesh(id.to_string()).into());
             }
             (QuestionKind::Dexterity, set) => set.unwrap_or(SetName::Reachable).name(),
         };
-        Ok(Self { id, set, blob })
+        Ok(Self { id, kind, set, blob })
     }
 
     fn representation(
@@ -76,8 +80,11 @@ impl Surface {
             is_unshared,
             media: format.media(),
             cache_control: None,
-            location: format!("{}/mesh?format={name}{set}", id.path()),
-            file_name: Some(format!("workspace-{id:.8}.{name}")),
+            location: format!("{}/mesh?format={name}{set}", self.kind.path(id)),
+            file_name: Some(match self.kind {
+                QuestionKind::Origins => format!("origins-{id:.8}.{name}"),
+                _ => format!("workspace-{id:.8}.{name}"),
+            }),
         }
     }
 }
@@ -145,7 +152,12 @@ fn description(question: &Question, set: Option<SetName>) -> Result<MeshDescript
     match question {
         Question::Workspace(workspace) => Ok(MeshDescription::of_workspace(workspace)),
         Question::Dexterity(map) => Ok(MeshDescription::of_set(map, set.unwrap_or(SetName::Reachable))),
-        Question::Family(_) | Question::Toolpath(_) | Question::Subtask(_) => Err(OperationError::Internal),
+        Question::Origins(region) => Ok(MeshDescription::of_origins(region)),
+        Question::Family(_)
+        | Question::Toolpath(_)
+        | Question::Window(_)
+        | Question::Placement(_)
+        | Question::Subtask(_) => Err(OperationError::Internal),
     }
 }
 

@@ -18,8 +18,8 @@ use utoipa_axum::routes;
 use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
 use crate::http::format_paths;
 use crate::http::handlers::{
-    batch, dexterity, jobs, joint_program, kinematics, machines, programs, results, service, toolpath,
-    toolpath_rows, workspace,
+    batch, dexterity, jobs, joint_program, kinematics, machines, origins, placement, programs, results,
+    service, toolpath, toolpath_rows, window, workspace,
 };
 use crate::http::openapi::{self, Document, problem_responses, security};
 use crate::http::state::SharedState;
@@ -35,7 +35,7 @@ pub fn document() -> Value {
 }
 
 /// Each route with its access.
-fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 31] {
+fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 36] {
     [
         (Key(Read, Fast), routes!(kinematics::get_fk, kinematics::post_fk)),
         (Key(Read, Fast), routes!(kinematics::get_ik, kinematics::post_ik)),
@@ -53,6 +53,11 @@ fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 31] {
         (Key(Read, Other), routes!(programs::get_source)),
         (Key(Compute, Other), routes!(toolpath::post_toolpath)),
         (Key(Compute, Other), routes!(toolpath::post_toolpath_file)),
+        (Key(Compute, Other), routes!(placement::post_placement)),
+        (Key(Compute, Other), routes!(origins::post_origins)),
+        (Key(Read, Other), routes!(origins::get_origins_mesh)),
+        (Key(Read, Other), routes!(origins::get_origins_slice)),
+        (Key(Compute, Other), routes!(window::post_window)),
         (Key(Read, Other), routes!(toolpath::get_report)),
         (Key(Read, Other), routes!(toolpath_rows::get_rows)),
         (Key(Read, Other), routes!(joint_program::get_joint_program)),

@@ -3,6 +3,8 @@
 use verne_rows::{Column, WriteError};
 
 use crate::operations::batch_rows::RowOutcome;
+use crate::operations::continuous_rows::AnsweredPose;
+use crate::operations::jacobians::RowJacobian;
 use crate::wire::batch::Row;
 
 /// Most numbers of a row of the answer.
@@ -16,6 +18,7 @@ pub(crate) struct AnswerColumns {
     /// Whether a row has numbers.
     has_numbers: Vec<bool>,
     outcomes: Vec<RowOutcome>,
+    jacobians: Vec<Option<Box<RowJacobian>>>,
 }
 
 impl AnswerColumns {
@@ -27,17 +30,34 @@ impl AnswerColumns {
             numbers: std::array::from_fn(column),
             has_numbers: Vec::with_capacity(rows),
             outcomes: Vec::with_capacity(rows),
+            jacobians: Vec::with_capacity(rows),
         }
     }
 
     /// Adds a row.
-    pub(crate) fn push(&mut self, numbers: Option<&[f64]>, outcome: RowOutcome) {
+    pub(crate) fn push(
+        &mut self,
+        numbers: Option<&[f64]>,
+        outcome: RowOutcome,
+        jacobian: Option<Box<RowJacobian>>,
+    ) {
         let row = numbers.unwrap_or_default();
         for (i, column) in self.numbers[..self.width].iter_mut().enumerate() {
             column.push(row.get(i).copied().unwrap_or(0.0));
         }
         self.has_numbers.push(numbers.is_some());
         self.outcomes.push(outcome);
+        self.jacobians.push(jacobian);
+    }
+
+    /// Adds an answered pose.
+    pub(crate) fn push_pose(&mut self, pose: AnsweredPose) {
+        self.push(pose.joints.as_deref(), pose.outcome, pose.jacobian);
+    }
+
+    /// The Jacobians of the rows.
+    pub(crate) fn jacobians(&self) -> impl Iterator<Item = Option<&RowJacobian>> + Clone {
+        self.jacobians.iter().map(Option::as_deref)
     }
 
     /// Adds the rows of another part of the batch.
@@ -47,6 +67,7 @@ impl AnswerColumns {
         }
         self.has_numbers.extend_from_slice(&part.has_numbers);
         self.outcomes.append(&mut part.outcomes);
+        self.jacobians.append(&mut part.jacobians);
     }
 
     /// The numbers as columns with these names, at most as many as a row has; and the outcomes.

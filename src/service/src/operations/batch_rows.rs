@@ -8,6 +8,7 @@ use crate::operations::solutions::self_motion_margin;
 use crate::wire::batch::{Counts, Row, RowError, RowReport, Status};
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::{FieldErrors, LARGEST_ANGLE, is_angle, is_length, too_far};
+use crate::wire::jacobian::{JacobianColumns, check_jacobian};
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::tool::Tool;
 
@@ -218,14 +219,15 @@ fn count(counts: &mut Counts, status: Status) {
 /// Checks what all rows share. `without_theta1` is the reason why no row has theta1, if none has.
 pub(crate) fn check_batch(
     tool: Tool,
+    (jacobian, characteristic_length): (Option<JacobianColumns>, Option<f64>),
     without_theta1: Option<&str>,
-    rows: usize,
-    max_rows: usize,
+    (rows, max_rows): (usize, usize),
 ) -> Result<(), OperationError> {
     if rows > max_rows {
         return Err(OperationError::TooManyRows { rows, limit: max_rows });
     }
     let mut faults = FieldErrors::default();
     tool.check(without_theta1, &mut faults);
+    check_jacobian(jacobian.is_some(), characteristic_length, without_theta1, &mut faults);
     faults.into_result()
 }

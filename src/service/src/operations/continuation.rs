@@ -7,6 +7,7 @@ use verne_solver::axis::{POLE, Preimages, preimages, tool_axis};
 use verne_solver::{Clearance, Machine, Margins, Posture, TableAngles, part_every_working, part_pose};
 
 use crate::operations::batch_rows::{RowOutcome, outcome_of_refusal};
+use crate::operations::jacobians::{RowJacobian, RowJacobians};
 use crate::operations::part_row::{Candidate, Candidates, PartRow};
 use crate::operations::table_angles::{ToolOrientation, WoundTable};
 
@@ -19,6 +20,7 @@ pub(crate) struct Setting<'a> {
     pub(crate) machine: &'a Machine,
     pub(crate) tool_length: f64,
     pub(crate) clearance: Option<&'a Clearance>,
+    pub(crate) jacobians: Option<RowJacobians>,
 }
 
 /// Where the machine stands after a row.
@@ -45,6 +47,11 @@ pub(crate) struct Chosen {
 }
 
 impl Setting<'_> {
+    /// The Jacobian of a solution, if the request asks for it.
+    pub(crate) fn jacobian(&self, posture: &Posture, table: TableAngles) -> Option<Box<RowJacobian>> {
+        self.jacobians.map(|jacobians| jacobians.of(self.machine, posture, table, self.tool_length))
+    }
+
     /// The solution of a row that continues from where the machine stands, or a solution of the first row. Otherwise
     /// the outcome of the row.
     pub(crate) fn choose(

@@ -9,6 +9,7 @@ use verne_solver::{PostureColumns, Registers, worst_margin_rows};
 
 use crate::operations::batch_rows::{BatchRow, MIN_CHUNK, RowFormat, RowOutcome, outcome_of_solution};
 use crate::operations::continuation::{Chosen, Setting, Standing};
+use crate::operations::jacobians::RowJacobian;
 use crate::operations::part_row::{Candidates, PartRow};
 use crate::operations::table_angles::TablePosition;
 use crate::wire::batch::Row;
@@ -22,13 +23,12 @@ pub(crate) struct AnsweredPose {
     pub(crate) outcome: RowOutcome,
     /// `None` for a row without a solution, and in a batch that is not continuous.
     pub(crate) jump: Option<bool>,
+    pub(crate) jacobian: Option<Box<RowJacobian>>,
 }
 
 impl AnsweredPose {
-    fn of(chosen: &Chosen, outcome: RowOutcome) -> Self {
-        let table = TablePosition::from(chosen.table);
-        let joints = Some(chosen.posture.rho.into_iter().chain(table.degrees).collect());
-        Self { joints, outcome, jump: Some(chosen.jump) }
+    pub(crate) fn without_solution(outcome: RowOutcome) -> Self {
+        Self { joints: None, outcome, jump: None, jacobian: None }
     }
 }
 
@@ -83,8 +83,8 @@ impl Setting<'_> {
         );
         let mut outcomes = outcomes.into_iter();
         let answered = rows.into_iter().map(|row| match row {
-            Ok(chosen) => Some(AnsweredPose::of(&chosen, outcomes.next()?)),
-            Err(outcome) => Some(AnsweredPose { joints: None, outcome, jump: None }),
+            Ok(chosen) => Some(self.pose(&chosen, outcomes.next()?)),
+            Err(outcome) => Some(AnsweredPose::without_solution(outcome)),
         });
         answered.flatten().collect()
     }
@@ -93,11 +93,18 @@ impl Setting<'_> {
     pub(crate) fn answered(&self, row: Result<Chosen, RowOutcome>) -> AnsweredPose {
         let chosen = match row {
             Ok(chosen) => chosen,
-            Err(outcome) => return AnsweredPose { joints: None, outcome, jump: None },
+            Err(outcome) => return AnsweredPose::without_solution(outcome),
         };
         let angles = chosen.table.angles();
         let outcome = outcome_of_solution(self.machine, &chosen.posture, Some(angles), self.clearance);
-        AnsweredPose::of(&chosen, outcome)
+        self.pose(&chosen, outcome)
+    }
+
+    fn pose(&self, chosen: &Chosen, outcome: RowOutcome) -> AnsweredPose {
+        let table = TablePosition::from(chosen.table);
+        let joints = Some(chosen.posture.rho.into_iter().chain(table.degrees).collect());
+        let jacobian = self.jacobian(&chosen.posture, table.angles);
+        AnsweredPose { joints, outcome, jump: Some(chosen.jump), jacobian }
     }
 }
 

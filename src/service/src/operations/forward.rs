@@ -9,6 +9,7 @@ use crate::operations::table_angles::TablePosition;
 use crate::wire::answer::Answer;
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::FieldErrors;
+use crate::wire::jacobian::check_jacobian;
 use crate::wire::request::{FkRequest, SolutionFilter};
 
 /// Answers a request for poses.
@@ -38,6 +39,7 @@ pub(crate) fn answer_fk(request: &FkRequest, machines: &MachineRegistry) -> Resu
         near: request.near,
         free: false,
         joints: false,
+        jacobian: request.jacobian.then_some(request.characteristic_length),
     };
     builder.answer(set)
 }
@@ -51,6 +53,7 @@ fn checked_table(request: &FkRequest) -> Result<Option<TablePosition>, Operation
     faults.angle("/joints/theta2", joints.theta2);
     let without_theta1 = joints.theta1.is_none().then_some("needs theta1 and theta2");
     request.tool().check(without_theta1, &mut faults);
+    check_jacobian(request.jacobian, request.characteristic_length, without_theta1, &mut faults);
     if let Some(near) = &request.near {
         check_near(near, &mut faults);
     }

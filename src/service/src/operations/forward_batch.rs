@@ -13,6 +13,7 @@ use verne_solver::{
 use crate::operations::batch_rows::{
     BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_refusal, row_report,
 };
+use crate::operations::jacobians::{RowJacobian, RowJacobians};
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, FkBatchRequest, Orientation, Row};
 use crate::wire::degrees::{from_degrees, to_degrees};
@@ -25,10 +26,10 @@ use crate::wire::tool::Tool;
 const JOINTS: RowFormat =
     RowFormat { lengths: &[3, 5], description: "[rho1, rho2, rho3] or [rho1, rho2, rho3, theta1, theta2]" };
 
-/// A row with a table clearance.
+/// A row with a table clearance or a Jacobian.
 const JOINTS_WITH_TABLE: RowFormat = RowFormat {
     lengths: &[5],
-    description: "[rho1, rho2, rho3, theta1, theta2]: table_clearance needs theta1",
+    description: "[rho1, rho2, rho3, theta1, theta2]: table_clearance and jacobian need theta1 and theta2",
 };
 
 /// The poses of a row.
@@ -36,6 +37,7 @@ pub(crate) struct AnsweredJoints {
     pub(crate) pose: Option<Row>,
     pub(crate) part: Option<Row>,
     pub(crate) outcome: RowOutcome,
+    pub(crate) jacobian: Option<Box<RowJacobian>>,
     /// Whether the row gives theta1.
     has_theta1: bool,
 }
@@ -44,11 +46,11 @@ impl AnsweredJoints {
     fn with_solution(pose: &PlatformPose, part: Option<Row>, outcome: RowOutcome) -> Self {
         let has_theta1 = part.is_some();
         let pose = [pose.x, pose.y, pose.z, to_degrees(pose.alpha)].into_iter().collect();
-        Self { pose: Some(pose), part, outcome, has_theta1 }
+        Self { pose: Some(pose), part, outcome, jacobian: None, has_theta1 }
     }
 
     fn without_solution(outcome: RowOutcome, has_theta1: bool) -> Self {
-        Self { pose: None, part: None, outcome, has_theta1 }
+        Self { pose: None, part: None, outcome, jacobian: None, has_theta1 }
     }
 }
 
@@ -72,17 +74,19 @@ fn answer<R: BatchRow>(
 ) -> Result<Vec<u8>, OperationError> {
     let batch = JointBatch::new(request, machines, max_rows)?;
     let rows = batch.answer(request.joints.items());
+    let jacobian =
+        batch.jacobians.map(|jacobians| jacobians.lists(rows.iter().map(|row| row.jacobian.as_deref())));
     let (mut poses, mut parts) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
     let mut outcomes = Vec::with_capacity(rows.len());
     let mut table_checked = batch.clearance.is_some();
-    for AnsweredJoints { pose, part, outcome, has_theta1 } in rows {
+    for AnsweredJoints { pose, part, outcome, has_theta1, .. } in rows {
         table_checked &= has_theta1;
         poses.push(pose);
         parts.push(part);
         outcomes.push(outcome);
     }
     let report = row_report(outcomes.into_iter(), table_checked);
-    let answer = FkBatchAnswer { machine: batch.machine.id.clone(), poses, parts, report };
+    let answer = FkBatchAnswer { machine: batch.machine.id.clone(), poses, parts, jacobian, report };
     write_json(&answer, ROW_BYTES * answer.poses.len())
 }
 
@@ -91,6 +95,7 @@ pub(crate) struct JointBatch {
     pub(crate) machine: Arc<IdentifiedMachine>,
     pub(crate) tool: Tool,
     clearance: Option<Clearance>,
+    pub(crate) jacobians: Option<RowJacobians>,
     pub(crate) orientation: Orientation,
 }
 
@@ -102,70 +107,76 @@ impl JointBatch {
         max_rows: usize,
     ) -> Result<Self, OperationError> {
         let tool = request.tool();
-        check_batch(tool, None, request.joints.len(), max_rows)?;
+        let jacobian = (request.jacobian, request.characteristic_length);
+        check_batch(tool, jacobian, None, (request.joints.len(), max_rows))?;
         let machine = machines.resolve(&request.machine)?;
         let clearance = tool.clearance(&machine);
-        Ok(Self { machine, tool, clearance, orientation: request.orientation })
+        let jacobians = RowJacobians::requested(&machine, jacobian.0, jacobian.1);
+        Ok(Self { machine, tool, clearance, jacobians, orientation: request.orientation })
     }
 
     /// Answers some rows.
     pub(crate) fn answer<R: BatchRow>(&self, rows: &[R]) -> Vec<AnsweredJoints> {
-        let Self { machine, tool, clearance, orientation } = self;
-        let chunks = rows.par_chunks(MIN_CHUNK);
-        chunks
-            .flat_map_iter(|rows| answer_rows(machine, *tool, clearance.as_ref(), *orientation, rows))
-            .collect()
+        rows.par_chunks(MIN_CHUNK).flat_map_iter(|rows| self.answer_some(rows)).collect()
+    }
+
+    /// Whether every row has to give the table's angles.
+    pub(crate) fn needs_table(&self) -> bool {
+        self.tool.table_clearance.is_some() || self.jacobians.is_some()
+    }
+
+    /// Answers rows: first it reads all of them, then it solves them, then it computes the margins.
+    fn answer_some(&self, rows: &[impl BatchRow]) -> Vec<AnsweredJoints> {
+        let Self { tool, orientation, .. } = *self;
+        let machine: &Machine = &self.machine;
+        let format = if self.needs_table() { JOINTS_WITH_TABLE } else { JOINTS };
+        let read: Vec<Result<Joints, String>> =
+            rows.iter().map(|row| row.numbers(format).map(|row| joints(&row))).collect();
+        let joints = || read.iter().filter_map(|row| row.as_ref().ok());
+        let sliders: Vec<_> = joints().map(|(rho, _)| *rho).collect();
+        let mut solved = Vec::with_capacity(sliders.len());
+        forward_working_rows(machine, &sliders, Registers::Widest, |_, answer| solved.push(answer));
+        let mut postures = PostureColumns::new();
+        for ((_, table), answer) in joints().zip(&solved) {
+            if let Ok(posture) = answer {
+                postures.push(posture, *table);
+            }
+        }
+        let mut outcomes = Vec::with_capacity(postures.len());
+        let clearance = self.clearance.as_ref();
+        worst_margin_rows(machine, &postures, clearance, Registers::Widest, |_, worst, feasible| {
+            outcomes.push(RowOutcome::of_worst(worst, feasible));
+        });
+        let (mut solved, mut outcomes) = (solved.into_iter(), outcomes.into_iter());
+        let answered = read.into_iter().map(|row| {
+            let table = match row {
+                Ok((_, table)) => table,
+                Err(detail) => {
+                    return Some(AnsweredJoints::without_solution(RowOutcome::Invalid(detail), true));
+                }
+            };
+            Some(match solved.next()? {
+                Ok(posture) => {
+                    let part = table.map(|table| {
+                        part_row(&part_pose(machine, &posture.pose, table, tool.length), orientation)
+                    });
+                    let mut answered = AnsweredJoints::with_solution(&posture.pose, part, outcomes.next()?);
+                    let jacobians = self.jacobians.zip(table);
+                    answered.jacobian = jacobians
+                        .map(|(jacobians, table)| jacobians.of(machine, &posture, table, tool.length));
+                    answered
+                }
+                Err(refusal) => {
+                    AnsweredJoints::without_solution(outcome_of_refusal(machine, refusal), table.is_some())
+                }
+            })
+        });
+        answered.flatten().collect()
     }
 }
 
 /// Sliders, and theta1 and theta2 if the row gives them.
 type Joints = ([f64; 3], Option<TableAngles>);
-
-/// Answers rows: first it reads all of them, then it solves them, then it computes the margins.
-fn answer_rows(
-    machine: &Machine,
-    tool: Tool,
-    clearance: Option<&Clearance>,
-    orientation: Orientation,
-    rows: &[impl BatchRow],
-) -> Vec<AnsweredJoints> {
-    let format = if tool.table_clearance.is_none() { JOINTS } else { JOINTS_WITH_TABLE };
-    let read: Vec<Result<Joints, String>> =
-        rows.iter().map(|row| row.numbers(format).map(|row| joints(&row))).collect();
-    let joints = || read.iter().filter_map(|row| row.as_ref().ok());
-    let sliders: Vec<_> = joints().map(|(rho, _)| *rho).collect();
-    let mut solved = Vec::with_capacity(sliders.len());
-    forward_working_rows(machine, &sliders, Registers::Widest, |_, answer| solved.push(answer));
-    let mut postures = PostureColumns::new();
-    for ((_, table), answer) in joints().zip(&solved) {
-        if let Ok(posture) = answer {
-            postures.push(posture, *table);
-        }
-    }
-    let mut outcomes = Vec::with_capacity(postures.len());
-    worst_margin_rows(machine, &postures, clearance, Registers::Widest, |_, worst, feasible| {
-        outcomes.push(RowOutcome::of_worst(worst, feasible));
-    });
-    let (mut solved, mut outcomes) = (solved.into_iter(), outcomes.into_iter());
-    let answered = read.into_iter().map(|row| {
-        let table = match row {
-            Ok((_, table)) => table,
-            Err(detail) => return Some(AnsweredJoints::without_solution(RowOutcome::Invalid(detail), true)),
-        };
-        Some(match solved.next()? {
-            Ok(posture) => {
-                let part = table.map(|table| {
-                    part_row(&part_pose(machine, &posture.pose, table, tool.length), orientation)
-                });
-                AnsweredJoints::with_solution(&posture.pose, part, outcomes.next()?)
-            }
-            Err(refusal) => {
-                AnsweredJoints::without_solution(outcome_of_refusal(machine, refusal), table.is_some())
-            }
-        })
-    });
-    answered.flatten().collect()
-}
 
 fn joints(row: &Row) -> Joints {
     let table =

@@ -54,7 +54,7 @@ impl RowAnswer for ForwardColumns {
     }
 
     fn begin(&mut self, columns: &[Column]) -> Result<(), OperationError> {
-        self.names = row_names(columns, SLIDERS, TABLE, self.batch.tool.table_clearance.is_some())?;
+        self.names = row_names(columns, SLIDERS, TABLE, self.batch.needs_table())?;
         Ok(())
     }
 
@@ -65,6 +65,10 @@ impl RowAnswer for ForwardColumns {
         let parts: Vec<_> = answered.iter().map(|row| row.part.as_ref()).collect();
         let mut columns: Vec<_> = number_columns(PLATFORM, &poses).collect();
         columns.extend(number_columns(self.part(), &parts));
+        if let Some(jacobians) = self.batch.jacobians {
+            let found: Vec<_> = answered.iter().map(|row| row.jacobian.as_deref()).collect();
+            columns.extend(jacobians.columns_of(&found));
+        }
         let outcomes: Vec<_> = answered.into_iter().map(|row| row.outcome).collect();
         columns.extend(self.outcomes.of(chunk, &outcomes)?);
         Ok(columns)

@@ -14,6 +14,7 @@ use crate::operations::table_angles::ToolOrientation;
 use crate::wire::answer::Answer;
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::FieldErrors;
+use crate::wire::jacobian::check_jacobian;
 use crate::wire::request::{Frame, IkRequest, SolutionFilter};
 
 /// Answers a request for joints.
@@ -35,6 +36,7 @@ pub(crate) fn answer_ik(request: &IkRequest, machines: &MachineRegistry) -> Resu
         near: request.near,
         free: orientations.free,
         joints: true,
+        jacobian: request.jacobian.then_some(request.characteristic_length),
     };
     builder.answer(set)
 }
@@ -46,7 +48,9 @@ fn checked_orientations(request: &IkRequest) -> Result<RequestedOrientations, Op
     for (pointer, value) in [("/pose/x", pose.x), ("/pose/y", pose.y), ("/pose/z", pose.z)] {
         faults.length(pointer, value);
     }
-    request.tool().check(request.frame.without_tilt(), &mut faults);
+    let without_theta1 = request.frame.without_tilt();
+    request.tool().check(without_theta1, &mut faults);
+    check_jacobian(request.jacobian, request.characteristic_length, without_theta1, &mut faults);
     if let Some(near) = &request.near {
         check_near(near, &mut faults);
     }

@@ -11,6 +11,7 @@ use crate::operations::batch_rows::{BLOCK_OF_COLUMNS, BatchRow, ROW_BYTES, check
 use crate::operations::continuation::{Setting, Standing};
 use crate::operations::continuous_rows::answer_continuous;
 use crate::operations::inverse_rows::{PART_POSE, answer_rows, numbers_of_answer};
+use crate::operations::jacobians::RowJacobians;
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::operations::table_angles::TablePosition;
 use crate::wire::batch::{IkBatchAnswer, IkBatchNumbers, IkBatchRequest, RowReport};
@@ -46,8 +47,10 @@ fn answer<R: BatchRow>(
         joints: Vec::new(),
         jump: None,
         jumps: None,
+        jacobian: None,
         report: RowReport::default(),
     };
+    answer.jacobian = batch.jacobians.map(|jacobians| jacobians.lists(columns.jacobians()));
     answer.jumps = jumps.as_ref().map(|jumps| jumps.iter().filter(|jump| **jump == Some(true)).count());
     answer.jump = jumps;
     let outcomes;
@@ -70,6 +73,7 @@ pub(crate) struct PoseBatch {
     pub(crate) frame: Frame,
     tool_length: f64,
     clearance: Option<Clearance>,
+    pub(crate) jacobians: Option<RowJacobians>,
     continuous: bool,
     standing: Option<Standing>,
 }
@@ -82,18 +86,26 @@ impl PoseBatch {
         max_rows: usize,
     ) -> Result<Self, OperationError> {
         let (tool, frame) = (request.tool(), request.frame);
-        check_batch(tool, frame.without_tilt(), request.poses.len(), max_rows)?;
+        let jacobian = (request.jacobian, request.characteristic_length);
+        check_batch(tool, jacobian, frame.without_tilt(), (request.poses.len(), max_rows))?;
         check_continuous(request)?;
         let machine = machines.resolve(&request.machine)?;
         let clearance = tool.clearance(&machine).filter(|_| frame == Frame::Part);
         let (tool_length, continuous) = (tool.length, request.continuous);
-        let mut batch = Self { machine, frame, tool_length, clearance, continuous, standing: None };
+        let jacobians = RowJacobians::requested(&machine, jacobian.0, jacobian.1);
+        let mut batch =
+            Self { machine, frame, tool_length, clearance, jacobians, continuous, standing: None };
         batch.standing = request.start.map(|start| standing_at(&batch.setting(), start)).transpose()?;
         Ok(batch)
     }
 
     fn setting(&self) -> Setting<'_> {
-        Setting { machine: &self.machine, tool_length: self.tool_length, clearance: self.clearance.as_ref() }
+        Setting {
+            machine: &self.machine,
+            tool_length: self.tool_length,
+            clearance: self.clearance.as_ref(),
+            jacobians: self.jacobians,
+        }
     }
 
     /// Answers the next rows.
@@ -104,9 +116,7 @@ impl PoseBatch {
             let answered = answer_continuous(self.setting(), PART_POSE, rows, &mut standing);
             self.standing = standing;
             let jumps = answered.iter().map(|row| row.jump).collect();
-            for row in answered {
-                columns.push(row.joints.as_deref(), row.outcome);
-            }
+            answered.into_iter().for_each(|row| columns.push_pose(row));
             return AnsweredPoses { columns, jumps: Some(jumps) };
         }
         let (setting, frame) = (self.setting(), self.frame);

@@ -56,8 +56,13 @@ impl RowAnswer for InverseColumns {
 
     fn answer(&mut self, chunk: &Chunk, _: &dyn Observer) -> Result<Vec<Column>, OperationError> {
         let rows = RowColumns::of(chunk, &self.names)?;
-        let AnsweredPoses { columns, jumps } = self.batch.answer(&rows.rows());
-        let (mut columns, outcomes) = columns.into_columns(JOINTS).map_err(defect)?;
+        let AnsweredPoses { columns: answered, jumps } = self.batch.answer(&rows.rows());
+        let jacobians = self.batch.jacobians.map(|jacobians| {
+            let found: Vec<_> = answered.jacobians().collect();
+            jacobians.columns_of(&found)
+        });
+        let (mut columns, outcomes) = answered.into_columns(JOINTS).map_err(defect)?;
+        columns.extend(jacobians.into_iter().flatten());
         columns.extend(jumps.map(|jumps| Column::flags("jump", jumps)));
         columns.extend(self.outcomes.of(chunk, &outcomes)?);
         Ok(columns)

@@ -11,6 +11,8 @@ use crate::operations::batch_rows::{
     BatchRow, ROW_WITH_AXIS, RowFormat, RowOutcome, outcome_of_refusal, outcome_of_solution,
 };
 use crate::operations::continuation::Setting;
+use crate::operations::continuous_rows::AnsweredPose;
+use crate::operations::jacobians::RowJacobian;
 use crate::operations::part_row::PartRow;
 use crate::operations::table_angles::{TablePosition, ToolOrientation, WoundTable};
 use crate::wire::batch::Row;
@@ -29,20 +31,18 @@ pub(crate) fn numbers_of_answer(frame: Frame) -> usize {
     if frame == Frame::Part { 5 } else { 3 }
 }
 
-/// A row that is not solved with the others: a malformed one, or one with a tool axis.
-type AnsweredRow = (Option<Row>, RowOutcome);
-
 /// The first working posture of a target.
-#[derive(Clone, Copy, Debug)]
 struct Solution {
     rho: [f64; 3],
     table: Option<WoundTable>,
+    jacobian: Option<Box<RowJacobian>>,
 }
 
 /// Answers rows: first it reads all of them, then it solves them, then it computes the margins.
 pub(crate) fn answer_rows(setting: Setting<'_>, frame: Frame, rows: &[impl BatchRow]) -> AnswerColumns {
     let mut targets = Vec::with_capacity(rows.len());
-    let mut answered: Vec<(usize, AnsweredRow)> = Vec::new();
+    // Rows that are not solved with the others: malformed ones, and those with a tool axis.
+    let mut answered: Vec<(usize, AnsweredPose)> = Vec::new();
     for (i, row) in rows.iter().enumerate() {
         match read_row(setting, frame, row) {
             Ok(target) => targets.push(target),
@@ -54,17 +54,19 @@ pub(crate) fn answer_rows(setting: Setting<'_>, frame: Frame, rows: &[impl Batch
     let (mut answered, mut worst) = (answered.into_iter().peekable(), worst.into_iter());
     let mut solved = targets.iter().zip(solved);
     for i in 0..rows.len() {
-        if let Some((_, (joints, outcome))) = answered.next_if(|(row, _)| *row == i) {
-            answers.push(joints.as_deref(), outcome);
+        if let Some((_, pose)) = answered.next_if(|(row, _)| *row == i) {
+            answers.push_pose(pose);
             continue;
         }
         match solved.next() {
             Some((target, Ok(solution))) => {
                 if let Some((margin, feasible)) = worst.next() {
-                    push_solution(setting, target, &solution, (margin, feasible), &mut answers);
+                    push_solution(setting, target, solution, (margin, feasible), &mut answers);
                 }
             }
-            Some((_, Err(refusal))) => answers.push(None, outcome_of_refusal(setting.machine, refusal)),
+            Some((_, Err(refusal))) => {
+                answers.push(None, outcome_of_refusal(setting.machine, refusal), None);
+            }
             None => {}
         }
     }
@@ -80,14 +82,15 @@ fn solve(
     frame: Frame,
     targets: &[Target],
 ) -> (Vec<Result<Solution, KinematicsError>>, Vec<Feasibility>) {
-    let Setting { machine, tool_length, clearance } = setting;
+    let Setting { machine, tool_length, clearance, .. } = setting;
     let mut solved = Vec::with_capacity(targets.len());
     let mut postures = PostureColumns::new();
     let found = |i: usize, answer: Result<Posture, KinematicsError>| {
         solved.push(answer.map(|posture| {
             let table = targets.get(i).and_then(|target| target.wound(machine, posture.pose.alpha));
             postures.push(&posture, table.map(|table| table.angles()));
-            Solution { rho: posture.rho, table }
+            let jacobian = table.and_then(|table| setting.jacobian(&posture, table.angles()));
+            Solution { rho: posture.rho, table, jacobian }
         }));
     };
     let points = || -> Vec<Point> { targets.iter().map(Target::point).collect() };
@@ -111,12 +114,12 @@ fn solve(
 fn push_solution(
     setting: Setting<'_>,
     target: &Target,
-    first: &Solution,
+    first: Solution,
     (worst, feasible): Feasibility,
     answers: &mut AnswerColumns,
 ) {
-    if !feasible && let Some((row, outcome)) = target.feasible_other(setting) {
-        answers.push(Some(&row), outcome);
+    if !feasible && let Some(pose) = target.feasible_other(setting) {
+        answers.push_pose(pose);
         return;
     }
     let outcome = RowOutcome::of_worst(worst, feasible);
@@ -124,16 +127,16 @@ fn push_solution(
     match first.table {
         Some(table) => {
             let [theta1, theta2] = TablePosition::from(table).degrees;
-            answers.push(Some(&[rho1, rho2, rho3, theta1, theta2]), outcome);
+            answers.push(Some(&[rho1, rho2, rho3, theta1, theta2]), outcome, first.jacobian);
         }
-        None => answers.push(Some(&first.rho), outcome),
+        None => answers.push(Some(&first.rho), outcome, None),
     }
 }
 
 /// The target of a row; or the row's answer, if it has none or a tool axis.
-fn read_row(setting: Setting<'_>, frame: Frame, row: &impl BatchRow) -> Result<Target, AnsweredRow> {
+fn read_row(setting: Setting<'_>, frame: Frame, row: &impl BatchRow) -> Result<Target, AnsweredPose> {
     let row = row.numbers(if frame == Frame::Part { PART_POSE } else { POSITION });
-    let row = row.map_err(|detail| (None, RowOutcome::Invalid(detail)))?;
+    let row = row.map_err(|detail| AnsweredPose::without_solution(RowOutcome::Invalid(detail)))?;
     if row.len() == ROW_WITH_AXIS {
         return Err(answer_axis(setting, &row));
     }
@@ -149,13 +152,12 @@ fn read_row(setting: Setting<'_>, frame: Frame, row: &impl BatchRow) -> Result<T
 }
 
 /// Answers a row with a tool axis as if it were the first row of a continuous batch.
-fn answer_axis(setting: Setting<'_>, row: &Row) -> AnsweredRow {
+fn answer_axis(setting: Setting<'_>, row: &Row) -> AnsweredPose {
     let chosen = PartRow::of_numbers(row).map_err(RowOutcome::Invalid).and_then(|row| {
         let candidates = row.candidates(setting.machine, setting.tool_length, 0.0);
         setting.choose(None, &row, &candidates)
     });
-    let answered = setting.answered(chosen);
-    (answered.joints, answered.outcome)
+    AnsweredPose { jump: None, ..setting.answered(chosen) }
 }
 
 /// The pose of a row.
@@ -179,15 +181,18 @@ impl Target {
     }
 
     /// Joints and outcome of the feasible working posture with the least alpha, if there is one.
-    fn feasible_other(&self, setting: Setting<'_>) -> Option<(Row, RowOutcome)> {
-        let Setting { machine, tool_length, clearance } = setting;
+    fn feasible_other(&self, setting: Setting<'_>) -> Option<AnsweredPose> {
+        let Setting { machine, tool_length, clearance, .. } = setting;
         let mut others = self.every_working(machine, tool_length);
         others.sort_by(|a, b| a.pose.alpha.total_cmp(&b.pose.alpha));
         others.iter().find_map(|posture| {
             let table = self.wound(machine, posture.pose.alpha).map(TablePosition::from);
             let angles = table.map(|table| table.angles);
             let outcome = outcome_of_solution(machine, posture, angles, clearance);
-            matches!(outcome, RowOutcome::Ok(_)).then(|| (joints(posture, table), outcome))
+            matches!(outcome, RowOutcome::Ok(_)).then(|| {
+                let jacobian = angles.and_then(|angles| setting.jacobian(posture, angles));
+                AnsweredPose { joints: Some(joints(posture, table)), outcome, jump: None, jacobian }
+            })
         })
     }
 

@@ -17,11 +17,15 @@ use crate::operations::family_question::FamilyQuestion;
 use crate::operations::family_table::FamilyTable;
 use crate::operations::mesh_files::{MeshDescription, mesh_file_name, write_mesh};
 use crate::operations::observers::{ObserverFns, equal_section};
+use crate::operations::origins_job::{answer_part, merge_region};
+use crate::operations::origins_question::OriginsQuestion;
+use crate::operations::placement::answer_placement;
 use crate::operations::question::Question;
 use crate::operations::question_text::JobParameters;
 use crate::operations::results::{CELLS, MESH, Results, pack_mesh};
 use crate::operations::subtask::{Subtask, SubtaskRequest};
 use crate::operations::toolpath_job::answer_toolpath;
+use crate::operations::window::answer_window;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::telemetry::metrics::computations::ComputationMetrics;
@@ -62,6 +66,9 @@ impl JobExecutor {
             Question::Family(family) => self.family(question, family, parameters, observer),
             Question::Dexterity(map) => self.dexterity(question, map, parameters, observer),
             Question::Toolpath(path) => answer_toolpath(&self.store, path, &self.computations, observer),
+            Question::Window(asked) => answer_window(&self.store, asked, &self.computations, observer),
+            Question::Placement(asked) => answer_placement(&self.store, asked, &self.computations, observer),
+            Question::Origins(region) => self.origins(region, parameters, observer),
             Question::Subtask(subtask) => self.subtask(subtask, parameters, observer).map(drop),
         }
     }
@@ -137,15 +144,18 @@ impl JobExecutor {
             return Ok(stored);
         }
         let machine = Arc::clone(&subtask.machine);
-        let computed = match subtask.request {
+        let computed = match &subtask.request {
             SubtaskRequest::Member(member) => {
-                let member = WorkspaceQuestion::of(machine, member);
+                let member = WorkspaceQuestion::of(machine, *member);
                 return self.member(&member, parameters, observer).map(|_| Bytes::new());
             }
             SubtaskRequest::Slab { map, number, count } => {
-                compute_slab(&DexterityQuestion::of(machine, map), [number, count], observer)?
+                compute_slab(&DexterityQuestion::of(machine, *map), [*number, *count], observer)?
             }
-            SubtaskRequest::Volumes(map) => compute_volumes(&DexterityQuestion::of(machine, map), observer)?,
+            SubtaskRequest::Volumes(map) => compute_volumes(&DexterityQuestion::of(machine, *map), observer)?,
+            SubtaskRequest::Origins { region, part } => {
+                answer_part(&self.store, &subtask.region(region), *part, observer)?
+            }
         };
         self.computations.count();
         self.store.put_blob(id, SUBTASK, computed)
@@ -177,12 +187,35 @@ impl JobExecutor {
         self.store.put_record(question, &merged.summary, None)
     }
 
+    /// Merges a region of origins from the results of its parts, and computes those that the store has evicted.
+    fn origins(
+        &self,
+        region: &OriginsQuestion,
+        parameters: JobParameters,
+        observer: &dyn Observer,
+    ) -> Result<(), OperationError> {
+        if self.store.complete_record(region.id, &[MESH]).is_some() {
+            return Ok(());
+        }
+        let subtasks = Subtask::of_region(region);
+        let parts = subtasks.iter().enumerate().map(|(i, subtask)| {
+            self.subtask(subtask, parameters, &equal_section(observer, i, subtasks.len()))
+        });
+        let parts = parts.collect::<Result<Vec<Bytes>, OperationError>>()?;
+        merge_region(&self.store, region, &parts, observer)
+    }
+
     /// The subtasks from which a question's answer is merged; none if the answer is stored.
     fn subtasks(&self, question: &Question) -> Vec<Subtask> {
         let (subtasks, blobs): (_, &[&str]) = match question {
-            Question::Workspace(_) | Question::Toolpath(_) | Question::Subtask(_) => return Vec::new(),
+            Question::Workspace(_)
+            | Question::Toolpath(_)
+            | Question::Window(_)
+            | Question::Placement(_)
+            | Question::Subtask(_) => return Vec::new(),
             Question::Family(family) => (Subtask::of_family(family), &[]),
             Question::Dexterity(map) => (Subtask::of_map(map), &MAP),
+            Question::Origins(region) => (Subtask::of_region(region), &[MESH]),
         };
         if self.store.complete_record(question.id(), blobs).is_some() { Vec::new() } else { subtasks }
     }
@@ -254,46 +287,4 @@ fn stop(error: &OperationError) -> WorkError {
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
-mod tests {
-    use serde_json::{from_value, json};
-    use tokio::runtime::Handle;
-    use verne_jobs::{RunControl, Work};
-    use verne_store::Store;
-
-    use super::JobExecutor;
-    use crate::operations::machine_registry::MachineRegistry;
-    use crate::operations::question::Question;
-    use crate::operations::question_text::JobParameters;
-    use crate::operations::results::{MESH, Results};
-    use crate::operations::workspace_question::WorkspaceQuestion;
-    use crate::telemetry::metrics::computations::ComputationMetrics;
-    use crate::wire::format::MeshFormat;
-
-    struct Unwatched;
-
-    impl RunControl for Unwatched {
-        fn progress(&self, _: f64) {}
-
-        fn cancelled(&self) -> bool {
-            false
-        }
-    }
-
-    #[tokio::test]
-    async fn a_job_stores_the_mesh_in_the_format_that_the_client_waits_for() {
-        let results = Results::new(Store::in_memory(1 << 24));
-        let executor = JobExecutor::new(results.clone(), ComputationMetrics::default(), Handle::current());
-        let request = from_value(json!({"tolerance": 50})).unwrap();
-        let question = WorkspaceQuestion::new(&request, &MachineRegistry::default()).unwrap();
-        let id = question.id;
-        let parameters =
-            JobParameters { max_triangles: 100_000, cost: 1.0, mesh_format: Some(MeshFormat::Stl) };
-        let job = Question::Workspace(question).submission(parameters, String::new(), None).unwrap();
-        let run = tokio::task::spawn_blocking(move || executor.run(&job.id, &job.payload, &Unwatched));
-        run.await.unwrap().unwrap();
-        for (blob, stored) in [(MESH, true), ("mesh.stl", true), ("mesh.glb", false)] {
-            assert_eq!(results.blob(id, blob).await.is_some(), stored, "{blob}");
-        }
-        assert!(results.record(id).await.is_some());
-    }
-}
+mod tests;

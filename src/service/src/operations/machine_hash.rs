@@ -45,7 +45,11 @@ pub(crate) fn machine_hash(data: &MachineData) -> String {
         put(if axes.is_some() { 1.0 } else { 0.0 });
         axes.into_iter().flatten().flatten().for_each(&mut put);
     }
-    // An optional limit comes last, so that it does not change the hash of machines without it.
+    // Optional numbers come last, so that they do not change the hash of machines without them.
     l.table_clearance.into_iter().for_each(&mut put);
+    if g.parallelogram_direction != 0.0 {
+        // No table clearance is negative.
+        [-1.0, g.parallelogram_direction].into_iter().for_each(&mut put);
+    }
     hasher.finalize().to_hex().to_string()
 }

@@ -1,4 +1,4 @@
-//! The published machines: the built-in one and those of a directory.
+//! The published machines: the built-in ones and those of a directory.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -90,8 +90,8 @@ pub(crate) struct MachineRegistry(BTreeMap<String, Arc<IdentifiedMachine>>);
 
 impl Default for MachineRegistry {
     fn default() -> Self {
-        let verne = IdentifiedMachine::new(Machine::verne());
-        Self(BTreeMap::from([(verne.name().to_owned(), Arc::new(verne))]))
+        let built_in = [Machine::verne(), Machine::linear_delta()].map(IdentifiedMachine::new);
+        Self(built_in.into_iter().map(|machine| (machine.name().to_owned(), Arc::new(machine))).collect())
     }
 }
 

@@ -7,6 +7,7 @@ use verne_mesh::{Mesh, glb, ply, stl};
 
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::machine_registry::IdentifiedMachine;
+use crate::operations::origins_question::OriginsQuestion;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::dexterity::SetName;
 use crate::wire::error::OperationError;
@@ -24,6 +25,7 @@ const TRIANGLE_BYTES: usize = 64;
 /// What every file states about its mesh: kind, frame, request and machine.
 pub(crate) struct MeshDescription<'a> {
     kind: &'static str,
+    name: String,
     frame: FrameName,
     request: Value,
     not_checked: &'static [Unchecked],
@@ -37,6 +39,7 @@ impl<'a> MeshDescription<'a> {
         let kind = question.request.kind;
         Self {
             kind: kind.name(),
+            name: workspace_name(kind.name(), &question.machine),
             frame: kind.frame(),
             request: json!(question.request),
             not_checked: question.request.not_checked(),
@@ -49,10 +52,25 @@ impl<'a> MeshDescription<'a> {
     pub(crate) fn of_set(question: &'a DexterityQuestion, set: SetName) -> Self {
         Self {
             kind: set.name(),
+            name: workspace_name(set.name(), &question.machine),
             frame: FrameName::Part,
             request: json!(question.request),
             not_checked: Unchecked::beside(question.request.table_clearance.is_some()),
             machine: &question.machine,
+            id: question.id,
+        }
+    }
+
+    /// The mesh of a region of origins.
+    pub(crate) fn of_origins(question: &'a OriginsQuestion) -> Self {
+        let toolpath = &question.toolpath;
+        Self {
+            kind: "origins",
+            name: format!("origins of a program on {}", toolpath.machine.id.name),
+            frame: FrameName::Part,
+            request: json!(question.request()),
+            not_checked: Unchecked::beside(toolpath.request.table_clearance.is_some()),
+            machine: &toolpath.machine,
             id: question.id,
         }
     }
@@ -83,14 +101,17 @@ impl<'a> MeshDescription<'a> {
             FrameName::Base => glb::Up::NegativeZ,
             FrameName::Part => glb::Up::PositiveZ,
         };
-        let name = format!("{} workspace of {}", self.kind, self.machine.id.name);
-        glb::Options { name, up, extras }
+        glb::Options { name: self.name.clone(), up, extras }
     }
 
     /// A short title: the header of an STL file has 80 bytes.
     fn title(&self) -> String {
         format!("{} {}, {:.16}", self.machine.id.name, self.kind, self.id)
     }
+}
+
+fn workspace_name(kind: &str, machine: &IdentifiedMachine) -> String {
+    format!("{kind} workspace of {}", machine.id.name)
 }
 
 /// The name of the blob with a mesh file, from the blob with the mesh.

@@ -1,6 +1,7 @@
 //! The motions of a program in the part frame, as the planner reads them. They are made one by one from the program's
 //! moves: a second list of a million motions would take more memory than the program.
 
+pub(crate) mod adjustable;
 pub(crate) mod check;
 pub(crate) mod frame;
 pub(crate) mod sections;

@@ -1,4 +1,5 @@
-//! A question that a job answers: a workspace, a family of workspaces, a dexterity map, a tool path, or a subtask.
+//! A question that a job answers: a workspace, a family of workspaces, a dexterity map, a tool path, a
+//! placement, a region of origins, or a subtask.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,14 +10,20 @@ use verne_solver::workspace::Observer;
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::family_question::FamilyQuestion;
 use crate::operations::machine_registry::IdentifiedMachine;
+use crate::operations::origins_question::OriginsQuestion;
+use crate::operations::placement_question::PlacementQuestion;
 use crate::operations::question_text::{CanonicalRequest, JobParameters, QuestionKind, QuestionText};
 use crate::operations::subtask::Subtask;
 use crate::operations::toolpath_question::ToolpathQuestion;
+use crate::operations::window_question::WindowQuestion;
 use crate::operations::workspace_question::{WorkspaceQuestion, check_triangles, workspace_cost};
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::machine::MachineObject;
+use crate::wire::origins::CanonicalOrigins;
+use crate::wire::placement::CanonicalPlacement;
 use crate::wire::result_id::ResultId;
+use crate::wire::window::CanonicalWindow;
 
 /// About the bytes of a question's text.
 const TEXT_BYTES: usize = 2048;
@@ -32,7 +39,13 @@ pub(crate) enum Question {
     Dexterity(DexterityQuestion),
     /// A tool path.
     Toolpath(Box<ToolpathQuestion>),
-    /// A subtask of a family or of a dexterity map.
+    /// A window.
+    Window(Box<WindowQuestion>),
+    /// A placement.
+    Placement(Box<PlacementQuestion>),
+    /// A region of origins.
+    Origins(Box<OriginsQuestion>),
+    /// A subtask of a family, of a dexterity map or of a region of origins.
     Subtask(Subtask),
 }
 
@@ -44,6 +57,9 @@ impl Question {
             Self::Family(question) => question.id,
             Self::Dexterity(question) => question.id,
             Self::Toolpath(question) => question.id,
+            Self::Window(question) => question.id,
+            Self::Placement(question) => question.id,
+            Self::Origins(question) => question.id,
             Self::Subtask(subtask) => subtask.id(),
         }
     }
@@ -55,6 +71,9 @@ impl Question {
             Self::Family(_) => QuestionKind::Family,
             Self::Dexterity(_) => QuestionKind::Dexterity,
             Self::Toolpath(_) => QuestionKind::Toolpath,
+            Self::Window(_) => QuestionKind::Window,
+            Self::Placement(_) => QuestionKind::Placement,
+            Self::Origins(_) => QuestionKind::Origins,
             Self::Subtask(_) => QuestionKind::Subtask,
         }
     }
@@ -71,6 +90,9 @@ impl Question {
             Self::Family(family) => (family.triangles(observer)?, family.count()),
             Self::Dexterity(question) => return Ok(question.cost()),
             Self::Toolpath(question) => return Ok(question.cost),
+            Self::Window(question) => return Ok(question.cost()),
+            Self::Placement(question) => return Ok(question.cost()),
+            Self::Origins(question) => return Ok(question.cost()),
             Self::Subtask(_) => return Err(OperationError::Internal),
         };
         check_triangles(triangles, max_triangles)?;
@@ -86,12 +108,24 @@ impl Question {
             Self::Toolpath(path) => {
                 (&path.machine, CanonicalRequest::Toolpath(Box::new(path.request.clone())))
             }
-            Self::Subtask(subtask) => (&subtask.machine, CanonicalRequest::Subtask(subtask.request)),
+            Self::Window(question) => {
+                (&question.toolpath.machine, CanonicalRequest::Window(Box::new(question.request())))
+            }
+            Self::Placement(question) => {
+                (&question.toolpath.machine, CanonicalRequest::Placement(Box::new(question.request())))
+            }
+            Self::Origins(question) => {
+                (&question.toolpath.machine, CanonicalRequest::Origins(Box::new(question.request())))
+            }
+            Self::Subtask(subtask) => (&subtask.machine, CanonicalRequest::Subtask(subtask.request.clone())),
         };
         let hash = Arc::clone(&machine.id.hash);
         let machine = MachineObject::from(machine.data());
         let cost = match self {
             Self::Toolpath(question) => Some(question.cost),
+            Self::Window(question) => Some(question.toolpath.cost),
+            Self::Placement(question) => Some(question.toolpath.cost),
+            Self::Origins(question) => Some(question.toolpath.cost),
             _ => None,
         };
         write_json(&QuestionText { request, machine, hash, cost, parameters }, TEXT_BYTES)
@@ -101,21 +135,31 @@ impl Question {
     ///
     /// # Errors
     ///
-    /// [`OperationError::OtherVersion`] if the id differs: another version of the service wrote the text and meant
-    /// another answer.
+    /// [`OperationError::OtherVersion`] if the id differs: a binary of another version, or for another target, wrote
+    /// the text and meant another answer.
     pub(crate) fn from_text(text: &[u8], id: ResultId) -> Result<Self, OperationError> {
         let text: QuestionText = serde_json::from_slice(text).map_err(|_| OperationError::OtherVersion)?;
         let machine =
             IdentifiedMachine::from_object(&text.machine).map_err(|_| OperationError::OtherVersion)?.into();
+        let toolpath =
+            |machine, request| ToolpathQuestion::of(machine, request, text.cost.unwrap_or_default());
         let question = match text.request {
             CanonicalRequest::Workspace(request) => Self::Workspace(WorkspaceQuestion::of(machine, request)),
             CanonicalRequest::Family(request) => Self::Family(FamilyQuestion::of(machine, request)),
             CanonicalRequest::Dexterity(request) => Self::Dexterity(DexterityQuestion::of(machine, request)),
-            CanonicalRequest::Toolpath(request) => Self::Toolpath(Box::new(ToolpathQuestion::of(
-                machine,
-                *request,
-                text.cost.unwrap_or_default(),
-            ))),
+            CanonicalRequest::Toolpath(request) => Self::Toolpath(Box::new(toolpath(machine, *request))),
+            CanonicalRequest::Window(request) => {
+                let CanonicalWindow { toolpath: path, parameter, from, to } = *request;
+                Self::Window(Box::new(WindowQuestion::of(toolpath(machine, path), parameter, [from, to])))
+            }
+            CanonicalRequest::Placement(request) => {
+                let CanonicalPlacement { toolpath: path, free, reserve } = *request;
+                Self::Placement(Box::new(PlacementQuestion::of(toolpath(machine, path), free, reserve)))
+            }
+            CanonicalRequest::Origins(request) => {
+                let CanonicalOrigins { toolpath: path, cell } = *request;
+                Self::Origins(Box::new(OriginsQuestion::of(toolpath(machine, path), cell)))
+            }
             CanonicalRequest::Subtask(request) => Self::Subtask(Subtask { machine, request }),
         };
         if question.id() == id { Ok(question) } else { Err(OperationError::OtherVersion) }

@@ -15,11 +15,15 @@ use crate::wire::error::OperationError;
 use crate::wire::family::CanonicalFamily;
 use crate::wire::format::MeshFormat;
 use crate::wire::machine::MachineObject;
+use crate::wire::origins::CanonicalOrigins;
+use crate::wire::placement::CanonicalPlacement;
 use crate::wire::result_id::ResultId;
+use crate::wire::window::CanonicalWindow;
 use crate::wire::workspace::CanonicalWorkspace;
 
-/// The kind of a result: `workspace`; `family`, a table of workspaces; `dexterity`, a map; `toolpath`; `subtask`, a
-/// part of a family or of a map.
+/// The kind of a result: `workspace`; `family`, a table of workspaces; `dexterity`, a map; `toolpath`; `window` of a
+/// parameter of a program; `placement` of a program; `origins`, the region of its origins; `subtask`, a part of a
+/// family, of a map or of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum QuestionKind {
@@ -31,7 +35,13 @@ pub(crate) enum QuestionKind {
     Dexterity,
     /// A tool path.
     Toolpath,
-    /// A subtask of a family or of a dexterity map.
+    /// A window of a parameter of a program.
+    Window,
+    /// A placement of a program.
+    Placement,
+    /// The region of origins of a program.
+    Origins,
+    /// A subtask of a family, of a dexterity map or of a region of origins.
     Subtask,
 }
 
@@ -40,7 +50,7 @@ impl QuestionKind {
     pub(crate) fn path(self, id: ResultId) -> String {
         match self {
             Self::Workspace | Self::Family | Self::Dexterity | Self::Subtask => id.path(),
-            Self::Toolpath => id.toolpath(),
+            Self::Toolpath | Self::Window | Self::Placement | Self::Origins => id.toolpath(),
         }
     }
 
@@ -51,6 +61,9 @@ impl QuestionKind {
             Self::Family => "family",
             Self::Dexterity => "dexterity",
             Self::Toolpath => "toolpath",
+            Self::Window => "window",
+            Self::Placement => "placement",
+            Self::Origins => "origins",
             Self::Subtask => "subtask",
         }
     }
@@ -90,8 +103,8 @@ pub(crate) struct QuestionText {
     pub machine: MachineObject,
     /// The hash of the machine.
     pub hash: Arc<str>,
-    /// The estimated work of a tool path, seconds of one core. It depends on the program, which the text does not
-    /// contain.
+    /// The estimated work of a tool path, or of one plan of a program, seconds of one core. It depends on the program,
+    /// which the text does not contain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cost: Option<f64>,
     /// The parameters of the job, in its payload.
@@ -107,6 +120,9 @@ pub(crate) enum CanonicalRequest {
     Family(CanonicalFamily),
     Dexterity(CanonicalDexterity),
     Toolpath(Box<CanonicalToolpath>),
+    Window(Box<CanonicalWindow>),
+    Placement(Box<CanonicalPlacement>),
+    Origins(Box<CanonicalOrigins>),
     Subtask(SubtaskRequest),
 }
 

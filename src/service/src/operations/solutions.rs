@@ -8,6 +8,7 @@ use verne_solver::{
     TableAngles, jacobian, part_pose, tool_point,
 };
 
+use crate::operations::jacobians::jacobian_object;
 use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::nearest::squared_distance;
 use crate::operations::table_angles::TablePosition;
@@ -15,6 +16,7 @@ use crate::wire::answer::{Answer, Free, ModeObject, PartObject, Reason, Solution
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::field_errors::too_far;
 use crate::wire::fixed_array::FixedArray;
+use crate::wire::jacobian::JacobianObject;
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::margins::MarginsObject;
 use crate::wire::request::{Joints, Near, SolutionFilter};
@@ -67,6 +69,8 @@ pub(crate) struct AnswerBuilder<'a> {
     pub(crate) free: bool,
     /// Whether the solutions have joints, as in answers of /ik.
     pub(crate) joints: bool,
+    /// The characteristic length of the request, if the solutions have their Jacobians.
+    pub(crate) jacobian: Option<Option<f64>>,
 }
 
 impl AnswerBuilder<'_> {
@@ -119,8 +123,14 @@ impl AnswerBuilder<'_> {
             feasible: margins.feasible(),
             margins: MarginsObject::new(self.machine, margins),
             conditioning: jacobian::conditioning(self.machine, posture).into(),
+            jacobian: self.jacobian(solved),
             residual: posture.residual,
         }
+    }
+
+    fn jacobian(&self, solved: &SolvedPosture) -> Option<JacobianObject> {
+        let (table, length) = (solved.table?.angles, self.jacobian?);
+        Some(jacobian_object(self.machine, (&solved.posture, table), self.tool_length, length))
     }
 
     fn part(&self, solved: &SolvedPosture, table: TableAngles) -> PartObject {

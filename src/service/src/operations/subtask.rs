@@ -7,8 +7,12 @@ use serde::{Deserialize, Serialize};
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::family_question::FamilyQuestion;
 use crate::operations::machine_registry::IdentifiedMachine;
+use crate::operations::origins::OriginsPart;
+use crate::operations::origins_question::OriginsQuestion;
+use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::dexterity::CanonicalDexterity;
+use crate::wire::origins::CanonicalOrigins;
 use crate::wire::result_id::ResultId;
 use crate::wire::workspace::CanonicalWorkspace;
 
@@ -21,10 +25,18 @@ const SLAB_COST: f64 = 2.0;
 /// Most slabs of a map.
 const MAX_SLABS: f64 = 64.0;
 
+/// Seconds of one core that a slab of a region of origins should take, and most slabs of a region: each of them finds
+/// the limiting places of the program.
+const REGION_SLAB_COST: f64 = 8.0;
+const MAX_REGION_SLABS: f64 = 16.0;
+
+/// The coarse grid's fraction of a region's work, about.
+const COARSE_FRACTION: f64 = 0.25;
+
 /// The volumes' fraction of a map's work, about.
 const VOLUMES_FRACTION: f64 = 0.2;
 
-/// A subtask of a family or of a dexterity map.
+/// A subtask of a family, of a dexterity map or of a region of origins.
 #[derive(Clone, Debug)]
 pub(crate) struct Subtask {
     /// The machine.
@@ -34,7 +46,7 @@ pub(crate) struct Subtask {
 }
 
 /// The work of a subtask.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum SubtaskRequest {
     /// A member of a family. Unlike the workspace itself, a member that cannot be computed is a result as well.
@@ -50,6 +62,13 @@ pub(crate) enum SubtaskRequest {
     },
     /// The volumes of a dexterity map.
     Volumes(CanonicalDexterity),
+    /// A part of a region of origins.
+    Origins {
+        /// The region.
+        region: Box<CanonicalOrigins>,
+        /// The part.
+        part: OriginsPart,
+    },
 }
 
 impl Subtask {
@@ -75,15 +94,40 @@ impl Subtask {
             .collect()
     }
 
+    /// The slabs of a region of origins, then its coarse grid.
+    pub(crate) fn of_region(question: &OriginsQuestion) -> Vec<Self> {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 16")]
+        let count = (question.cost() / REGION_SLAB_COST).clamp(1.0, MAX_REGION_SLABS) as u32;
+        let slabs = (0..count).map(|number| OriginsPart::Slab { number, count });
+        let of_part = |part| SubtaskRequest::Origins { region: Box::new(question.request()), part };
+        slabs
+            .chain([OriginsPart::Coarse])
+            .map(|part| Self { machine: Arc::clone(&question.toolpath.machine), request: of_part(part) })
+            .collect()
+    }
+
+    /// The region of origins that a part belongs to.
+    pub(crate) fn region(&self, region: &CanonicalOrigins) -> OriginsQuestion {
+        let toolpath = ToolpathQuestion::of(Arc::clone(&self.machine), region.toolpath.clone(), 0.0);
+        OriginsQuestion::of(toolpath, region.cell)
+    }
+
     /// The id under which its result is stored.
     pub(crate) fn id(&self) -> ResultId {
         let machine = Arc::clone(&self.machine);
-        let (kind, id, [number, count]) = match self.request {
-            SubtaskRequest::Member(member) => (b"m", WorkspaceQuestion::of(machine, member).id, [0, 0]),
+        let (kind, id, [number, count]) = match &self.request {
+            SubtaskRequest::Member(member) => (b"m", WorkspaceQuestion::of(machine, *member).id, [0, 0]),
             SubtaskRequest::Slab { map, number, count } => {
-                (b"s", DexterityQuestion::of(machine, map).id, [number, count])
+                (b"s", DexterityQuestion::of(machine, *map).id, [*number, *count])
             }
-            SubtaskRequest::Volumes(map) => (b"v", DexterityQuestion::of(machine, map).id, [0, 0]),
+            SubtaskRequest::Volumes(map) => (b"v", DexterityQuestion::of(machine, *map).id, [0, 0]),
+            SubtaskRequest::Origins { region, part } => {
+                let numbers = match part {
+                    OriginsPart::Slab { number, count } => [*number, *count],
+                    OriginsPart::Coarse => [0, 0],
+                };
+                (b"o", self.region(region).id, numbers)
+            }
         };
         let mut hasher = blake3::Hasher::new();
         hasher.update(HASH_PREFIX).update(kind).update(id.job().as_bytes());
@@ -100,6 +144,8 @@ impl Subtask {
                 total * (1.0 - VOLUMES_FRACTION) * (work_below(to) - work_below(from))
             }
             SubtaskRequest::Volumes(_) => total * VOLUMES_FRACTION,
+            SubtaskRequest::Origins { part: OriginsPart::Slab { .. }, .. } => total / f64::from(count.max(1)),
+            SubtaskRequest::Origins { part: OriginsPart::Coarse, .. } => total * COARSE_FRACTION,
         }
     }
 }

@@ -22,7 +22,7 @@ use crate::wire::start::Start;
 use crate::wire::toolpath::{OnLimitName, RapidsName, Setup, TipName, ToolLengths, ToolpathRequest};
 
 /// Begins the hash of every tool path. It changes when the bytes of the answer to the same question change.
-const HASH_PREFIX: &[u8] = b"verne toolpath 1";
+const HASH_PREFIX: &[u8] = b"verne toolpath 2";
 
 /// How far the tool leaves the part, if the request does not say, mm.
 const CLEARANCE: f64 = 50.0;
@@ -48,9 +48,10 @@ pub(crate) struct ToolpathQuestion {
 /// A request whose numbers are checked, without its program.
 #[derive(Clone, Debug)]
 pub(crate) struct CheckedToolpath {
-    machine: Arc<IdentifiedMachine>,
+    /// The machine.
+    pub machine: Arc<IdentifiedMachine>,
     /// The request, with an empty program.
-    request: CanonicalToolpath,
+    pub request: CanonicalToolpath,
 }
 
 impl CheckedToolpath {

@@ -34,7 +34,14 @@ pub(crate) fn read_request(
     body: &[u8],
     machines: &MachineRegistry,
 ) -> Result<(CheckedToolpath, ProgramSource), OperationError> {
-    let request: ToolpathRequest = parse_body(body)?;
+    read_fields(&parse_body(body)?, machines)
+}
+
+/// Checks a request, and reads its program if it contains the points: call it on the compute pool.
+pub(crate) fn read_fields(
+    request: &ToolpathRequest,
+    machines: &MachineRegistry,
+) -> Result<(CheckedToolpath, ProgramSource), OperationError> {
     let fault = |pointer: &str, detail: &str| OperationError::Fields(vec![FieldError::new(pointer, detail)]);
     let source = match &request.program {
         None => {
@@ -55,5 +62,5 @@ pub(crate) fn read_request(
             ProgramSource::Received(Box::new(receive_points(&points.points, &options)?))
         }
     };
-    Ok((CheckedToolpath::new(&request, machines)?, source))
+    Ok((CheckedToolpath::new(request, machines)?, source))
 }

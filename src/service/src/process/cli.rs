@@ -1,6 +1,7 @@
 //! The command line: one module for each command except `serve`, `worker` and `openapi`, and what several of them use.
 
 pub(crate) mod answer;
+pub(crate) mod answer_format;
 pub(crate) mod batch;
 pub(crate) mod dexterity;
 pub(crate) mod files;
@@ -16,7 +17,12 @@ pub(crate) mod result_pipe;
 pub(crate) mod service_address;
 pub(crate) mod shell_help;
 pub(crate) mod store;
+pub(crate) mod terminal;
 pub(crate) mod toolpath;
+pub(crate) mod toolpath_origins;
+pub(crate) mod toolpath_placement;
+pub(crate) mod toolpath_window;
+pub(crate) mod words;
 pub(crate) mod workspace;
 
 use std::ffi::OsString;
@@ -37,21 +43,28 @@ use crate::process::cli::machine::MachineCommand;
 use crate::process::cli::result_pipe::ResultPipe;
 use crate::process::cli::shell_help::{CompletionsCommand, ManCommand};
 use crate::process::cli::store::StoreCommand;
+use crate::process::cli::terminal::Terminal;
 use crate::process::cli::toolpath::ToolpathCommand;
+use crate::process::cli::toolpath_origins::OriginsCommand;
+use crate::process::cli::toolpath_placement::PlacementCommand;
+use crate::process::cli::toolpath_window::WindowCommand;
 use crate::process::cli::workspace::WorkspaceCommand;
 use crate::process::config::ServeConfig;
 use crate::process::config::worker::WorkerConfig;
 use crate::process::start_error::StartError;
 use crate::process::{config, service, worker_process};
 use crate::telemetry::TelemetryConfig;
+use crate::wire::result_id::BUILD;
 
 /// Kinematics and workspaces of the VERNE five-axis hybrid machine's architecture, over HTTP and on the command line.
 ///
-/// Without a command, verne serves over HTTP, with the options that `verne serve --help` lists. Lengths are in mm and
-/// angles in degrees; z points down. The built-in machine `verne` has invented dimensions that reproduce the solution
-/// counts printed in arXiv:0707.3507; they are not Fatronik's dimensions.
+/// Without a command, verne serves over HTTP, with the options that `verne serve --help` lists. On a terminal it prints
+/// answers as tables and words; into a file or a pipe, and with --json, as the JSON of the HTTP service. Lengths are in
+/// mm and angles in degrees; z points down. The built-in machine `verne` has invented dimensions that reproduce the
+/// solution counts printed in arXiv:0707.3507; they are not Fatronik's dimensions. `linear-delta` is a linear delta of
+/// invented dimensions.
 #[derive(Debug, Parser)]
-#[command(name = "verne", version, args_conflicts_with_subcommands = true)]
+#[command(name = "verne", version, long_version = BUILD, args_conflicts_with_subcommands = true)]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -74,6 +87,16 @@ enum Command {
     ///
     /// The exit status is 3 if the machine cannot run the program.
     Toolpath(Box<ToolpathCommand>),
+    /// Find the set-up, and the tool length, in which a program keeps the greatest distance from the limits.
+    ///
+    /// The exit status is 3 if the machine cannot run the program in any set-up that was found.
+    ToolpathPlacement(Box<PlacementCommand>),
+    /// Compute the region of origins of a program: its volume, its surface as a mesh (-o FILE), or a slice (--slice Z).
+    ToolpathOrigins(Box<OriginsCommand>),
+    /// Find the values of the tool's length, or of a number of the set-up, with which the machine can run a program.
+    ///
+    /// The exit status is 3 if there is none.
+    ToolpathWindow(Box<WindowCommand>),
     /// Print a machine as a JSON file, which every --machine accepts.
     Machine(MachineCommand),
     /// Serve over HTTP.
@@ -110,19 +133,30 @@ impl Cli {
         Self::command().mut_args(|arg| arg.hide(true))
     }
 
-    /// Runs the command, and returns the exit status. Results go to `out`, with line breaks if `pretty`; the key of
-    /// `verne key new` and the summaries of tool paths and batches go to `err`. The error is a message for people.
+    /// Runs the command, and returns the exit status. Results go to `out`, as tables and words if that is a terminal;
+    /// the key of `verne key new` and the summaries of tool paths and batches go to `err`. The error is a message for
+    /// people.
     ///
     /// If the reader of `out` closes it early, as `head` does, the command stops without a message, and succeeds.
-    pub fn run(self, out: &mut impl Write, err: &mut impl Write, pretty: bool) -> Result<ExitCode, String> {
+    pub fn run(
+        self,
+        out: &mut impl Write,
+        err: &mut impl Write,
+        terminal: Option<Terminal>,
+    ) -> Result<ExitCode, String> {
         let mut out = ResultPipe::new(out);
-        match self.execute(&mut out, err, pretty) {
+        match self.execute(&mut out, err, terminal) {
             Err(_) if out.is_closed() => Ok(ExitCode::SUCCESS),
             done => done,
         }
     }
 
-    fn execute(self, out: &mut impl Write, err: &mut impl Write, pretty: bool) -> Result<ExitCode, String> {
+    fn execute(
+        self,
+        out: &mut impl Write,
+        err: &mut impl Write,
+        terminal: Option<Terminal>,
+    ) -> Result<ExitCode, String> {
         if let Some(settings) = self.printed_settings {
             return match write!(out, "{settings}") {
                 Ok(()) => Ok(ExitCode::SUCCESS),
@@ -135,18 +169,21 @@ impl Cli {
             Command::Health(command) => command.run(),
             Command::Key(command) => command.run(out, err),
             Command::Store(command) => command.run(out),
-            Command::Workspace(command) => command.run(out, pretty),
-            Command::Dexterity(command) => command.run(out, pretty),
-            Command::Machine(command) => command.run(out),
-            Command::Jobs(command) => command.run(out, pretty),
+            Command::Workspace(command) => command.run(out, terminal),
+            Command::Dexterity(command) => command.run(out, terminal),
+            Command::Machine(command) => command.run(out, terminal),
+            Command::Jobs(command) => command.run(out, terminal),
+            Command::ToolpathOrigins(command) => command.run(out, terminal),
             Command::Openapi => {
                 let document = to_json(&document(), true)?;
                 writeln!(out, "{document}").map_err(|error| format!("cannot write the document: {error}"))
             }
             Command::Completions(command) => command.run(Self::command_line(), out),
             Command::Man(command) => command.run(Self::command_line(), out),
-            Command::Toolpath(command) => return command.run(out, err, pretty),
-            Command::Kinematics(command) => return command.run(out, err, pretty),
+            Command::Toolpath(command) => return command.run(out, err, terminal),
+            Command::ToolpathWindow(command) => return command.run(out, terminal),
+            Command::Kinematics(command) => return command.run(out, err, terminal),
+            Command::ToolpathPlacement(command) => return command.run(out, terminal),
         };
         done.map(|()| ExitCode::SUCCESS)
     }
@@ -195,7 +232,7 @@ mod tests {
     fn status(line: &str) -> (String, String) {
         let mut err = Vec::new();
         let cli = Cli::read(line.split_whitespace().map(OsString::from)).unwrap();
-        let status = format!("{:?}", cli.run(&mut Closed, &mut err, false));
+        let status = format!("{:?}", cli.run(&mut Closed, &mut err, None));
         (status, String::from_utf8(err).unwrap())
     }
 

@@ -16,7 +16,7 @@ use crate::http::openapi::versions::Documents;
 use crate::http::readiness::Readiness;
 use crate::http::security_headers::BrowserPolicy;
 use crate::http::state::{AppState, ESTIMATES, SharedState};
-use crate::http::{base_path, middleware, router, security_headers, viewer_files};
+use crate::http::{base_path, guide_files, middleware, router, security_headers, viewer_files};
 use crate::limits::admission::Admission;
 use crate::limits::rate::Rate;
 use crate::operations::compute_pool::leave_one_core_free;
@@ -107,13 +107,13 @@ fn state(
     }
 }
 
-/// The pages for browsers: the API documentation and the viewer.
+/// The pages for browsers: the API documentation, the guide and the viewer.
 fn pages(access_control: &AccessControl, config: &ServeConfig) -> Router {
     let document = format!("{}/openapi.json", config.base_path);
     let docs = SwaggerUi::new("/docs").config(Config::new([document]).validator_url("none"));
     let docs = security_headers::pages(docs.into(), security_headers::DOCS);
-    access_control
-        .guard_pages(base_path::with_redirect(docs.merge(viewer_files::routes()), &config.base_path))
+    let pages = docs.merge(guide_files::routes()).merge(viewer_files::routes());
+    access_control.guard_pages(base_path::with_redirect(pages, &config.base_path))
 }
 
 fn with_middleware(routes: Router, config: &ServeConfig, state: &AppState) -> Router {

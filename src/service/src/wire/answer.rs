@@ -8,6 +8,7 @@ use verne_solver::{PartPose, PlatformPose, Point, Posture, Side, axis};
 
 use crate::wire::degrees::to_degrees;
 use crate::wire::fixed_array::{FixedArray, Triple};
+use crate::wire::jacobian::JacobianObject;
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::margins::{ConditioningObject, MarginsObject};
 use crate::wire::request::Joints;
@@ -103,6 +104,10 @@ pub(crate) struct Solution {
     pub margins: MarginsObject,
     /// Distance from singularities.
     pub conditioning: ConditioningObject,
+    /// Jacobian of the tool in the part frame, whatever the frame of the request. Only with `jacobian` in the request.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub jacobian: Option<JacobianObject>,
     /// Largest error of a rod length when the solution is inserted into Eqs (3)-(6), mm.
     pub residual: f64,
 }

@@ -8,6 +8,7 @@ use utoipa::ToSchema;
 use crate::wire::answer::MachineId;
 use crate::wire::bounded_list::BoundedList;
 use crate::wire::constraint::{ConstraintName, ElementName};
+use crate::wire::jacobian::{JacobianColumns, JacobianLists};
 use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::request::Frame;
@@ -44,6 +45,15 @@ pub(crate) struct IkBatchRequest<R> {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
+    /// Columns of the Jacobian that the answer has: `condition` or `matrix`. Only frame `part` has it.
+    #[serde(default)]
+    #[schema(nullable = false)]
+    pub jacobian: Option<JacobianColumns>,
+    /// Length by which the Jacobian's lengths are divided before its condition number is computed, mm. Only with
+    /// `jacobian`. The default is R1 of the machine.
+    #[serde(default)]
+    #[schema(minimum = 1e-3, maximum = 1e7)]
+    pub characteristic_length: Option<f64>,
     /// Rows `[x, y, z, phi1, phi2]` or `[x, y, z, i, j, k]` in frame `part`, `[x, y, z]` in the other frames. i, j, k
     /// is the tool axis in the part frame, from the tool end to the holder, of any length. Both orientations that have
     /// the axis are solved. A malformed row has the status `invalid`.
@@ -85,6 +95,16 @@ pub(crate) struct FkBatchRequest<R> {
     #[serde(default)]
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
+    /// Columns of the Jacobian that the answer has: `condition` or `matrix`. Every row then needs theta1 and
+    /// theta2.
+    #[serde(default)]
+    #[schema(nullable = false)]
+    pub jacobian: Option<JacobianColumns>,
+    /// Length by which the Jacobian's lengths are divided before its condition number is computed, mm. Only with
+    /// `jacobian`. The default is R1 of the machine.
+    #[serde(default)]
+    #[schema(minimum = 1e-3, maximum = 1e7)]
+    pub characteristic_length: Option<f64>,
     /// Orientation of the rows of `parts`.
     #[serde(default)]
     pub orientation: Orientation,
@@ -139,6 +159,10 @@ pub(crate) struct IkBatchAnswer {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub jumps: Option<usize>,
+    /// Jacobians of the rows. Only with `jacobian` in the request.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub jacobian: Option<JacobianLists>,
     /// Status of each row.
     #[serde(flatten)]
     pub report: RowReport,
@@ -156,6 +180,10 @@ pub(crate) struct FkBatchAnswer {
     /// `orientation` is `vector`. null for other rows.
     #[schema(value_type = Vec<Option<Vec<f64>>>)]
     pub parts: Vec<Option<Row>>,
+    /// Jacobians of the rows. Only with `jacobian` in the request.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub jacobian: Option<JacobianLists>,
     /// Status of each row.
     #[serde(flatten)]
     pub report: RowReport,

@@ -137,7 +137,7 @@ pub(crate) struct CellsQuery {
 /// Summary of a dexterity map.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct DexteritySummary {
-    /// BLAKE3 hash of the request, the machine and the solver's version.
+    /// BLAKE3 hash of the request, the machine, and the version and the target of the binary.
     #[schema(value_type = String)]
     pub id: ResultId,
     /// The request with its default values.

@@ -68,7 +68,9 @@ pub(crate) enum OperationError {
     NoJointProgram(String),
     #[error("The computation was cancelled.")]
     Cancelled,
-    #[error("Another version created the job. Repeat the request for a new id.")]
+    #[error(
+        "A binary of another version, or for another target, created the job. Repeat the request for a new id."
+    )]
     OtherVersion,
     #[error("The service cannot store results. Its log states the reason.")]
     StoreUnavailable,

@@ -53,11 +53,11 @@ pub struct GeometryObject {
     /// x of legs II and III's joints on the platform, in the platform frame.
     #[schema(minimum = -1e6, maximum = 1e6)]
     pub D2: f64,
-    /// x of the guideways of legs II and III, in the base frame. D1 - d1 and D2 - d2 must differ by at least a
-    /// thousandth of the longest leg.
+    /// x of the guideways of legs II and III, in the base frame.
     #[schema(minimum = -1e6, maximum = 1e6)]
     pub d2: f64,
-    /// Half-distance of the joints of leg I on the platform. It must be at least 1.001 times r1.
+    /// Half-distance of the joints of leg I on the platform. It must be at least r1. With R1 = r1
+    /// the platform does not turn, and the machine is a linear delta.
     #[schema(minimum = 1e-3, maximum = 1e6)]
     pub R1: f64,
     /// Half-distance of leg I's joints on the slider.
@@ -78,9 +78,14 @@ pub struct GeometryObject {
     /// Rod length of leg III.
     #[schema(minimum = 1e-3, maximum = 1e6)]
     pub L3: f64,
-    /// Half-width of the parallelograms of legs II and III, along x.
+    /// Half-width of the parallelograms of legs II and III.
     #[schema(minimum = 1e-3, maximum = 1e6)]
     pub parallelogram_half_width: f64,
+    /// Angle from x towards y of the width of leg II's parallelogram, degrees; that of leg III has the opposite angle.
+    /// It must be 0, the default, unless R1 = r1. It matters for rod interference only.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schema(minimum = -180, maximum = 180, default = 0)]
+    pub parallelogram_direction: f64,
     /// Radius of every rod.
     #[schema(minimum = 0, maximum = 1e6)]
     pub rod_radius: f64,
@@ -138,6 +143,11 @@ pub struct LimitsObject {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(inline)]
     pub platform_axes: Option<Axes>,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }
 
 /// Reads a field that may be null but not missing.
@@ -200,13 +210,15 @@ macro_rules! convert_dimensions {
     ($($name:ident),*) => {
         impl From<&GeometryObject> for Geometry {
             fn from(g: &GeometryObject) -> Self {
-                Self { $($name: g.$name),* }
+                let parallelogram_direction = from_degrees(g.parallelogram_direction);
+                Self { $($name: g.$name,)* parallelogram_direction }
             }
         }
 
         impl From<&Geometry> for GeometryObject {
             fn from(g: &Geometry) -> Self {
-                Self { $($name: g.$name),* }
+                let parallelogram_direction = to_degrees(g.parallelogram_direction);
+                Self { $($name: g.$name,)* parallelogram_direction }
             }
         }
     };

@@ -31,8 +31,11 @@ pub(crate) struct MarginsObject {
     /// `platform_cone` minus the angle between the rod and the axis of the cone, degrees.
     #[schema(inline)]
     platform_joint: PerRod,
-    /// R1 cos alpha - r1, mm.
-    rod_crossing: f64,
+    /// R1 cos alpha - r1, mm. A machine with R1 = r1 has it only where the platform turns: elsewhere the rods of leg I
+    /// are parallel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    rod_crossing: Option<f64>,
     /// Least distance between the axes of two rods, minus twice `rod_radius`, mm.
     rod_interference: f64,
     /// `[theta1 - min, max - theta1]`, degrees. Only solutions with known table angles have it.

@@ -24,8 +24,8 @@ pub(crate) struct ProgramFault {
 /// A program that the service keeps.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct ProgramSummary {
-    /// BLAKE3 hash of the file, its format, the options for reading and the version of the service. Equal programs have
-    /// equal ids.
+    /// BLAKE3 hash of the file, its format, the options for reading, and the version and the target of the binary.
+    /// Equal programs have equal ids.
     #[schema(value_type = String)]
     pub id: ResultId,
     /// The format of the file.

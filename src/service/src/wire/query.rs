@@ -51,6 +51,16 @@ pub(crate) struct FkQuery {
     #[serde(default)]
     #[arg(long, default_value = "working")]
     pub solutions: SolutionFilter,
+    /// Whether each solution has its `jacobian`. Needs theta1 and theta2.
+    #[serde(default)]
+    #[arg(long)]
+    #[param(default = false)]
+    pub jacobian: bool,
+    /// Length by which the Jacobian's lengths are divided before its singular values are computed, mm. Only with
+    /// `jacobian`. The default is R1 of the machine.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = 1e-3, maximum = 1e7, nullable = false)]
+    pub characteristic_length: Option<f64>,
     /// Sort the solutions by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
@@ -122,6 +132,16 @@ pub(crate) struct IkQuery {
     #[serde(default)]
     #[arg(long, default_value = "working")]
     pub solutions: SolutionFilter,
+    /// Whether each solution has its `jacobian`. Only frame `part` has it.
+    #[serde(default)]
+    #[arg(long)]
+    #[param(default = false)]
+    pub jacobian: bool,
+    /// Length by which the Jacobian's lengths are divided before its singular values are computed, mm. Only with
+    /// `jacobian`. The default is R1 of the machine.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = 1e-3, maximum = 1e7, nullable = false)]
+    pub characteristic_length: Option<f64>,
     /// Sort the solutions by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2. theta1 and
     /// theta2 of the solutions are on the windings within their ranges that are nearest to these.
     #[arg(long, allow_hyphen_values = true)]
@@ -144,6 +164,8 @@ impl FkQuery {
             table_clearance: self.table_clearance,
             tool_radius: self.tool_radius,
             solutions: self.solutions,
+            jacobian: self.jacobian,
+            characteristic_length: self.characteristic_length,
         })
     }
 }
@@ -161,6 +183,8 @@ impl IkQuery {
             table_clearance: self.table_clearance,
             tool_radius: self.tool_radius,
             solutions: self.solutions,
+            jacobian: self.jacobian,
+            characteristic_length: self.characteristic_length,
         })
     }
 }

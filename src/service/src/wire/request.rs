@@ -36,6 +36,15 @@ pub(crate) struct FkRequest {
     /// Solutions to return.
     #[serde(default)]
     pub solutions: SolutionFilter,
+    /// Whether each solution has its `jacobian`. Needs theta1 and theta2.
+    #[serde(default)]
+    #[schema(default = false)]
+    pub jacobian: bool,
+    /// Length by which the Jacobian's lengths are divided before its singular values are computed, mm. Only with
+    /// `jacobian`. The default is R1 of the machine.
+    #[serde(default)]
+    #[schema(minimum = 1e-3, maximum = 1e7)]
+    pub characteristic_length: Option<f64>,
     /// Sort the solutions by distance from these joints or this pose.
     #[serde(default, deserialize_with = "optional_strict_object")]
     pub near: Option<Near>,
@@ -71,6 +80,15 @@ pub(crate) struct IkRequest {
     /// Solutions to return.
     #[serde(default)]
     pub solutions: SolutionFilter,
+    /// Whether each solution has its `jacobian`. Only frame `part` has it.
+    #[serde(default)]
+    #[schema(default = false)]
+    pub jacobian: bool,
+    /// Length by which the Jacobian's lengths are divided before its singular values are computed, mm. Only with
+    /// `jacobian`. The default is R1 of the machine.
+    #[serde(default)]
+    #[schema(minimum = 1e-3, maximum = 1e7)]
+    pub characteristic_length: Option<f64>,
     /// Sort the solutions by distance from these joints or this pose.
     #[serde(default, deserialize_with = "optional_strict_object")]
     pub near: Option<Near>,

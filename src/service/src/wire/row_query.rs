@@ -8,6 +8,7 @@ use utoipa::IntoParams;
 use crate::wire::batch::{FkBatchNumbers, IkBatchNumbers, Orientation};
 use crate::wire::bounded_list::BoundedList;
 use crate::wire::contains::ANY_TOLERANCE;
+use crate::wire::jacobian::JacobianColumns;
 use crate::wire::json_text::JsonText;
 use crate::wire::machine_ref::{MachineRef, REFERENCE, reference_name};
 use crate::wire::request::Frame;
@@ -53,6 +54,16 @@ pub(crate) struct IkRowsQuery {
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
+    /// Columns of the Jacobian that the answer has. `condition`: det_p, condition_number and, if the machine has
+    /// drives, speed_x, speed_y, speed_z. `matrix`: j11 to j55, too. Only frame `part` has it.
+    #[arg(long)]
+    #[param(nullable = false)]
+    pub jacobian: Option<JacobianColumns>,
+    /// Length by which the Jacobian's lengths are divided before its condition number is computed, mm. Only with
+    /// `jacobian`. The default is R1 of the machine.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = 1e-3, maximum = 1e7, nullable = false)]
+    pub characteristic_length: Option<f64>,
     /// Whether each row continues from the row before: on the same preimage (phi1, phi2) of its tool axis, with theta2
     /// within half a turn, in the same working solution. A row that cannot has `jump`. Only frame `part` has it.
     #[serde(default)]
@@ -75,6 +86,8 @@ impl From<IkRowsQuery> for IkBatchNumbers {
             tool_length: query.tool_length,
             table_clearance: query.table_clearance,
             tool_radius: query.tool_radius,
+            jacobian: query.jacobian,
+            characteristic_length: query.characteristic_length,
             poses: BoundedList::default(),
             continuous: query.continuous,
             start: query.start.map(|start| start.0.0),
@@ -114,6 +127,16 @@ pub(crate) struct FkRowsQuery {
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     #[param(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_radius: f64,
+    /// Columns of the Jacobian that the answer has. `condition`: det_p, condition_number and, if the machine has
+    /// drives, speed_x, speed_y, speed_z. `matrix`: j11 to j55, too. Needs theta1 and theta2.
+    #[arg(long)]
+    #[param(nullable = false)]
+    pub jacobian: Option<JacobianColumns>,
+    /// Length by which the Jacobian's lengths are divided before its condition number is computed, mm. Only with
+    /// `jacobian`. The default is R1 of the machine.
+    #[arg(long, allow_hyphen_values = true)]
+    #[param(minimum = 1e-3, maximum = 1e7, nullable = false)]
+    pub characteristic_length: Option<f64>,
     /// Columns of the tool's orientation in the part frame: phi1 and phi2, or i, j and k.
     #[serde(default)]
     #[arg(long, default_value = "rotary")]
@@ -128,6 +151,8 @@ impl From<FkRowsQuery> for FkBatchNumbers {
             tool_length: query.tool_length,
             table_clearance: query.table_clearance,
             tool_radius: query.tool_radius,
+            jacobian: query.jacobian,
+            characteristic_length: query.characteristic_length,
             orientation: query.orientation,
             joints: BoundedList::default(),
         }

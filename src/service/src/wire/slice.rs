@@ -76,6 +76,22 @@ impl SliceObject {
     }
 }
 
+impl SliceObject {
+    /// The slice of a region of origins whose mesh has this cell.
+    pub(crate) fn of_origins(id: ResultId, cell: f64, z: f64, slice: Slice) -> Self {
+        Self {
+            id,
+            frame: FrameName::Part,
+            z,
+            tolerance: cell,
+            area: slice.area(),
+            not_checked: Unchecked::beside(false),
+            polygons: slice.polygons.into_iter().map(PolygonObject::from).collect(),
+            contours: Vec::new(),
+        }
+    }
+}
+
 impl From<Polygon> for PolygonObject {
     fn from(polygon: Polygon) -> Self {
         let rings = std::iter::once(&polygon.outer).chain(&polygon.holes);

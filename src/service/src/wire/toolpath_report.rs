@@ -21,8 +21,8 @@ const TEXT_CHARACTERS: usize = 200;
 /// The report on the joint motion of a program.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct ToolpathReport {
-    /// BLAKE3 hash of the request, the machine, the program and the version of the service. Equal requests have equal
-    /// ids.
+    /// BLAKE3 hash of the request, the machine, the program, and the version and the target of the binary. Equal
+    /// requests have equal ids.
     #[schema(value_type = String)]
     pub id: ResultId,
     /// The machine.

@@ -14,7 +14,8 @@ use crate::wire::workspace::{CanonicalWorkspace, FrameName, KindName};
 /// Summary of a workspace.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct WorkspaceSummary {
-    /// BLAKE3 hash of the request, the machine and the solver's version. Equal requests have equal ids.
+    /// BLAKE3 hash of the request, the machine, and the version and the target of the binary. Equal requests have equal
+    /// ids.
     #[schema(value_type = String)]
     pub id: ResultId,
     /// Point and frame of the positions.

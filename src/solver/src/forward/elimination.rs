@@ -144,8 +144,9 @@ fn labelled(mechanism: &Mechanism, rho: [f64; 3], root: &Root, found: CheckedPos
     let (u, v, q) = (g.R1 * root.c - g.r1, g.R1 * root.s, g.R2 * root.s);
     let w1 = root.w * u;
     let heights = [w1, pose.z - q - rho[1], pose.z + q - rho[2]];
-    let working = (u > 0.0) & (w1 > v.abs()) & (heights[1] > 0.0) & (heights[2] > 0.0);
-    let mode = Mode { legs: heights.map(Side::of), crossed: u < 0.0 };
+    let crossed = mechanism.crosses(pose.alpha);
+    let working = !crossed & (w1 > v.abs()) & (heights[1] > 0.0) & (heights[2] > 0.0);
+    let mode = Mode { legs: heights.map(Side::of), crossed };
     // A NaN satisfies no equation.
     let holds = residual <= RESIDUAL_TOLERANCE * magnitude(mechanism, pose.z);
     (Posture { pose, rho, mode, working, merged: root.merged, residual }, holds)

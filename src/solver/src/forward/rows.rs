@@ -31,6 +31,8 @@ impl Kernel for ForwardRows {
             let (closure, root) = (closures.closure(mechanism, i), roots.root(i));
             let (posture, is_exact) = closure.uncorrected_posture(mechanism, rho, &root);
             let accepted = are_accepted(mechanism, &rho, &[]) & !closure.has_self_motion(mechanism.longest);
+            // The code for a single row answers for machines with R1 = r1 or e1 = e2, or nearly so.
+            let accepted = accepted & !mechanism.at_family_edge;
             let right = roots.is_found(i) & on_home_side(machine, &closure, &root) & posture.working;
             postures.set(i, &posture, accepted & right & is_exact);
         }

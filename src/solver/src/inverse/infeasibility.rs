@@ -87,7 +87,7 @@ fn unreachable_leg(mechanism: &Mechanism, pose: &LegOnePose) -> Option<Margin> {
 pub(super) fn out_of_mode(machine: &Machine, pose: &LegOnePose) -> Option<Margin> {
     let g = machine.geometry();
     let (u, v) = (g.R1 * pose.c - g.r1, g.R1 * pose.s);
-    if u <= 0.0 {
+    if machine.mechanism.crosses(pose.alpha) {
         return Some(Margin { constraint: Constraint::RodCrossing, element: Element::Leg(1), value: u });
     }
     let (rod, height) = if v > 0.0 { (12, pose.w1 - v) } else { (11, pose.w1 + v) };

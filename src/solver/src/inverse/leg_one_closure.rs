@@ -84,6 +84,9 @@ impl LegOneClosure {
         let ([u, v], y) = (self.arm(c, s), self.y(c, s));
         let square = self.height_square(y, c, s);
         let arm = u.hypot(v);
+        if arm == 0.0 {
+            return signed_root(square);
+        }
         let offset = (y * u).abs() / arm;
         if square < 0.0 { signed_root(square) - offset } else { v.abs() * square.sqrt() / arm - offset }
     }

@@ -128,10 +128,15 @@ impl<'a> LegOneCubic<'a> {
         self.angle(1.0, self.best_t(), true)
     }
 
-    /// The greatest value of (15), over R1² L1². It is negative out of reach.
+    /// The greatest value of (15), over R1² L1²; for R1 = r1 the square of leg I's height, over L1². It is negative out
+    /// of reach.
     #[inline]
     pub(crate) fn closing_margin(&self) -> f64 {
         let l1 = self.mechanism.geometry.L1;
+        if self.mechanism.is_delta() {
+            // (15) vanishes at a = 0 for every position. Leg I closes there where the square of its height allows it.
+            return (self.at_zero - self.y * self.y) / (l1 * l1);
+        }
         self.cubic(1.0).value(self.best_t()) / (l1 * l1)
     }
 
@@ -153,7 +158,9 @@ impl<'a> LegOneCubic<'a> {
         let y_square = self.y * self.y;
         let per_square = self.mechanism.inverse_r1_square * y_square;
         let p = self.square_at(sign);
-        Cubic([-(d.c - k) * per_square, 2.0 * p - k * per_square, -(p + 2.0 * k), k])
+        // C - k without cancellation.
+        let nearest = if sign > 0.0 { d.gap_square } else { d.c - k };
+        Cubic([-nearest * per_square, 2.0 * p - k * per_square, -(p + 2.0 * k), k])
     }
 
     /// The angle of c = `sign` (1 - t).

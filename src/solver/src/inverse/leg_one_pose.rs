@@ -50,7 +50,7 @@ impl LegOnePose {
     /// does.
     #[inline(always)]
     pub(super) fn mirrored(&self, mechanism: &Mechanism) -> Self {
-        let alpha = if self.alpha == PI { PI } else { -self.alpha };
+        let alpha = if self.alpha == PI { PI } else { 0.0 - self.alpha };
         let checked = [self.checked[0], -self.checked[1]];
         let leg_one = close_leg_one(mechanism, self.p, checked, -self.w1);
         Self { alpha, s: -self.s, checked, w1: -self.w1, leg_one, ..*self }

@@ -9,9 +9,12 @@ use super::platform_locus::PlatformLocus;
 use super::solutions::{add_postures, working_posture};
 use crate::error::KinematicsError;
 use crate::fast_math::{sin_cos, wrapped};
-use crate::loop_closure::{Root, Roots, find_roots, from_level_platform, polish};
+use crate::loop_closure::{LoopClosure, Root, Roots, find_roots, from_level_platform, polish};
 use crate::machine::Machine;
 use crate::posture::{Posture, Postures, postures_or_error};
+
+/// Angle, and height over the machine's size, within which a root is one of the platform that does not turn.
+const LEVEL_ANGLE: f64 = 1e-9;
 
 /// All postures along the locus.
 pub(super) fn every(machine: &Machine, locus: &PlatformLocus) -> Result<Postures, KinematicsError> {
@@ -22,13 +25,30 @@ pub(super) fn every(machine: &Machine, locus: &PlatformLocus) -> Result<Postures
     let closure = LegOneClosure::new(mechanism, locus);
     let mut roots = Roots::new();
     // The working mode's posture is the one that `working` answers, to the last bit.
-    find_roots(&closure, PI, from_level_platform(&closure), &mut roots);
+    let level = from_level_platform(&closure);
+    find_roots(&closure, PI, level, &mut roots);
+    if let Some(level) = level.filter(|_| mechanism.is_delta()) {
+        replace_level_roots(&closure, &level, &mut roots);
+    }
     postures_or_error(
         |found| {
             roots.iter().for_each(|root| add_postures(mechanism, &locus.pose(mechanism, root), found));
         },
         || infeasibility::of_every_mode(machine, locus),
     )
+}
+
+/// With R1 = r1 the platform that does not turn closes leg I from both sides. Its angle is zero without a rounding
+/// error.
+#[cold]
+fn replace_level_roots(closure: &LegOneClosure, level: &Root, roots: &mut Roots) {
+    let is_level = |root: &Root| {
+        let apart = (root.w.abs() - level.w).abs();
+        wrapped(root.a).abs() < LEVEL_ANGLE && apart < LEVEL_ANGLE * closure.w_scale()
+    };
+    roots.retain(|root| !is_level(root));
+    let both = [*level, Root { w: -level.w, ..*level }];
+    roots.extend(both.into_iter().take(roots.remaining_capacity()));
 }
 
 /// The posture in the working mode along the locus.
@@ -94,7 +114,12 @@ fn working_among_all(
     let mechanism = &machine.mechanism;
     let (mut found, mut first_error) = (Postures::new(), None);
     let mut roots = Roots::new();
-    find_roots(closure, mechanism.uncrossed, known, &mut roots);
+    if mechanism.is_delta() {
+        // Only the platform that does not turn has uncrossed rods.
+        roots.extend(known);
+    } else {
+        find_roots(closure, mechanism.uncrossed, known, &mut roots);
+    }
     for root in roots.iter().filter(|root| root.w >= 0.0) {
         match working_posture(machine, &locus.pose(mechanism, root)) {
             Ok(posture) => found.push(posture),

@@ -139,7 +139,8 @@ pub(super) fn pose_at(mechanism: &Mechanism, p: Point, angle: &LegOneAngle) -> L
 
 #[inline(always)]
 fn root(&LegOneAngle { c, s, w1, merged }: &LegOneAngle) -> Root {
-    Root { a: angle_of(c, s), c, s, w: w1, merged }
+    // No negative zero.
+    Root { a: angle_of(c, s) + 0.0, c, s, w: w1, merged }
 }
 
 /// Newton's method on (A) itself, if the cubic has lost digits because w1 and y are both near zero.

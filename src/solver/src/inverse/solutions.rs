@@ -91,14 +91,14 @@ fn add_accepted(
 #[inline(always)]
 fn posture(mechanism: &Mechanism, pose: &LegOnePose, [leg2, leg3]: [&ClosedLeg; 2], merged: bool) -> Posture {
     let g = &mechanism.geometry;
-    let (u, v) = (g.R1 * pose.c - g.r1, g.R1 * pose.s);
+    let (crossed, v) = (mechanism.crosses(pose.alpha), g.R1 * pose.s);
     let above = (leg2.side == Side::Above) & (leg3.side == Side::Above);
     let [x, y, z] = pose.p;
     Posture {
         pose: PlatformPose { x, y, z, alpha: pose.alpha },
         rho: [pose.leg_one.rho, leg2.rho, leg3.rho],
-        mode: Mode { legs: [pose.leg_one.side, leg2.side, leg3.side], crossed: u < 0.0 },
-        working: above & !merged & (u > 0.0) & (pose.w1 > v.abs()),
+        mode: Mode { legs: [pose.leg_one.side, leg2.side, leg3.side], crossed },
+        working: above & !merged & !crossed & (pose.w1 > v.abs()),
         merged: merged || pose.merged,
         residual: greater(pose.leg_one.error, greater(leg2.error, leg3.error)),
     }

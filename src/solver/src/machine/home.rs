@@ -21,6 +21,8 @@ pub(crate) struct Home {
     pub(crate) platform_axes: Columns,
     /// `det_P`; its sign is the machine's.
     pub(crate) det: f64,
+    /// Height of each leg, mm.
+    pub(crate) heights: [f64; 3],
     /// Least distance between two rods' axes, mm: the scale of rod interference.
     pub(crate) rod_distance: f64,
 }
@@ -40,7 +42,8 @@ impl Home {
             slider_axes: columns(&limits.slider_axes.map_or(own, given)),
             platform_axes: columns(&limits.platform_axes.map_or(own, given)),
             det: determinant(&matrix(g, &rods)),
-            rod_distance: interference::least_distance(g, &rods).0.max(LEAST_ROD_DISTANCE),
+            heights,
+            rod_distance: interference::least_distance(mechanism, &rods).0.max(LEAST_ROD_DISTANCE),
         }
     }
 }

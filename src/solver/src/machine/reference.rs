@@ -46,6 +46,7 @@ impl Machine {
                 L2: 1050.0,
                 L3: 1050.0,
                 parallelogram_half_width: 80.0,
+                parallelogram_direction: 0.0,
                 rod_radius: 25.0,
             },
             table: Table { da: 1500.0, dt: 200.0 },

@@ -17,11 +17,6 @@ const SMALLEST: f64 = 1e-3;
 const LEAST_RATE: f64 = 1e-3;
 /// How much longer than needed a leg must be at home, relative to what is needed.
 const RELATIVE_LENGTH_RESERVE: f64 = 1e-6;
-/// Least R1/r1 - 1, and least |e1 - e2| relative to the longest leg, at which the forward problem keeps its
-/// solutions. With R1 = r1 the double root a = 0 of its polynomial represents a whole branch. With e1 = e2 two
-/// mirror-image solutions share each root. Near these machines the solutions of the polynomial are too close together
-/// for double precision.
-const LEAST_DIFFERENCE: f64 = 1e-3;
 /// Least |`det_P`| at home.
 pub(super) const LEAST_HOME_DET: f64 = 1e-9;
 
@@ -39,7 +34,7 @@ pub(super) fn errors(data: &MachineData) -> Vec<MachineError> {
     }
     if checker.0.is_empty() {
         proportions(data, &mut checker);
-        elimination(&data.geometry, &mut checker);
+        leg_one(&data.geometry, &mut checker);
         home(&data.geometry, &mut checker);
     }
     checker.0
@@ -108,6 +103,12 @@ fn geometry(g: &Geometry, checker: &mut Checker) {
     for (field, value) in lengths {
         checker.length(&format!("geometry/{field}"), value);
     }
+    let turned = g.parallelogram_direction;
+    checker.check(
+        turned.abs() <= PI,
+        "geometry/parallelogram_direction",
+        "must be an angle between -180 and 180 degrees",
+    );
     let radius = (0.0..=LARGEST).contains(&g.rod_radius);
     checker.check(radius, "geometry/rod_radius", "must be a length between 0 and 1e6 mm");
 }
@@ -168,34 +169,19 @@ fn drives(d: &Drives, checker: &mut Checker) {
     }
 }
 
-/// The forward problem must keep all of its solutions: see [`LEAST_DIFFERENCE`].
-fn elimination(g: &Geometry, checker: &mut Checker) {
-    let offset = ((g.D1 - g.d1) - (g.D2 - g.d2)).abs();
-    let needed = LEAST_DIFFERENCE * g.L1.max(g.L2).max(g.L3);
+/// Leg I's rods diverge or are parallel. Only if they are parallel does the platform not turn.
+fn leg_one(g: &Geometry, checker: &mut Checker) {
     checker.check(
-        offset >= needed,
-        "geometry/D1",
-        &format!(
-            "D1 - d1 and D2 - d2 must differ by at least {LEAST_DIFFERENCE:e} of the longest leg, here {needed:.6} mm; \
-             they differ by {offset:.6} mm. With equal offsets the sliders determine x up to its mirror image about \
-             x = d1 - D1 only. This version does not solve that case, and it loses forward solutions close to it"
-        ),
-    );
-    if g.R1 <= g.r1 {
-        let detail = "must be greater than r1: otherwise the rods of leg I are parallel or crossed at home";
-        checker.check(false, "geometry/R1", detail);
-        return;
-    }
-    let needed = LEAST_DIFFERENCE * g.r1;
-    checker.check(
-        g.R1 - g.r1 >= needed,
+        g.R1 >= g.r1,
         "geometry/R1",
-        &format!(
-            "must exceed r1 by at least {LEAST_DIFFERENCE:e} of r1, here {needed:.6} mm; it exceeds r1 by \
-             {:.6} mm. With R1 = r1 the rods of leg I stay parallel and the platform does not turn (a linear \
-             delta). This version does not solve that case, and it loses forward solutions close to it",
-            g.R1 - g.r1
-        ),
+        "must be at least r1. In the working mode R1 cos alpha > r1, or R1 = r1 and alpha = 0; with R1 < r1 no angle \
+         satisfies that",
+    );
+    checker.check(
+        g.parallelogram_direction == 0.0 || g.R1 == g.r1,
+        "geometry/parallelogram_direction",
+        "must be 0 unless R1 = r1: with a platform that turns about x, parallelograms in another direction than x \
+         would not stay parallelograms",
     );
 }
 

@@ -1,7 +1,7 @@
 //! Least distance between the axes of two rods.
 
 use crate::fast_math::{greater, lesser};
-use crate::mechanism::Geometry;
+use crate::mechanism::Mechanism;
 use crate::pose::PlatformPose;
 use crate::rods::{FAMILY, RODS, Rods};
 
@@ -39,30 +39,30 @@ impl NearestPair {
 
 /// The least distance between two rods' axes as segments, mm, and the two rods' numbers.
 #[inline(always)]
-pub(crate) fn least_distance(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
-    let ends = rods.platform_ends(g);
+pub(crate) fn least_distance(d: &Mechanism, rods: &Rods) -> (f64, [u8; 2]) {
+    let ends = rods.platform_ends(d);
     // Leg I's own rods come first: they are usually the nearest, and the other pairs are then quickly seen to be
     // further apart.
-    let (square, leg) = of_one_leg(g, &ends, rods);
+    let (square, leg) = of_one_leg(d, &ends, rods);
     let mut nearest = NearestPair { square, rods: rods_of_leg(leg) };
-    compare_between_legs(&mut nearest, g, &ends, rods);
+    compare_between_legs(&mut nearest, d, &ends, rods);
     nearest.distance()
 }
 
 /// The same of a parallelogram's two rods.
 #[inline]
-pub(super) fn least_distance_in_parallelograms(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
-    let [second, third] = squares_of_parallelograms(g, rods);
+pub(super) fn least_distance_in_parallelograms(d: &Mechanism, rods: &Rods) -> (f64, [u8; 2]) {
+    let [second, third] = squares_of_parallelograms(d, rods);
     let (square, leg) = if third < second { (third, 2) } else { (second, 1) };
     (square.sqrt(), rods_of_leg(leg))
 }
 
 /// The same of all other pairs.
 #[inline]
-pub(super) fn least_distance_of_others(g: &Geometry, rods: &Rods) -> (f64, [u8; 2]) {
-    let ends = rods.platform_ends(g);
+pub(super) fn least_distance_of_others(d: &Mechanism, rods: &Rods) -> (f64, [u8; 2]) {
+    let ends = rods.platform_ends(d);
     let mut nearest = NearestPair { square: square_of_leg_one(&ends, rods), rods: rods_of_leg(0) };
-    compare_between_legs(&mut nearest, g, &ends, rods);
+    compare_between_legs(&mut nearest, d, &ends, rods);
     nearest.distance()
 }
 
@@ -76,10 +76,10 @@ pub(super) struct NearestWithinLegs {
 
 /// The least distance between the two rods of a leg, mm.
 #[inline(always)]
-pub(super) fn nearest_within_legs(g: &Geometry, rods: &Rods) -> NearestWithinLegs {
-    let ends = rods.platform_ends(g);
-    let (square, leg) = of_one_leg(g, &ends, rods);
-    let others_are_farther = others_are_farther(square, g, &ends, rods);
+pub(super) fn nearest_within_legs(d: &Mechanism, rods: &Rods) -> NearestWithinLegs {
+    let ends = rods.platform_ends(d);
+    let (square, leg) = of_one_leg(d, &ends, rods);
+    let others_are_farther = others_are_farther(square, d, &ends, rods);
     NearestWithinLegs { distance: square.sqrt(), leg, others_are_farther }
 }
 
@@ -94,9 +94,9 @@ pub(super) fn rods_of_leg(leg: u64) -> [u8; 2] {
 
 /// The square of the least distance between the two rods of a leg, and 0, 1 or 2 for the leg.
 #[inline(always)]
-fn of_one_leg(g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> (f64, u64) {
+fn of_one_leg(d: &Mechanism, ends: &[[f64; 3]; 6], rods: &Rods) -> (f64, u64) {
     let first = square_of_leg_one(ends, rods);
-    let [second, third] = squares_of_parallelograms(g, rods);
+    let [second, third] = squares_of_parallelograms(d, rods);
     let (square, leg) = if second < first { (second, 1) } else { (first, 0) };
     if third < square { (third, 2) } else { (square, leg) }
 }
@@ -105,12 +105,12 @@ fn of_one_leg(g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> (f64, u64) {
 /// different legs. Their minimum is [`least_distance`]'s; it has a kink where another of them becomes the
 /// least, and each of them has none there.
 #[inline(always)]
-pub(crate) fn least_distances_by_legs(g: &Geometry, rods: &Rods) -> [f64; 3] {
-    let ends = rods.platform_ends(g);
+pub(crate) fn least_distances_by_legs(d: &Mechanism, rods: &Rods) -> [f64; 3] {
+    let ends = rods.platform_ends(d);
     let first = square_of_leg_one(&ends, rods);
-    let [second, third] = squares_of_parallelograms(g, rods);
+    let [second, third] = squares_of_parallelograms(d, rods);
     let mut between = NearestPair { square: f64::INFINITY, rods: [11, 12] };
-    for pair in BETWEEN_LEGS {
+    for &pair in pairs_between_legs(d) {
         compare_pair(&mut between, &ends, rods, pair);
     }
     [first, lesser(second, third), between.square].map(f64::sqrt)
@@ -120,18 +120,19 @@ pub(crate) fn least_distances_by_legs(g: &Geometry, rods: &Rods) -> [f64; 3] {
 /// I's across the platform, leg I from the others along x, legs II and III from each other along
 /// y, a parallelogram's two as the lines that they lie on.
 #[inline(always)]
-pub(super) fn separation_bound(g: &Geometry, pose: &PlatformPose, rods: &Rods, distance: f64) -> f64 {
+pub(super) fn separation_bound(d: &Mechanism, pose: &PlatformPose, rods: &Rods, distance: f64) -> f64 {
     let least = ROUNDING * distance * distance;
-    let half = g.parallelogram_half_width;
-    let along_x = interval_distance([pose.x + g.D1, g.d1], [pose.x + g.D2, g.d2]) - half;
+    let (g, half) = (&d.geometry, d.geometry.parallelogram_half_width);
+    let [along, across] = d.pair_offset.map(f64::abs);
+    let along_x = interval_distance([pose.x + g.D1, g.d1], [pose.x + g.D2, g.d2]) - along;
     let sides = g.R2 * rods.c;
-    let along_y = interval_distance([pose.y - sides, -g.r4], [pose.y + sides, g.r4]);
+    let along_y = interval_distance([pose.y - sides, -g.r4], [pose.y + sides, g.r4]) - 2.0 * across;
     let clear = lesser(along_x, along_y);
-    let [.., [second, ..], [third, ..]] = rods.directions;
+    let [second, third] = along_pairs(d, rods);
     let parallel = 4.0 * half * half * (1.0 - greater(second * second, third * third));
     // The projections on leg I's arms, of half the length between them.
-    let across = |rod: usize| rods.c * rods.vectors[rod][1] + rods.s * rods.vectors[rod][2];
-    let first = 2.0 * g.R1 - greater(across(0), 0.0) + lesser(across(1), 0.0);
+    let inner = |rod: usize| rods.c * rods.vectors[rod][1] + rods.s * rods.vectors[rod][2];
+    let first = 2.0 * g.R1 - greater(inner(0), 0.0) + lesser(inner(1), 0.0);
     let legs = lesser(lesser(clear, first), parallel - least);
     lesser(legs, lesser(clear * clear, first * first) - least)
 }
@@ -150,57 +151,83 @@ fn square_of_leg_one(ends: &[[f64; 3]; 6], rods: &Rods) -> f64 {
 
 /// The squares of the distances between the two rods of each parallelogram.
 #[inline(always)]
-fn squares_of_parallelograms(g: &Geometry, rods: &Rods) -> [f64; 2] {
-    let width = 2.0 * g.parallelogram_half_width;
-    let [.., second, third] = &rods.directions;
+fn squares_of_parallelograms(d: &Mechanism, rods: &Rods) -> [f64; 2] {
+    let (g, width) = (&d.geometry, 2.0 * d.geometry.parallelogram_half_width);
+    let [second, third] = along_pairs(d, rods);
     [square_parallel(width, g.L2, second), square_parallel(width, g.L3, third)]
+}
+
+/// The components of the directions of legs II and III along the widths of their parallelograms.
+#[inline(always)]
+fn along_pairs(d: &Mechanism, rods: &Rods) -> [f64; 2] {
+    let ([c, s], [.., second, third]) = (d.pair_direction, &rods.directions);
+    [second[0] * c + second[1] * s, third[0] * c - third[1] * s]
 }
 
 /// Whether all rods of different legs are at least as far apart as the nearest pair, whose distance's square is given.
 #[inline(always)]
-fn others_are_farther(nearest: f64, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) -> bool {
-    let half = g.parallelogram_half_width;
-    let from_leg_one =
-        |i: usize, j: usize| lines_are_farther(nearest, &to_middle(ends, i, j, half), rods, [i, j], half);
-    let gap = difference(ends[2], ends[4]);
-    let parallelograms = is_farther(nearest, &gap, rods, [2, 4], 2.0 * half);
+fn others_are_farther(nearest: f64, d: &Mechanism, ends: &[[f64; 3]; 6], rods: &Rods) -> bool {
+    let [along, across] = d.pair_offset;
+    let (second, third) = ([along, across], [along, -across]);
+    let extent = |gap: &[f64; 3], [x, y]: [f64; 2]| (gap[0] * x + gap[1] * y).abs();
+    let from_leg_one = |i: usize, j: usize| {
+        let offset = if j == 2 { second } else { third };
+        lines_are_farther(nearest, &to_middle(ends, i, j, offset), rods, [i, j], offset)
+    };
+    // From the middle of the one to the middle of the other.
+    let [x, y, z] = difference(ends[2], ends[4]);
+    let gap = [x, y - 2.0 * across, z];
+    let parallelograms = is_farther(nearest, &gap, rods, [2, 4], extent(&gap, second) + extent(&gap, third));
     from_leg_one(0, 2) & from_leg_one(0, 4) & from_leg_one(1, 2) & from_leg_one(1, 4) & parallelograms
 }
 
-/// Pairs of rods of different legs. Rods 22 and 32 are at the same distance as 21 and 31.
-const BETWEEN_LEGS: [[usize; 2]; 11] =
-    [[0, 2], [0, 3], [0, 4], [0, 5], [1, 2], [1, 3], [1, 4], [1, 5], [2, 4], [2, 5], [3, 4]];
+/// Pairs of rods of different legs.
+const BETWEEN_LEGS: [[usize; 2]; 12] =
+    [[0, 2], [0, 3], [0, 4], [0, 5], [1, 2], [1, 3], [1, 4], [1, 5], [2, 4], [2, 5], [3, 4], [3, 5]];
+
+/// The pairs that have distances of their own. Parallelograms along x have rods 22 and 32 at the same distance as 21
+/// and 31.
+pub(crate) fn pairs_between_legs(d: &Mechanism) -> &'static [[usize; 2]] {
+    &BETWEEN_LEGS[..if d.pair_offset[1] == 0.0 { 11 } else { 12 }]
+}
 
 /// The pairs of rods of different legs.
 #[inline(always)]
-fn compare_between_legs(nearest: &mut NearestPair, g: &Geometry, ends: &[[f64; 3]; 6], rods: &Rods) {
+fn compare_between_legs(nearest: &mut NearestPair, d: &Mechanism, ends: &[[f64; 3]; 6], rods: &Rods) {
     // Nearly always all are farther.
-    if !others_are_farther(nearest.square, g, ends, rods) {
-        for pair in BETWEEN_LEGS {
+    if !others_are_farther(nearest.square, d, ends, rods) {
+        for &pair in pairs_between_legs(d) {
             compare_pair(nearest, ends, rods, pair);
         }
     }
 }
 
 /// Whether two rods are at least as far apart as the nearest pair, whose distance's square is given, decided without
-/// their nearest points, if one of them is shifted along x by up to `shift` either way: the segments' projections on
-/// the gap's direction are at least so far apart, times |gap|.
+/// their nearest points, if their ends are shifted by up to `extent` along the gap, times |gap|: the segments'
+/// projections on the gap's direction are at least so far apart, times |gap|.
 #[inline(always)]
-fn is_farther(nearest: f64, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
+fn is_farther(nearest: f64, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], extent: f64) -> bool {
     let (a, b) = (&rods.vectors[FAMILY[i]], &rods.vectors[FAMILY[j]]);
     let square_gap = dot(gap, gap);
-    let apart = square_gap - greater(dot(a, gap), 0.0) + lesser(dot(b, gap), 0.0) - shift * gap[0].abs();
+    let apart = square_gap - greater(dot(a, gap), 0.0) + lesser(dot(b, gap), 0.0) - extent;
     (apart > 0.0) & (apart * apart >= nearest * square_gap)
 }
 
 /// Whether the lines on which two rods lie, and so the rods, are certainly at least as far apart as the nearest pair,
-/// whose distance's square is given, if one of them is shifted along x by up to `shift` either way. Rods of leg I cross
+/// whose distance's square is given, if one of them is shifted by up to `offset` along x and y
+/// either way. Rods of leg I cross
 /// the others at a large angle and at a distance: nearly always this decides.
 #[inline(always)]
-fn lines_are_farther(nearest: f64, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], shift: f64) -> bool {
+fn lines_are_farther(
+    nearest: f64,
+    gap: &[f64; 3],
+    rods: &Rods,
+    [i, j]: [usize; 2],
+    offset: [f64; 2],
+) -> bool {
     let normal = cross(&rods.directions[FAMILY[i]], &rods.directions[FAMILY[j]]);
     let square = dot(&normal, &normal);
-    let apart = dot(gap, &normal).abs() - shift * normal[0].abs();
+    let apart = dot(gap, &normal).abs() - (normal[0] * offset[0] + normal[1] * offset[1]).abs();
     (square > NEARLY_PARALLEL) & (apart > 0.0) & (apart * apart >= LINE_ROUNDING * nearest * square)
 }
 
@@ -214,11 +241,11 @@ fn compare_pair(nearest: &mut NearestPair, ends: &[[f64; 3]; 6], rods: &Rods, [i
     nearest.compare(square, [i, j]);
 }
 
-/// Squared distance of a parallelogram's two rods, `width` apart along x: a foot of the
-/// perpendicular where there is one, else an end. It is the same to the last bit for legs II and
-/// III of one length, which are always equally bad.
+/// Squared distance of a parallelogram's two rods, `width` apart, whose direction has the component `x` along the
+/// width: a foot of the perpendicular where there is one, else an end. It is the same to the last bit for legs II and
+/// III of one length, which are equally bad if the widths lie along x.
 #[inline(always)]
-fn square_parallel(width: f64, length: f64, [x, ..]: &[f64; 3]) -> f64 {
+fn square_parallel(width: f64, length: f64, x: f64) -> f64 {
     let along = width * x.abs();
     if along <= length {
         width * width * (1.0 - x * x)
@@ -244,12 +271,12 @@ pub(crate) fn square_distance(gap: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> f64
     dot(&nearest, &nearest)
 }
 
-/// The gap between rod `i`'s platform end and the middle of a parallelogram's two, of which `j` is
-/// the one at the greater x.
+/// The gap between rod `i`'s platform end and the middle of a parallelogram's two, of which `j` is the one at the
+/// offset.
 #[inline(always)]
-fn to_middle(ends: &[[f64; 3]; 6], i: usize, j: usize, half_width: f64) -> [f64; 3] {
+fn to_middle(ends: &[[f64; 3]; 6], i: usize, j: usize, offset: [f64; 2]) -> [f64; 3] {
     let [x, y, z] = difference(ends[i], ends[j]);
-    [x + half_width, y, z]
+    [x + offset[0], y + offset[1], z]
 }
 
 #[inline(always)]

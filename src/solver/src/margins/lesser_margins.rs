@@ -2,7 +2,7 @@
 //! between rods are computed at a few postures only: a bound of their change usually shows that they do not matter at
 //! the postures nearby.
 
-use super::posture_margins::{heights, margin_of_det, range_margins};
+use super::posture_margins::{heights, limited_crossing, margin_of_det, range_margins};
 use super::worst::{FAMILY_ROD, WorstMargin, each_length, each_range, least};
 use super::{cone, interference};
 use crate::fast_math::greater;
@@ -94,7 +94,7 @@ impl Reference {
         let joints = cone::margins(limits.platform_cone, &home.platform_axes, &directions);
         let (family, platform_joint) = least(&joints);
         lesser.meet(Constraint::PlatformJoint, FAMILY_ROD[family], platform_joint, factors.platform_joint);
-        let (distance, [a, b]) = interference::least_distance_of_others(g, rods);
+        let (distance, [a, b]) = interference::least_distance_of_others(&machine.mechanism, rods);
         let (rod_interference, element) = (distance - 2.0 * g.rod_radius, Element::Rods(a, b));
         lesser.meet(Constraint::RodInterference, element, rod_interference, factors.rod_interference);
         let (directions, alpha) = (rods.directions, posture.pose.alpha);
@@ -140,10 +140,13 @@ pub(crate) fn worst_and_lesser(
 ) -> (Margin, f64) {
     let (g, limits, factors) = (machine.geometry(), machine.limits(), &machine.normalization);
     let ClosedPosture { pose, rho, rods, det, theta1, theta2, clearance } = *posture;
-    let worst = WorstMargin::new(g.R1 * rods.c - g.r1, factors.rod_crossing);
+    let limited = limited_crossing(machine, pose.alpha, g.R1 * rods.c - g.r1);
+    let worst = WorstMargin::new(limited, factors.rod_crossing);
     let crossing = worst.margin;
     let mut lesser = Lesser { worst, known, found };
-    lesser.note(crossing);
+    if limited.is_some() {
+        lesser.note(crossing);
+    }
     let stroke = [0, 1, 2].map(|i| range_margins(limits.stroke[i], rho[i]));
     let mut meet = |constraint, element, value, factor| lesser.meet(constraint, element, value, factor);
     each_length(machine, &stroke, &heights(g, pose, rho, rods), &mut meet);
@@ -153,7 +156,7 @@ pub(crate) fn worst_and_lesser(
     meet(Constraint::SerialSingularity, FAMILY_ROD[family], value, factors.serial_singularity);
     let det = margin_of_det(machine, det);
     meet(Constraint::ParallelSingularity, Element::Platform, det, factors.parallel_singularity);
-    let (distance, [a, b]) = interference::least_distance_in_parallelograms(g, rods);
+    let (distance, [a, b]) = interference::least_distance_in_parallelograms(&machine.mechanism, rods);
     let (value, element) = (distance - 2.0 * g.rod_radius, Element::Rods(a, b));
     meet(Constraint::RodInterference, element, value, factors.rod_interference);
     if let Some(Margin { constraint, element, value }) = clearance {

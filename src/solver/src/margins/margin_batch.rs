@@ -2,7 +2,7 @@
 
 use arrayvec::ArrayVec;
 
-use super::posture_margins::{Margins, det_margin, range_margins};
+use super::posture_margins::{Margins, det_margin, limited_crossing, range_margins};
 use super::worst::WorstMargin;
 use super::{cone, interference};
 use crate::clearance::Clearance;
@@ -68,7 +68,12 @@ impl MarginBatch {
             let (pose, rho) = self.posture(i);
             let table = table(pose.alpha);
             let worst = if bounds.strokes_decide[i] > 0.0 {
-                WorstMargin::of_strokes(machine, bounds.crossing[i], rho, table)
+                WorstMargin::of_strokes(
+                    machine,
+                    limited_crossing(machine, pose.alpha, bounds.crossing[i]),
+                    rho,
+                    table,
+                )
             } else {
                 of_all_margins(machine, &pose, rho, table)
             };
@@ -119,7 +124,7 @@ fn quick_bound(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> (f64, f
     let (g, limits, home) = (machine.geometry(), machine.limits(), &machine.home);
     let factors = &machine.normalization;
     let rods = Rods::with_angle(&machine.mechanism, pose, rho, sin_cos_of_turn(pose.alpha));
-    let crossing = g.R1 * rods.c - g.r1;
+    let crossing = g.R1 * rods.c - g.r1 + machine.mechanism.crossing_reserve;
     let stroke = |i: usize| {
         let [low, high] = range_margins(limits.stroke[i], rho[i]);
         lesser(low, high) * factors.stroke[i]
@@ -136,6 +141,6 @@ fn quick_bound(machine: &Machine, pose: &PlatformPose, rho: [f64; 3]) -> (f64, f
     let in_platform = |rod| cone::direction_in_platform(&rods, rod);
     let platform = cone::bound(&home.platform_axes, in_platform, limits.platform_cone * free);
     let distance = greater(fraction * home.rod_distance + 2.0 * g.rod_radius, 0.0);
-    let apart = interference::separation_bound(g, pose, &rods, distance);
+    let apart = interference::separation_bound(&machine.mechanism, pose, &rods, distance);
     (crossing, lesser(lesser(lesser(serial, parallel), lesser(slider, platform)), apart))
 }

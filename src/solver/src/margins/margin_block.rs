@@ -26,8 +26,10 @@ pub struct MarginBlock {
     pub slider_joint: [[f64; BLOCK_ROWS]; 4],
     /// [`Margins::platform_joint`].
     pub platform_joint: [[f64; BLOCK_ROWS]; 4],
-    /// [`Margins::rod_crossing`].
+    /// [`Margins::rod_crossing`]; it means nothing in rows in which that is `None`.
     pub rod_crossing: [f64; BLOCK_ROWS],
+    /// 1 for rows in which crossed rods are a limit.
+    pub(super) has_crossing: [u64; ROWS],
     /// [`Margins::rod_interference`].
     pub rod_interference: [f64; BLOCK_ROWS],
     /// The nearest rods' numbers: 256 times the one plus the other.
@@ -60,6 +62,7 @@ impl MarginBlock {
             slider_joint: [zero; 4],
             platform_joint: [zero; 4],
             rod_crossing: zero,
+            has_crossing: [0; ROWS],
             rod_interference: zero,
             nearest_rods: [0; ROWS],
             tilt: [zero; 2],
@@ -93,7 +96,7 @@ impl MarginBlock {
             parallel_singularity: self.parallel_singularity[i],
             slider_joint: row(&self.slider_joint, i),
             platform_joint: row(&self.platform_joint, i),
-            rod_crossing: self.rod_crossing[i],
+            rod_crossing: (self.has_crossing[i] == 1).then_some(self.rod_crossing[i]),
             rod_interference: self.rod_interference[i],
             nearest_rods: self.nearest_rods(i),
             tilt: has_table.then(|| row(&self.tilt, i)),
@@ -136,7 +139,7 @@ impl MarginBlock {
         set(&mut self.slider_joint, i, margins.slider_joint);
         set(&mut self.platform_joint, i, margins.platform_joint);
         self.parallel_singularity[i] = margins.parallel_singularity;
-        self.rod_crossing[i] = margins.rod_crossing;
+        self.rod_crossing[i] = margins.rod_crossing.unwrap_or(0.0);
         self.rod_interference[i] = margins.rod_interference;
         let others = if leg == 1 { pair(21) } else { pair(31) };
         self.nearest_rods[i] = if leg == 0 { pair(11) } else { others };
@@ -146,6 +149,12 @@ impl MarginBlock {
     pub(super) fn set_interference(&mut self, i: usize, margin: f64, [a, b]: [u8; 2]) {
         self.rod_interference[i] = margin;
         self.nearest_rods[i] = u64::from(u16::from_be_bytes([a, b]));
+    }
+
+    /// Sets whether crossed rods are a limit.
+    #[inline(always)]
+    pub(super) fn set_crossing_limit(&mut self, i: usize, is_limit: bool) {
+        self.has_crossing[i] = u64::from(is_limit);
     }
 
     /// Sets the margins of the table's angles in their ranges.

@@ -32,13 +32,15 @@ impl Kernel for MarginRows {
     fn run(&mut self, machine: &Machine) {
         // Without a range the margin means nothing. A branch in the loop would end its vectorisation.
         let ranges = [machine.limits().tilt, machine.limits().rotary.unwrap_or([0.0; 2])];
+        let is_delta = machine.mechanism.is_delta();
         for i in 0..ROWS {
             let (pose, rho) = (self.postures.pose(i), self.postures.rho(i));
             let rods = Rods::with_angle(&machine.mechanism, &pose, rho, sin_cos_of_turn(pose.alpha));
-            let nearest = nearest_within_legs(machine.geometry(), &rods);
+            let nearest = nearest_within_legs(&machine.mechanism, &rods);
             let of_module =
                 Margins::of_parallel_module(machine, &pose, rho, &rods, (nearest.distance, rods_of_leg(0)));
             self.margins.set_parallel_module(i, &of_module, nearest.leg);
+            self.margins.set_crossing_limit(i, !is_delta | (pose.alpha != 0.0));
             self.margins.set_table(i, &ranges, self.postures.angles(i));
             self.usual[i] = u64::from(nearest.others_are_farther & (pose.alpha.abs() < MAX_ANGLE));
         }
@@ -91,7 +93,7 @@ impl MarginRows {
         let (pose, rho) = (self.postures.pose(i), self.postures.rho(i));
         let g = machine.geometry();
         let rods = Rods::of(&machine.mechanism, &pose, rho);
-        let nearest = least_distance(g, &rods);
+        let nearest = least_distance(&machine.mechanism, &rods);
         if pose.alpha.abs() >= MAX_ANGLE {
             let of_module = Margins::of_parallel_module(machine, &pose, rho, &rods, nearest);
             self.margins.set_parallel_module(i, &of_module, 0);

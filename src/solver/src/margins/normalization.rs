@@ -31,7 +31,8 @@ impl Normalization {
             parallel_singularity: 1.0 / home_det.abs(),
             slider_joint: 1.0 / limits.slider_cone,
             platform_joint: 1.0 / limits.platform_cone,
-            rod_crossing: 1.0 / (g.R1 - g.r1),
+            // With R1 = r1 the rods cross as soon as the platform turns.
+            rod_crossing: 1.0 / if g.R1 == g.r1 { g.R1 } else { g.R1 - g.r1 },
             rod_interference: 1.0 / rod_distance,
             tilt: inverse_width(limits.tilt),
             // Without a limit there is no margin to compare.

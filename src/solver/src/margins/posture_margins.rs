@@ -26,8 +26,8 @@ pub struct Margins {
     pub slider_joint: [f64; 4],
     /// Cone half-angle less the rod's angle from its axis at the platform, rad.
     pub platform_joint: [f64; 4],
-    /// R1 cos alpha - r1, mm.
-    pub rod_crossing: f64,
+    /// R1 cos alpha - r1, mm. `None` where R1 = r1 and the platform does not turn: the rods of leg I stay parallel.
+    pub rod_crossing: Option<f64>,
     /// Least distance between the axes of two rods less twice the rod radius, mm.
     pub rod_interference: f64,
     /// The two rods that are nearest to each other.
@@ -88,13 +88,17 @@ impl Margins {
         rods: &Rods,
         table: Option<TableAngles>,
     ) -> Self {
-        let nearest = interference::least_distance(machine.geometry(), rods);
+        let nearest = interference::least_distance(&machine.mechanism, rods);
         let limits = machine.limits();
-        Self {
+        let mut margins = Self {
             tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
             rotary: table.zip(limits.rotary).map(|(table, range)| range_margins(range, table.theta2)),
             ..Self::of_parallel_module(machine, pose, rho, rods, nearest)
+        };
+        if machine.mechanism.is_delta() && pose.alpha == 0.0 {
+            margins.rod_crossing = None;
         }
+        margins
     }
 
     /// The margins of the sliders' strokes.
@@ -126,7 +130,7 @@ impl Margins {
                 &home.platform_axes,
                 &cone::in_platform(rods, &directions),
             ),
-            rod_crossing: g.R1 * rods.c - g.r1,
+            rod_crossing: Some(g.R1 * rods.c - g.r1),
             rod_interference: distance - 2.0 * g.rod_radius,
             nearest_rods,
             tilt: None,
@@ -209,7 +213,7 @@ impl Margins {
             && all(&self.serial_singularity)
             && all(&self.slider_joint)
             && all(&self.platform_joint)
-            && all(&[self.parallel_singularity, self.rod_crossing, self.rod_interference])
+            && all(&[self.parallel_singularity, self.rod_crossing.unwrap_or(0.0), self.rod_interference])
             && self.tilt.iter().chain(&self.rotary).all(inside)
             && self.table_clearance.is_none_or(|margin| margin.value >= 0.0)
     }
@@ -221,6 +225,12 @@ pub(super) fn heights(g: &Geometry, pose: &PlatformPose, rho: [f64; 3], rods: &R
     let (z, q) = (pose.z, g.R2 * rods.s);
     let [rho1, rho2, rho3] = rho;
     [z - rho1, z - q - rho2, z + q - rho3].map(f64::abs)
+}
+
+/// The margin of crossed rods, if it is a limit at this angle.
+#[inline]
+pub(super) fn limited_crossing(machine: &Machine, alpha: f64, margin: f64) -> Option<f64> {
+    (!machine.mechanism.is_delta() || alpha != 0.0).then_some(margin)
 }
 
 /// `det_P` in the sign of home less the limit.

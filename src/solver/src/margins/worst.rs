@@ -33,7 +33,7 @@ impl WorstMargin {
     #[inline]
     pub(super) fn of_strokes(
         machine: &Machine,
-        rod_crossing: f64,
+        rod_crossing: Option<f64>,
         rho: [f64; 3],
         table: Option<TableAngles>,
     ) -> Self {
@@ -68,10 +68,11 @@ impl WorstMargin {
         self
     }
 
-    /// Starts with the margin of crossed rods.
+    /// Starts with the margin of crossed rods. Any other margin is worse than one that is no limit.
     #[inline]
-    pub(super) fn new(rod_crossing: f64, factor: f64) -> Self {
+    pub(super) fn new(rod_crossing: Option<f64>, factor: f64) -> Self {
         let (constraint, element) = (Constraint::RodCrossing, Element::Leg(1));
+        let rod_crossing = rod_crossing.unwrap_or(f64::INFINITY);
         let margin = Margin { constraint, element, value: rod_crossing };
         Self { margin, fraction: rod_crossing * factor }
     }
@@ -236,7 +237,9 @@ impl Margins {
     #[inline]
     pub(crate) fn worst_of_each(&self, machine: &Machine, mut found: impl FnMut(Margin)) -> (Margin, f64) {
         let mut worst = WorstMargin::new(self.rod_crossing, machine.normalization.rod_crossing);
-        found(worst.margin);
+        if self.rod_crossing.is_some() {
+            found(worst.margin);
+        }
         each_margin(machine, self, |constraint, element, value, factor| {
             found(Margin { constraint, element, value });
             worst.compare(constraint, element, value, factor);
@@ -247,9 +250,8 @@ impl Margins {
     /// The margin of the constraint that keeps a posture out of the working mode: crossed rods, or the slider end
     /// that lies lowest relative to its platform end.
     pub(crate) fn out_of_mode(&self) -> Margin {
-        if self.rod_crossing <= 0.0 {
-            let (constraint, element) = (Constraint::RodCrossing, Element::Leg(1));
-            return Margin { constraint, element, value: self.rod_crossing };
+        if let Some(value) = self.rod_crossing.filter(|margin| *margin <= 0.0) {
+            return Margin { constraint: Constraint::RodCrossing, element: Element::Leg(1), value };
         }
         let (i, value) = least(&self.serial_singularity);
         Margin { constraint: Constraint::SerialSingularity, element: FAMILY_ROD[i], value }

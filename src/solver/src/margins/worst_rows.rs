@@ -79,7 +79,9 @@ impl WorstBlock {
     #[inline(always)]
     pub(super) fn set(&mut self, i: usize, machine: &Machine, margins: &MarginBlock) {
         let factors = &machine.normalization;
-        let crossing = margins.rod_crossing[i];
+        // Any other margin is worse than one that is no limit.
+        let is_limit = margins.has_crossing[i] == 1;
+        let crossing = if is_limit { margins.rod_crossing[i] } else { f64::INFINITY };
         let fraction = crossing * factors.rod_crossing;
         let mut worst = WorstOfRow { fraction, value: crossing, code: CROSSING, feasible: crossing >= 0.0 };
         for (slider, ends) in margins.stroke.iter().enumerate() {

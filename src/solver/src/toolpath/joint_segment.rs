@@ -6,11 +6,12 @@ use super::differential::Differential;
 use super::golden_section::{STEPS, beside, least};
 use super::meridian::Span;
 use super::nearby_pose::{hermite_middle, parabola, solved};
-use super::node::{ClosedRods, Node, Setting, Turns};
+use super::node::{ClosedRods, Node, Setting};
 use super::path::Path;
-use super::tool_motion::ToolMotion;
 use crate::machine::Machine;
 use crate::pose::{PlatformPose, TableAngles};
+use crate::tool_motion::ToolMotion;
+use crate::turns::Turns;
 
 /// Number of intervals between the places where the forward problem is solved, if the deviation is not interpolated.
 const FINE_INTERVALS: u32 = 16;
@@ -72,7 +73,7 @@ impl Surroundings {
         let rods = stop.node.rods(machine);
         let differential = Differential::of(machine, &rods)?;
         let closed = ClosedRods { rods, det: differential.det };
-        let tool = ToolMotion::at(machine, &stop.node, track.tool_length);
+        let tool = stop.node.tool(machine, track.tool_length);
         Some(Self { closed, differential, tool, path })
     }
 }
@@ -143,11 +144,12 @@ impl<'a> JointSegment<'a> {
         let machine = track.setting.machine;
         let weights = [tolerance.tip, tolerance.axis].map(|tolerance| 1.0 / (tolerance * tolerance));
         let at = |t: f64, node: &Node| {
-            let tool = ToolMotion::at(machine, node, track.tool_length).position();
+            let tool = node.tool(machine, track.tool_length).position();
             from_path(track.path, parameters, t, tool, weights)
         };
         let (rho, table) = between(self.ends, 0.5);
-        let turns = Turns::in_middle(self.ends, self.middle.alpha);
+        let tables = self.ends.map(|end| end.table);
+        let turns = Turns::in_middle(tables, self.ends.map(|end| &end.turns), self.middle.alpha);
         let middle = at(0.5, &Node { pose: self.middle, rho, table, turns });
         // Inside a cap the axis is off its path at the ends, too.
         let held = if track.span.stretch().is_some() {

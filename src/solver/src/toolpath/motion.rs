@@ -119,6 +119,16 @@ impl<M: Motions + ?Sized> Motions for &M {
     }
 }
 
+impl Motions for Vec<Motion> {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn motion(&self, index: usize) -> Motion {
+        self[index]
+    }
+}
+
 impl Motions for [Motion] {
     fn count(&self) -> usize {
         self.len()

@@ -1,6 +1,6 @@
 //! The joints at one place of the path.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use super::azimuth::inclination;
 use super::meridian::Span;
@@ -8,7 +8,6 @@ use super::motion::ToolPosition;
 use super::stretches::Stretch;
 use crate::clearance::Clearance;
 use crate::error::KinematicsError;
-use crate::fast_math::sin_cos;
 use crate::inverse::{part_every_working, part_working, part_working_near};
 use crate::machine::Machine;
 use crate::margins::Margins;
@@ -17,6 +16,8 @@ use crate::parallel_matrix::{determinant, matrix};
 use crate::pose::{PartPose, PlatformPose, TableAngles};
 use crate::posture::Posture;
 use crate::rods::Rods;
+use crate::tool_motion::ToolMotion;
+use crate::turns::{Turns, difference, direction};
 
 /// The difference of alpha to the place before above which other working solutions are looked for, rad.
 const NEAR: f64 = 0.05;
@@ -53,61 +54,6 @@ impl ClosedRods {
     pub(super) fn of(machine: &Machine, rods: Rods) -> Self {
         Self { rods, det: determinant(&matrix(machine.geometry(), &rods)) }
     }
-}
-
-/// Sine and cosine of alpha, theta1 and theta2.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Turns {
-    pub(super) platform: [f64; 2],
-    pub(super) tilt: [f64; 2],
-    pub(super) rotary: [f64; 2],
-}
-
-impl Turns {
-    /// The turns in the middle between two nodes, where the platform has this alpha.
-    pub(super) fn in_middle([a, b]: [&Node; 2], alpha: f64) -> Self {
-        let tilt = halfway([a.table.theta1, b.table.theta1], [a.turns.tilt, b.turns.tilt]);
-        let rotary = halfway([a.table.theta2, b.table.theta2], [a.turns.rotary, b.turns.rotary]);
-        Self { platform: direction(alpha), tilt, rotary }
-    }
-
-    pub(super) fn of(alpha: f64, table: TableAngles) -> Self {
-        let [platform, tilt, rotary] = [alpha, table.theta1, table.theta2].map(direction);
-        Self { platform, tilt, rotary }
-    }
-
-    /// The tool's axis in the part frame.
-    pub(super) fn axis(&self) -> [f64; 3] {
-        let ([s1, c1], [s2, c2]) = (self.inclination(), self.rotary);
-        // phi2 = -theta2.
-        [-s1 * s2, -s1 * c2, c1]
-    }
-
-    /// Sine and cosine of phi1.
-    pub(super) fn inclination(&self) -> [f64; 2] {
-        difference(self.platform, self.tilt)
-    }
-}
-
-/// Sine and cosine of an angle.
-fn direction(angle: f64) -> [f64; 2] {
-    let (sine, cosine) = sin_cos(angle);
-    [sine, cosine]
-}
-
-/// Sine and cosine of the mean of two angles, of which sine and cosine are known.
-fn halfway([a, b]: [f64; 2], [[sa, ca], [sb, cb]]: [[f64; 2]; 2]) -> [f64; 2] {
-    if (b - a).abs() > FRAC_PI_2 {
-        return direction(0.5 * (a + b));
-    }
-    let (sine, cosine) = (sa + sb, ca + cb);
-    let scale = 1.0 / (sine * sine + cosine * cosine).sqrt();
-    [sine * scale, cosine * scale]
-}
-
-/// Sine and cosine of the difference of two angles.
-fn difference([sa, ca]: [f64; 2], [sb, cb]: [f64; 2]) -> [f64; 2] {
-    [sa * cb - ca * sb, ca * cb + sa * sb]
 }
 
 /// A pose of the tool in the part frame, with sine and cosine of phi1 and phi2.
@@ -210,6 +156,11 @@ impl Node {
         let table = TableAngles { theta1: posture.pose.alpha - phi1, theta2: -phi2 };
         let turns = Turns { platform, tilt: difference(platform, inclination), rotary: [-sine, cosine] };
         Self { pose: posture.pose, rho: posture.rho, table, turns }
+    }
+
+    /// The tool at this place.
+    pub(super) fn tool(&self, machine: &Machine, tool_length: f64) -> ToolMotion {
+        ToolMotion::at(machine, &self.pose, self.turns, tool_length)
     }
 
     pub(super) fn closed_rods(&self, machine: &Machine) -> ClosedRods {

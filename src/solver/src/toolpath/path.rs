@@ -246,8 +246,13 @@ fn rotated(frame: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
 
 /// Number of places that are examined on a part of a path.
 pub(super) fn places(longest: f64, path: &Path, part: f64) -> u32 {
+    dense_places(longest, path, part, 1.0)
+}
+
+/// The same with `density` times as many on long parts.
+pub(super) fn dense_places(longest: f64, path: &Path, part: f64, density: f64) -> u32 {
     let count = (path.length() / (LENGTH * longest)).max((path.turn() + path.sweep()) / ANGLE) * part;
-    count_of(count)
+    count_of(density * count)
 }
 
 #[allow(

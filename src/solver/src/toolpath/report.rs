@@ -139,6 +139,21 @@ impl Report {
         self.failure_count == 0
     }
 
+    /// The margin of the program that is the least as a fraction of its constraint's range, on its rows and between
+    /// them. A place that the machine does not reach counts with the margin of the constraint that prevents it. `None`:
+    /// the plan has no place.
+    ///
+    /// # Units
+    ///
+    /// mm, rad, or none, by the constraint.
+    pub fn worst(&self, machine: &Machine) -> Option<LeastMargin> {
+        let failing =
+            self.failures.iter().map(|&Failure { margin, motion, .. }| LeastMargin { margin, motion });
+        let all = self.least.iter().copied().chain(failing);
+        let fraction = |least: &LeastMargin| least.margin.fraction(machine);
+        all.min_by(|a, b| fraction(a).total_cmp(&fraction(b)))
+    }
+
     /// Notes a place outside a limit, with its margin as a fraction of the constraint's range.
     pub(super) fn fail(
         &mut self,

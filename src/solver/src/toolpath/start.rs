@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use super::azimuth::to_nearest;
 use super::motion::{Motion, MotionKind, Motions, Standstill, ToolPosition, Turning};
 use super::node::Node;
-use super::tool_motion::ToolMotion;
 use crate::error::KinematicsError;
 use crate::forward::forward_working;
 use crate::machine::Machine;
@@ -52,7 +51,7 @@ impl Start {
     }
 
     pub(super) fn position(&self, machine: &Machine, tool_length: f64) -> ToolPosition {
-        let [tip, axis] = ToolMotion::at(machine, &self.0, tool_length).position();
+        let [tip, axis] = self.0.tool(machine, tool_length).position();
         ToolPosition { tip: tip.into(), axis: axis.into() }
     }
 }

@@ -101,7 +101,7 @@ impl Column {
 fn lead(machine: &Machine, angle: &LegOneAngle) -> f64 {
     let g = machine.geometry();
     let above = (angle.w1 - g.R1 * angle.s.abs()) / g.L1;
-    above.min((g.R1 * angle.c - g.r1) / g.R1)
+    above.min((g.R1 * angle.c - g.r1 + machine.mechanism.crossing_reserve) / g.R1)
 }
 
 /// √x with the sign of x.

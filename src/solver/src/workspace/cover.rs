@@ -8,8 +8,6 @@
 //! inside the box.
 
 mod classification;
-mod interval;
-mod jet;
 mod leg_one;
 mod limit_bounds;
 mod posture_bounds;

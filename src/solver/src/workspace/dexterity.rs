@@ -24,11 +24,13 @@ mod slab;
 mod volumes;
 
 pub use crossings::Crossing;
+pub(crate) use crossings::EDGES;
 pub use grid::Grid;
 pub use inclination::InclinationInterval;
 pub use merge::{Dexterity, merge};
 pub use orientations::orientations;
 pub use region::Region;
+pub(crate) use region::triangles;
 pub use request::{DexterityRequest, MOST_NODES};
 pub use slab::{Slab, slab};
 pub use volumes::volumes;

@@ -57,6 +57,9 @@ pub(super) struct Domain<'a> {
     pub(super) alpha_range: Option<[f64; 2]>,
     /// The table's plane, if it is a limit.
     floor: Option<Floor>,
+    /// Cones that contain other cones everywhere: with R1 = r1 the platform does not turn, and leg I's rods are
+    /// parallel. Their limits never bind. Two limits that vanish together would leave the cover undecided.
+    implied: LimitSet,
     /// Whether the domain is empty because the constant rotary angle is out of its range, or because a slice lies
     /// below the floor.
     pub(super) empty: bool,
@@ -79,6 +82,7 @@ impl<'a> Domain<'a> {
             chords: [chord(limits.slider_cone), chord(limits.platform_cone)],
             alpha_range: (part && half < PI).then_some([low + half + request.phi1, half]),
             floor,
+            implied: implied_cones(machine),
             empty: below || part && limits.rotary.is_some_and(|[low, high]| !(low..=high).contains(&theta2)),
         }
     }
@@ -92,15 +96,30 @@ impl<'a> Domain<'a> {
     pub(super) fn values(&self, column: &Column) -> Values {
         let rods = self.rods(column);
         let g = self.machine.geometry();
-        let distances = interference::least_distances_by_legs(g, &rods);
-        Limit::ALL.map(|limit| match limit {
+        let distances = interference::least_distances_by_legs(&self.machine.mechanism, &rods);
+        let mut values = Limit::ALL.map(|limit| match limit {
             Limit::RodDistance(pairs) => distances[pairs as usize] - 2.0 * g.rod_radius,
             _ => self.with_rods(limit, column, &rods),
-        })
+        });
+        if self.implied != 0 {
+            for number in (0..LIMITS).filter(|number| self.is_implied(*number)) {
+                values[number] = self.machine.mechanism.longest;
+            }
+        }
+        values
+    }
+
+    /// Whether another limit implies a limit, by its number.
+    #[inline]
+    pub(super) fn is_implied(&self, limit: usize) -> bool {
+        self.implied & (1 << limit) != 0
     }
 
     /// One limit at a column, by its number.
     pub(super) fn value(&self, limit: usize, column: &Column) -> f64 {
+        if self.is_implied(limit) {
+            return self.machine.mechanism.longest;
+        }
         self.with_rods(Limit::ALL[limit], column, &self.rods(column))
     }
 
@@ -119,7 +138,7 @@ impl<'a> Domain<'a> {
             Limit::LegOneReach => {
                 LegOneCubic::new(&self.machine.mechanism, column.x, column.y).closing_margin()
             }
-            Limit::LegOneCrossing => g.R1 * column.c - g.r1,
+            Limit::LegOneCrossing => g.R1 * column.c - g.r1 + self.machine.mechanism.crossing_reserve,
             Limit::LegOneSerial(rod) => rods.vectors[usize::from(rod)][2] - limits.serial_margin * g.L1,
             Limit::LegSerial(leg) => {
                 let (length, square) =
@@ -140,7 +159,8 @@ impl<'a> Domain<'a> {
                 self.chords[1] - chord(axis(&home.platform_axes, rod), [x, c * y + s * z, c * z - s * y])
             }
             Limit::RodDistance(pairs) => {
-                interference::least_distances_by_legs(g, rods)[pairs as usize] - 2.0 * g.rod_radius
+                interference::least_distances_by_legs(&self.machine.mechanism, rods)[pairs as usize]
+                    - 2.0 * g.rod_radius
             }
             Limit::Stroke(number) => self.stroke(usize::from(number), column),
             Limit::Tilt { high } => self.tilt(high, column),
@@ -173,7 +193,7 @@ impl<'a> Domain<'a> {
             Limit::TablePlane => self.table_binding(),
             Limit::RodDistance(_) => {
                 let rods = self.rods(&self.column(at));
-                let (_, [a, b]) = interference::least_distance(self.machine.geometry(), &rods);
+                let (_, [a, b]) = interference::least_distance(&self.machine.mechanism, &rods);
                 Binding { constraint: Constraint::RodInterference, element: Element::Rods(a, b) }
             }
             _ => limit.binding(),
@@ -196,6 +216,34 @@ impl<'a> Domain<'a> {
         let half = g.L1.min(0.5 * (g.L2 + g.L3));
         [[least, -half], [greatest, half]]
     }
+}
+
+/// The cones that are implied by another with the same axis, the same direction of the rod, and a half-angle that is
+/// not greater.
+fn implied_cones(machine: &Machine) -> LimitSet {
+    if !machine.mechanism.is_delta() {
+        return 0;
+    }
+    let (home, limits) = (&machine.home, machine.limits());
+    let cone = |limit: Limit| match limit {
+        Limit::SliderCone(rod) => Some((rod, axis(&home.slider_axes, usize::from(rod)), limits.slider_cone)),
+        Limit::PlatformCone(rod) => {
+            Some((rod, axis(&home.platform_axes, usize::from(rod)), limits.platform_cone))
+        }
+        _ => None,
+    };
+    // Rods 11 and 12 are parallel.
+    let family = |rod: u8| rod.max(1);
+    let cones: Vec<_> = Limit::ALL.iter().filter_map(|limit| Some((*limit, cone(*limit)?))).collect();
+    Limit::set(|limit| {
+        cones.iter().position(|(other, _)| *other == limit).is_some_and(|i| {
+            let (rod, own, angle) = cones[i].1;
+            cones.iter().enumerate().any(|(j, (_, (other_rod, other, other_angle)))| {
+                let within = *other_angle < angle || (*other_angle == angle && j < i);
+                family(rod) == family(*other_rod) && own == *other && within
+            })
+        })
+    })
 }
 
 /// One axis of four that are stored by coordinate.

@@ -60,18 +60,18 @@ impl Observer for Subprogress<'_> {
 }
 
 /// Counts the finished units of a computation on several threads and reports them to the observer.
-pub(super) struct ProgressCounter<'a> {
+pub(crate) struct ProgressCounter<'a> {
     observer: &'a dyn Observer,
     done: AtomicUsize,
     total: usize,
 }
 
 impl<'a> ProgressCounter<'a> {
-    pub(super) fn new(observer: &'a dyn Observer, total: usize) -> Self {
+    pub(crate) fn new(observer: &'a dyn Observer, total: usize) -> Self {
         Self { observer, done: AtomicUsize::new(0), total }
     }
 
-    pub(super) fn finished(&self, units: usize) {
+    pub(crate) fn finished(&self, units: usize) {
         let done = self.done.fetch_add(units, Ordering::Relaxed) + units;
         self.observer.progress(count(done) / count(self.total.max(1)));
     }
@@ -118,6 +118,6 @@ impl<'a> StepCounter<'a> {
     }
 }
 
-pub(super) fn check_cancelled(observer: &dyn Observer) -> Result<(), WorkspaceError> {
+pub(crate) fn check_cancelled(observer: &dyn Observer) -> Result<(), WorkspaceError> {
     if observer.cancelled() { Err(WorkspaceError::Cancelled) } else { Ok(()) }
 }

@@ -15,6 +15,7 @@ use polygon::{polygons, ring_area};
 
 pub use contour::Contour;
 pub use polygon::Polygon;
+pub(crate) use polygon::nested;
 
 /// The cut of a workspace at one height: (x, y) in the frame of the request's kind, mm.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,11 +1,12 @@
 //! The least distance between the rods, against a minimisation of the distance itself.
 
-use nalgebra::Vector3;
-use verne_solver::{Machine, Margins};
+use nalgebra::{Vector3, Vector4};
+use verne_solver::{Machine, Margins, PostureColumns, Registers, margin_rows, platform_working};
 
 use crate::lengths::scale;
 use crate::oracle::constructed_postures::{hung, postures, upright};
 use crate::oracle::{Found, Legs};
+use crate::random::Random;
 
 const RODS: [u8; 6] = [11, 12, 21, 22, 31, 32];
 
@@ -66,6 +67,33 @@ fn rod_distances_of_random_postures_are_minimal() {
     for (machine, found) in postures(121, 2000) {
         check(&machine, &found);
     }
+}
+
+/// Linear deltas, whose parallelograms have other directions than x.
+#[test]
+fn rod_distances_of_parallelograms_in_any_direction_are_minimal() {
+    let (mut draw, mut count, mut between_legs) = (Random::new(122), 0, 0);
+    while count < 2000 {
+        let mut data = Machine::linear_delta().data().clone();
+        let g = &mut data.geometry;
+        g.parallelogram_direction = draw.between(-3.1, 3.1);
+        g.parallelogram_half_width = draw.between(10.0, 150.0);
+        (g.R2, g.D2) = (g.R2 * draw.between(0.2, 1.5), g.D2 * draw.between(-1.0, 1.0));
+        let Ok(machine) = Machine::new(data) else { continue };
+        let p = [draw.between(-250.0, 250.0), draw.between(-250.0, 250.0), 900.0];
+        let Ok(posture) = platform_working(&machine, p) else { continue };
+        let legs = Legs::of(&machine);
+        let q = Vector4::new(p[0], p[1], p[2], posture.pose.alpha);
+        check(&machine, &Found::new(&legs, q, posture.rho, 1.0));
+        let margins = Margins::of(&machine, &posture, None);
+        let mut rows = PostureColumns::new();
+        rows.push(&posture, None);
+        margin_rows(&machine, &rows, None, Registers::Widest, |_, block| assert_eq!(block.row(0), margins));
+        let [first, second] = margins.nearest_rods;
+        between_legs += u32::from(first / 10 != second / 10);
+        count += 1;
+    }
+    assert!(between_legs > 100, "{between_legs}");
 }
 
 #[test]

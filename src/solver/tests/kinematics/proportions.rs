@@ -19,6 +19,7 @@ fn small() -> Machine {
         L2: 10.5,
         L3: 10.5,
         parallelogram_half_width: 0.8,
+        parallelogram_direction: 0.0,
         rod_radius: 0.25,
     };
     data.table = Table { da: 15.0, dt: 2.0 };

@@ -127,6 +127,7 @@ fn machine(file: &str) -> Machine {
             L2: g("L2"),
             L3: g("L3"),
             parallelogram_half_width: g("parallelogram_half_width"),
+            parallelogram_direction: 0.0,
             rod_radius: g("rod_radius"),
         },
         table: Table { da: number(&json["table"]["da"]), dt: number(&json["table"]["dt"]) },
@@ -147,15 +148,15 @@ fn machine(file: &str) -> Machine {
     Machine::new(data).expect("a published machine is valid")
 }
 
-fn text(value: &Value) -> String {
+pub(crate) fn text(value: &Value) -> String {
     value.as_str().unwrap().to_owned()
 }
 
-fn number(value: &Value) -> f64 {
+pub(crate) fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(number).collect()
 }
 

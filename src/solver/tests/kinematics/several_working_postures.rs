@@ -31,6 +31,7 @@ fn machine(draw: &mut Random) -> Machine {
         L2: length(707.2),
         L3: length(707.2),
         parallelogram_half_width: length(20.0),
+        parallelogram_direction: 0.0,
         rod_radius: 0.0,
     };
     data.table = Table { da: length(-760.0), dt: length(200.0) };

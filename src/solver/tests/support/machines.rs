@@ -143,6 +143,7 @@ impl Random {
             L2: scale * L2,
             L3: scale * if self.one_in(2) { L2 } else { self.between(0.6, 1.4) },
             parallelogram_half_width: scale * self.between(0.01, 0.2),
+            parallelogram_direction: 0.0,
             rod_radius: scale * self.between(0.0, 0.03),
         }
     }

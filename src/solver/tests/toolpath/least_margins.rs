@@ -77,7 +77,7 @@ fn least_of(margins: &Margins, constraint: Constraint) -> f64 {
         Constraint::ParallelSingularity => margins.parallel_singularity,
         Constraint::SliderJoint => least(&margins.slider_joint),
         Constraint::PlatformJoint => least(&margins.platform_joint),
-        Constraint::RodCrossing => margins.rod_crossing,
+        Constraint::RodCrossing => margins.rod_crossing.unwrap(),
         Constraint::RodInterference => margins.rod_interference,
         Constraint::Tilt => least(&margins.tilt.unwrap()),
         Constraint::Rotary => least(&margins.rotary.unwrap()),

@@ -2,7 +2,8 @@
 
 use verne_solver::axis::tool_axis;
 use verne_solver::toolpath::{
-    Curve, Motion, MotionKind, PlanOptions, Report, Row, ToolPosition, Turning, plan,
+    AdjustableProgram, Curve, Motion, MotionKind, Motions, PlanOptions, Report, Row, SetUp, ToolPosition,
+    Turning, plan,
 };
 use verne_solver::{Machine, TableAngles, forward_working, part_pose};
 
@@ -165,4 +166,38 @@ fn best_fit(
         if miss(c) < miss(d) { high = d } else { low = c }
     }
     miss(0.5 * (low + high))
+}
+
+/// A program in its own frame, which a set-up turns about z and moves.
+pub(crate) struct Clamped(pub(crate) Vec<Motion>);
+
+impl AdjustableProgram for Clamped {
+    fn motions(&self, set_up: &SetUp) -> Box<dyn Motions + '_> {
+        let (s, c) = set_up.turn.sin_cos();
+        let turned = |[x, y, z]: [f64; 3]| [c * x - s * y, s * x + c * y, z];
+        let moved = |p: [f64; 3]| {
+            let turned = turned(p);
+            std::array::from_fn(|i| set_up.origin[i] + turned[i])
+        };
+        let motions = self.0.iter().map(|motion| {
+            let end = ToolPosition { tip: moved(motion.end.tip), axis: turned(motion.end.axis) };
+            let curve = match motion.curve {
+                Curve::Line => Curve::Line,
+                Curve::Arc { centre, normal, sweep } => {
+                    Curve::Arc { centre: moved(centre), normal: turned(normal), sweep }
+                }
+            };
+            Motion { end, curve, tool_length: set_up.tool_length, ..*motion }
+        });
+        Box::new(motions.collect::<Vec<_>>())
+    }
+
+    fn is_adjusted(&self, _: usize) -> bool {
+        true
+    }
+
+    fn stated(&self, set_up: &SetUp) -> SetUp {
+        let rounded = |number: f64| (number * 1e7).round() / 1e7;
+        SetUp::of_parameters(set_up.parameters().map(rounded))
+    }
 }

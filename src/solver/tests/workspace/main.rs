@@ -22,6 +22,8 @@ mod topology;
 mod components;
 /// Grids, regions and volumes of dexterity maps.
 mod dexterity;
+/// Workspaces of linear deltas against closed forms.
+mod linear_delta;
 /// Machines whose strokes are many times as long as the legs, and the estimate of triangles.
 mod long_strokes;
 /// Volumes and areas.

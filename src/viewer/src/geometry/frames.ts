@@ -8,6 +8,8 @@ export interface TableAngles {
   theta2: number;
 }
 
+export const AT_REST: TableAngles = { theta1: 0, theta2: 0 };
+
 const METRES = 1e-3;
 
 /** From the base frame (mm, z down) to the scene (metres, Y up): (x, y, z) becomes (x, -z, y). */
@@ -43,4 +45,14 @@ export function sceneFromPartGlb(table: Machine["table"], angles: TableAngles): 
   return SCENE_FROM_BASE.clone()
     .multiply(baseFromTable(table, angles))
     .multiply(GLB_FROM_PART.clone().invert());
+}
+
+/** From the base frame or the table frame, mm, to the scene; without a table the base frame. */
+export function sceneFromFrame(
+  frame: "base" | "part",
+  table: Machine["table"] | undefined,
+  angles: TableAngles = AT_REST,
+): Matrix4 {
+  const scene = SCENE_FROM_BASE.clone();
+  return frame === "base" || !table ? scene : scene.multiply(baseFromTable(table, angles));
 }

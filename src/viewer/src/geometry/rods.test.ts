@@ -29,7 +29,7 @@ test("every rod has its length wherever the service says that the machine stands
   for (const { rho, pose } of SOLUTIONS) {
     for (const rod of rods(g, rho, pose)) {
       const length = rod.slider.distanceTo(rod.platform);
-      expect(Math.abs(length - lengths[rod.leg]!), `${rod.name} at z = ${pose.z}`).toBeLessThan(1e-9);
+      expect(Math.abs(length - (lengths[rod.leg] ?? 0)), `${rod.name} at z = ${pose.z}`).toBeLessThan(1e-9);
     }
   }
 });

@@ -1,6 +1,6 @@
 /** The ends of the six rods, as the closure equations (3)-(6) place them. */
 
-import { Vector3 } from "three";
+import { MathUtils, Vector3 } from "three";
 import type { Machine, PlatformPose } from "verne-client";
 import { baseFromPlatform } from "./frames";
 
@@ -19,7 +19,9 @@ export interface Rod {
 
 /** The joints on the sliders with rho = 0 and on the platform in its own frame, rod by rod. */
 export function joints(g: Machine["geometry"]): Rod[] {
-  const w = g.parallelogram_half_width;
+  const direction = MathUtils.degToRad(g.parallelogram_direction ?? 0);
+  const w = g.parallelogram_half_width * Math.cos(direction);
+  const v = g.parallelogram_half_width * Math.sin(direction);
   const rod = (name: RodName, leg: 0 | 1 | 2, a: [number, number], b: [number, number]): Rod => ({
     name,
     leg,
@@ -29,10 +31,10 @@ export function joints(g: Machine["geometry"]): Rod[] {
   return [
     rod("11", 0, [g.d1, g.r1], [g.D1, g.R1]),
     rod("12", 0, [g.d1, -g.r1], [g.D1, -g.R1]),
-    rod("21", 1, [g.d2 + w, -g.r4], [g.D2 + w, -g.R2]),
-    rod("22", 1, [g.d2 - w, -g.r4], [g.D2 - w, -g.R2]),
-    rod("31", 2, [g.d2 + w, g.r4], [g.D2 + w, g.R2]),
-    rod("32", 2, [g.d2 - w, g.r4], [g.D2 - w, g.R2]),
+    rod("21", 1, [g.d2 + w, v - g.r4], [g.D2 + w, v - g.R2]),
+    rod("22", 1, [g.d2 - w, -v - g.r4], [g.D2 - w, -v - g.R2]),
+    rod("31", 2, [g.d2 + w, g.r4 - v], [g.D2 + w, g.R2 - v]),
+    rod("32", 2, [g.d2 - w, g.r4 + v], [g.D2 - w, g.R2 + v]),
   ];
 }
 

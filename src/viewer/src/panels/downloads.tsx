@@ -1,9 +1,10 @@
 /** The workspace and its slice as files. */
 
 import type { WorkspaceSummary } from "verne-client";
-import { inWords, verne } from "../api/client";
+import { failureOf, verne } from "../api/client";
 import { hasKey } from "../api/key";
 import { failure, section } from "../state/store";
+import { saveFile } from "./save_file";
 
 const MESHES = ["glb", "stl", "ply"] as const;
 const DRAWINGS = ["dxf", "svg"] as const;
@@ -39,12 +40,12 @@ export function Downloads({ found }: { found: WorkspaceSummary }) {
   );
 }
 
-function File({ link, name, children }: { link: string; name: string; children: string }) {
+export function File({ link, name, children }: { link: string; name: string; children: string }) {
   // A link sends no key: where there is one, the file is fetched and saved from here.
   const saveWithKey = (event: MouseEvent) => {
     if (!hasKey()) return;
     event.preventDefault();
-    save(link, name).catch((thrown: unknown) => (failure.value = inWords(thrown)));
+    void saveOrTell(link, name);
   };
   return (
     <a href={verne.address(link)} download={name} onClick={saveWithKey}>
@@ -53,10 +54,14 @@ function File({ link, name, children }: { link: string; name: string; children: 
   );
 }
 
+async function saveOrTell(link: string, name: string): Promise<void> {
+  try {
+    await save(link, name);
+  } catch (thrown) {
+    failure.value = failureOf(thrown, () => void saveOrTell(link, name));
+  }
+}
+
 async function save(file: string, name: string): Promise<void> {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([await verne.file(file)]));
-  link.download = name;
-  link.click();
-  URL.revokeObjectURL(link.href);
+  saveFile(new Blob([await verne.file(file)]), name);
 }

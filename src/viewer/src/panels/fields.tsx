@@ -1,8 +1,9 @@
 /** Numbers to type and to slide. */
 
-import { useEffect, useRef, useState } from "preact/hooks";
+import { tooltip } from "../words/symbols";
+import { useEffect, useId, useRef, useState } from "preact/hooks";
 
-interface NumberProps {
+export interface NumberProps {
   label: string;
   /** Shown instead of the label, which remains for those who listen. */
   symbol?: string;
@@ -12,10 +13,12 @@ interface NumberProps {
   step?: number;
   min?: number;
   max?: number;
+  /** Why the value cannot be used; empty where another element says it. */
+  fault?: string | undefined;
   commit: (value: number) => void;
 }
 
-/** A number with its unit; while it is typed, nothing overwrites it. */
+/** A number with its unit; while it is typed, nothing overwrites it. A value out of range stays, with its reason. */
 export function NumberField({
   label,
   symbol,
@@ -23,23 +26,35 @@ export function NumberField({
   value,
   decimals = 1,
   step = 1,
-  min,
-  max,
+  min = -Infinity,
+  max = Infinity,
+  fault,
   commit,
 }: NumberProps) {
   const input = useRef<HTMLInputElement>(null);
+  const id = useId();
   const [typing, setTyping] = useState(false);
+  const [outOfRange, setOutOfRange] = useState(false);
   const shown = clean(value, decimals);
+  useEffect(() => setOutOfRange(false), [shown]);
   useEffect(() => {
-    if (!typing && input.current) input.current.value = shown;
-  }, [shown, typing]);
+    if (!typing && !outOfRange && input.current) input.current.value = shown;
+  }, [shown, typing, outOfRange]);
   const take = () => {
     const typed = input.current?.valueAsNumber ?? Number.NaN;
-    if (Number.isFinite(typed) && input.current?.value !== shown) commit(clamp(typed, min, max));
+    const inside = !(typed < min || typed > max);
+    setOutOfRange(!inside);
+    if (inside && Number.isFinite(typed) && input.current?.value !== shown) commit(typed);
   };
+  const discard = (event: KeyboardEvent) => {
+    if (event.key !== "Escape" || !input.current) return;
+    input.current.value = shown;
+    setOutOfRange(false);
+  };
+  const words = outOfRange ? range(min, max, unit) : fault;
   return (
     <label class="number">
-      <span class="name" aria-hidden={symbol ? "true" : undefined}>
+      <span class="name" title={tooltip(symbol ?? label)} aria-hidden={symbol ? "true" : undefined}>
         {symbol ?? label}
       </span>
       <span class="box">
@@ -48,45 +63,34 @@ export function NumberField({
           type="number"
           inputMode="decimal"
           aria-label={symbol ? `${label}, ${spoken(unit)}` : undefined}
+          aria-invalid={words !== undefined}
+          aria-describedby={words ? id : undefined}
           step={step}
-          min={min}
-          max={max}
           defaultValue={shown}
           onFocus={() => setTyping(true)}
           onBlur={() => setTyping(false)}
           onChange={take}
+          onKeyDown={discard}
         />
         <span class="unit" aria-hidden="true">
           {unit}
         </span>
       </span>
+      {words && (
+        <span class="fault" id={id} role="alert">
+          {symbol ?? label}: {words}
+        </span>
+      )}
     </label>
   );
 }
 
-interface SlideProps extends NumberProps {
-  min: number;
-  max: number;
-}
-
-/** A number that is mostly slid: it is told at every step. */
-export function SlideField(props: SlideProps) {
-  const { label, unit, value, min, max, decimals = 1, step = 1, commit } = props;
-  return (
-    <div class="slide">
-      <input
-        type="range"
-        aria-label={`${label}, ${spoken(unit)}`}
-        min={min}
-        max={max}
-        step={step}
-        value={clamp(value, min, max)}
-        aria-valuetext={`${clean(value, decimals)} ${spoken(unit)}`}
-        onInput={(event) => commit(event.currentTarget.valueAsNumber)}
-      />
-      <NumberField {...props} label={`${label}, typed`} symbol={props.symbol ?? label} step={step} />
-    </div>
-  );
+/** The values that a field takes, in words. */
+function range(min: number, max: number, unit: string): string {
+  const space = unit === "°" ? "" : "\u00a0";
+  if (max === Infinity) return `at least ${min}${space}${unit}`;
+  if (min === -Infinity) return `at most ${max}${space}${unit}`;
+  return `from ${min} to ${max}${space}${unit}`;
 }
 
 interface ChoiceProps<T extends string> {
@@ -114,14 +118,11 @@ export function Choice<T extends string>({ legend, name, value, options, choose 
   );
 }
 
-export function clamp(value: number, min = -Infinity, max = Infinity): number {
-  return Math.min(Math.max(value, min), max);
-}
-
-function clean(value: number, decimals: number): string {
+export function clean(value: number, decimals: number): string {
   return (Number(value.toFixed(decimals)) + 0).toFixed(decimals);
 }
 
-function spoken(unit: string): string {
+/** A unit as it is read aloud. */
+export function spoken(unit: string): string {
   return unit === "°" ? "degrees" : unit;
 }

@@ -1,31 +1,40 @@
 /** Five sliders move the machine. */
 
-import { machine, position } from "../state/store";
-import { moveTo } from "../state/motion";
-import type { Joints } from "../state/view";
-import { SlideField } from "./fields";
-import { useWanted } from "./wanted";
+import { useSignal } from "@preact/signals";
+import { jointWays } from "../state/joint_ways";
+import { fromList, toList, travels } from "../state/joints";
+import { jog, moveTo } from "../state/motion";
+import { machine, refusal, wantedJoints } from "../state/store";
+import { Choice } from "./fields";
+import { Refused } from "./refused";
+import { SlideField } from "./slide";
+
+const JOINTS = [
+  ["Slider 1", "ρ₁", "mm", "joints/rho/0"],
+  ["Slider 2", "ρ₂", "mm", "joints/rho/1"],
+  ["Slider 3", "ρ₃", "mm", "joints/rho/2"],
+  ["Table tilt", "θ₁", "°", "joints/theta1"],
+  ["Table turn", "θ₂", "°", "joints/theta2"],
+] as const;
+
+const STEPS = [
+  ["0.1", "0.1"],
+  ["1", "1"],
+  ["10", "10"],
+] as const;
 
 export function JointsPanel() {
+  const step = useSignal<(typeof STEPS)[number][0]>("1");
   const known = machine.value;
-  const at = useWanted(position.value?.joints ?? known?.home.joints);
-  if (!known || !at.value) return null;
-  const { limits } = known.definition;
-  const wanted = at.value;
-  const move = (joints: Joints) => {
-    at.want(joints);
-    moveTo({ by: "joints", joints });
-  };
-  const rho = (i: 0 | 1 | 2, value: number) => {
-    const next: Joints["rho"] = [...wanted.rho];
-    next[i] = value;
-    move({ ...wanted, rho: next });
-  };
+  const wanted = wantedJoints.value;
+  if (!known || !wanted) return null;
+  const values = toList(wanted);
+  const home = toList(known.home.joints);
+  const travel = travels(known.definition.limits);
   return (
     <section aria-labelledby="joints">
       <header>
         <h2 id="joints">Joints</h2>
-        <span class="quiet">ρ points down, as z</span>
         <button
           type="button"
           class="small"
@@ -34,41 +43,34 @@ export function JointsPanel() {
           Home
         </button>
       </header>
-      {([0, 1, 2] as const).map((i) => {
-        const [min = 0, max = 0] = limits.stroke[i] ?? [];
+      <Choice
+        legend="Step of a key or button, mm or °"
+        name="step"
+        value={step.value}
+        options={STEPS}
+        choose={(chosen) => (step.value = chosen)}
+      />
+      {JOINTS.map(([label, symbol, unit, pointer], i) => {
+        const [min, max] = travel[i] ?? [0, 0];
         return (
           <SlideField
-            key={i}
-            label={`Slider ${i + 1}`}
-            symbol={`ρ${"₁₂₃"[i]}`}
-            unit="mm"
-            value={wanted.rho[i]}
+            key={symbol}
+            label={label}
+            symbol={symbol}
+            unit={unit}
+            value={values[i] ?? 0}
             min={min}
             max={max}
-            commit={(value) => rho(i, value)}
+            step={Number(step.value)}
+            home={home[i] ?? 0}
+            way={jointWays.value?.[i]}
+            fault={refusal.value?.fields[pointer]}
+            commit={(value) => moveTo({ by: "joints", joints: fromList(values.with(i, value)) })}
+            nudge={(by) => jog(i, by)}
           />
         );
       })}
-      <SlideField
-        label="Table tilt"
-        symbol="θ₁"
-        unit="°"
-        value={wanted.theta1}
-        min={limits.tilt[0] ?? -90}
-        max={limits.tilt[1] ?? 90}
-        step={0.5}
-        commit={(theta1) => move({ ...wanted, theta1 })}
-      />
-      <SlideField
-        label="Table turn"
-        symbol="θ₂"
-        unit="°"
-        value={wanted.theta2}
-        min={limits.rotary?.[0] ?? -360}
-        max={limits.rotary?.[1] ?? 360}
-        step={0.5}
-        commit={(theta2) => move({ ...wanted, theta2 })}
-      />
+      <Refused by="joints" />
     </section>
   );
 }

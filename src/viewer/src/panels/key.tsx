@@ -43,6 +43,9 @@ function KeyForm({ asked }: { asked: Wanted }) {
           required
         />
         <button type="submit">Go on</button>
+        <button type="button" onClick={() => asked.answer(null)}>
+          Cancel
+        </button>
       </p>
       <p class="hint">It is kept until this tab is closed.</p>
     </form>

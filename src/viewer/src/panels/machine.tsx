@@ -1,6 +1,6 @@
 /** Which machine: a published one, or a file from this computer. */
 
-import { inWords } from "../api/client";
+import { failureOf } from "../api/client";
 import { takePublished } from "../state/machines";
 import { failure, machine, published, view } from "../state/store";
 import { offer } from "./machine_file";
@@ -10,7 +10,7 @@ const OWN = "\u0000own";
 export function MachinePicker() {
   const { own, machine: name } = view.value;
   const choose = (value: string) => {
-    if (value !== OWN) takePublished(value).catch((thrown: unknown) => (failure.value = inWords(thrown)));
+    if (value !== OWN) void take(value);
   };
   const known = machine.value?.definition;
   return (
@@ -50,4 +50,13 @@ export function MachinePicker() {
       </span>
     </div>
   );
+}
+
+async function take(name: string): Promise<void> {
+  try {
+    await takePublished(name);
+    failure.value = null;
+  } catch (thrown) {
+    failure.value = failureOf(thrown, () => void take(name));
+  }
 }

@@ -25,15 +25,20 @@ export async function offer(file: File): Promise<void> {
   const reject = (summary: string, content: unknown = null, faults: Rejected["faults"] = []) => {
     rejected.value = { file: file.name, content, summary, faults };
   };
-  if (file.size > LARGEST) return reject(`It has ${file.size} bytes: too large for a machine.`);
+  if (file.size > LARGEST) {
+    reject(`It has ${file.size} bytes: too large for a machine.`);
+    return;
+  }
   let content: unknown;
   try {
     content = JSON.parse(await file.text());
   } catch (thrown) {
-    return reject(`It is not JSON: ${inWords(thrown)}`);
+    reject(`It is not JSON: ${inWords(thrown)}`);
+    return;
   }
   if (typeof content !== "object" || content === null || Array.isArray(content)) {
-    return reject("It is not a machine: a JSON object is expected, as GET /machines/verne shows it.", null);
+    reject("It is not a machine: a JSON object is expected, as GET /machines/verne shows it.", null);
+    return;
   }
   try {
     // What GET /machines/{name} answers holds the machine as `definition`.
@@ -54,8 +59,8 @@ export async function offer(file: File): Promise<void> {
   }
 }
 
-/** Takes files that are dropped anywhere on the page. */
-export function acceptDrops(over: (hovering: boolean) => void): void {
+/** Calls with files that are dropped anywhere on the page. */
+export function acceptDrops(over: (hovering: boolean) => void, take: (file: File) => void): void {
   addEventListener("dragover", (event) => {
     event.preventDefault();
     over(true);
@@ -67,6 +72,6 @@ export function acceptDrops(over: (hovering: boolean) => void): void {
     event.preventDefault();
     over(false);
     const file = event.dataTransfer?.files[0];
-    if (file) void offer(file);
+    if (file) take(file);
   });
 }

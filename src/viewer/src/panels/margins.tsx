@@ -1,7 +1,7 @@
 /** How far every limit is, worst first. */
 
 import { useState } from "preact/hooks";
-import { machine, position } from "../state/store";
+import { machine, position, type Position } from "../state/store";
 import { bars, type Bar } from "../words/margins";
 
 const FEW = 4;
@@ -21,6 +21,9 @@ export function MarginsPanel() {
           {broken > 0 ? `${broken} broken` : "all kept"}
         </span>
       </header>
+      <p class="hint" data-testid="not-checked">
+        Not checked: {listOf(position.value?.notChecked ?? [])}.
+      </p>
       <ol class="bars" data-testid="margins">
         {(all ? found : found.slice(0, FEW)).map((bar) => (
           <li key={`${bar.constraint} ${bar.element}`}>
@@ -34,6 +37,13 @@ export function MarginsPanel() {
       </button>
     </section>
   );
+}
+
+/** What the margins do not tell. */
+function listOf(notChecked: Position["notChecked"]): string {
+  return notChecked
+    .map((what) => ({ table: "the table", part: "the part", fixtures: "fixtures" })[what])
+    .join(", ");
 }
 
 function tone({ part }: Bar): string {

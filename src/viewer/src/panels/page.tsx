@@ -1,18 +1,27 @@
 /** The page: the scene in the middle, what moves it to the left, what is known to the right. */
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { failure, position } from "../state/store";
-import { link } from "../state/address_bar";
+import { position } from "../state/store";
 import { drawing } from "../scene/software";
-import { World, type Side } from "../scene/world";
+import type { Side } from "../scene/viewpoint";
+import { World } from "../scene/world";
+import { About } from "./about";
+import { CopyMenu } from "./copy_menu";
+import { Help } from "./help";
 import { JointsPanel } from "./joints";
 import { KeyDialog } from "./key";
 import { MachinePicker } from "./machine";
 import { MachineFaults } from "./machine_faults";
-import { acceptDrops } from "./machine_file";
+import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
+import { MeasurementCaption } from "./measurement_caption";
+import { Notices } from "./notices";
+import { openProgramFile, ProgramDialogs, ProgramDock, ProgramSection, showPathIn } from "../program/entry";
 import { PositionsPanel } from "./positions";
+import { SceneTools } from "./scene_tools";
+import { ToolPanel } from "./tool";
 import { ToolTipPanel } from "./tool_tip";
+import { WorkspaceCaption } from "./workspace_caption";
 import { WorkspacePanel } from "./workspace";
 
 const SIDES: [Side, string][] = [
@@ -24,14 +33,16 @@ const SIDES: [Side, string][] = [
 
 export function Page() {
   const [dropping, setDropping] = useState(false);
-  useEffect(() => acceptDrops(setDropping), []);
+  useEffect(() => acceptDrops(setDropping, take), []);
   return (
     <>
       <header class="top">
         <h1>verne</h1>
         <MachinePicker />
         <nav aria-label="Elsewhere">
-          <CopyLink />
+          <CopyMenu />
+          <Help />
+          <About />
           <a class="button" href="docs/">
             API
           </a>
@@ -40,29 +51,33 @@ export function Page() {
       <main>
         <div class="panel left">
           <JointsPanel />
+          <ToolPanel />
           <ToolTipPanel />
           <PositionsPanel />
         </div>
         <Scene />
         <div class="panel right">
+          <ProgramSection />
           <MarginsPanel />
           <WorkspacePanel />
         </div>
+        <ProgramDock />
       </main>
-      {failure.value && (
-        <p class="failure" role="alert">
-          {failure.value}
-        </p>
-      )}
       {dropping && (
         <div class="dropping" aria-hidden="true">
-          Drop a machine’s JSON file
+          Drop a program, or a machine’s JSON file
         </div>
       )}
       <MachineFaults />
+      <ProgramDialogs />
       <KeyDialog />
     </>
   );
+}
+
+/** A machine is a JSON file; every other file is taken for a program. */
+function take(file: File): void {
+  void (/\.json$/i.test(file.name) ? offer(file) : openProgramFile(file));
 }
 
 function Scene() {
@@ -73,8 +88,11 @@ function Scene() {
   useEffect(() => {
     if (!canvas.current || !labels.current) return;
     const kind = drawing();
-    if (kind !== "none") setWorld(new World(canvas.current, labels.current, kind));
-    else setTrouble("This browser draws no 3D (WebGL 2): the figures beside remain.");
+    if (kind !== "none") {
+      const made = new World(canvas.current, labels.current, kind);
+      showPathIn(made.stage);
+      setWorld(made);
+    } else setTrouble("This browser draws no 3D (WebGL 2): the figures beside remain.");
   }, []);
   return (
     <section class="scene" aria-label="The machine in its workspace">
@@ -86,32 +104,22 @@ function Scene() {
         aria-label="The machine in 3D. Drag to turn, wheel to come nearer; arrow keys move, with shift they turn."
       />
       <div ref={labels} class="labels" aria-hidden="true" />
-      <div class="views" role="group" aria-label="Look from">
-        {SIDES.map(([side, name]) => (
-          <button type="button" key={side} onClick={() => world?.lookFrom(side)}>
-            {name}
-          </button>
-        ))}
+      <div class="over">
+        <WorkspaceCaption />
+        <MeasurementCaption />
+        <Notices />
+      </div>
+      <div class="below">
+        <SceneTools world={world} />
+        <div role="group" aria-label="Look from">
+          {SIDES.map(([side, name]) => (
+            <button type="button" key={side} onClick={() => world?.viewpoint.from(side)}>
+              {name}
+            </button>
+          ))}
+        </div>
       </div>
       {trouble && <p class="trouble">{trouble}</p>}
     </section>
-  );
-}
-
-function CopyLink() {
-  const [copied, setCopied] = useState(false);
-  const copy = async () => {
-    await navigator.clipboard.writeText(await link());
-    setCopied(true);
-  };
-  return (
-    <button
-      type="button"
-      title="An address that shows this view"
-      onClick={() => void copy()}
-      onBlur={() => setCopied(false)}
-    >
-      {copied ? "Link copied" : "Copy link"}
-    </button>
   );
 }

@@ -4,7 +4,10 @@ import type { Position } from "../state/store";
 import { change, ghosts, ghostKind, pointed, position } from "../state/store";
 import { samePosition } from "../state/same";
 import { pick } from "../state/motion";
+import { broken } from "../words/limits";
 import { degrees, mm } from "../words/numbers";
+import { MODES } from "../words/symbols";
+import { Fragment } from "preact";
 import { Choice } from "./fields";
 
 const SHOWN = [
@@ -45,13 +48,33 @@ export function PositionsPanel() {
                 onFocus={() => (pointed.value = i)}
                 onBlur={() => (pointed.value = null)}
               >
-                <span class="index">{i + 1}</span>
+                <span class={ghost.solution.feasible ? "index" : "index broken"}>{i + 1}</span>
                 <span>{kind === "assembly" ? byPose(ghost) : bySliders(ghost)}</span>
                 <Tags ghost={ghost} />
+                {!ghost.solution.feasible && (
+                  <span class="reason">{broken(ghost.solution.margins.worst)}</span>
+                )}
               </button>
             </li>
           ))}
         </ul>
+      )}
+      {found.length > 0 && (
+        <details>
+          <summary>Colours and words</summary>
+          <dl class="words">
+            <dt>
+              <span class="index">1</span> <span class="index broken">2</span>
+            </dt>
+            <dd>keeps every limit; breaks a limit, which is named</dd>
+            {MODES.map(({ symbol, meaning }) => (
+              <Fragment key={symbol}>
+                <dt>{symbol}</dt>
+                <dd>{meaning}</dd>
+              </Fragment>
+            ))}
+          </dl>
+        </details>
       )}
     </section>
   );
@@ -59,13 +82,24 @@ export function PositionsPanel() {
 
 function Tags({ ghost: { solution } }: { ghost: Position }) {
   const { working, feasible, mode } = solution;
+  const meaning = (word: string) => MODES.find(({ symbol }) => symbol === word)?.meaning;
   if (working)
     return (
-      <span class={feasible ? "tag good" : "tag warn"}>{feasible ? "working" : "working, limit broken"}</span>
+      <span class={feasible ? "tag good" : "tag warn"} title={meaning("working")}>
+        working
+      </span>
     );
   const below = [mode.leg1, mode.leg2, mode.leg3].flatMap((side, i) => (side === "below" ? [i + 1] : []));
   const words = [below.length > 0 ? `leg ${below.join(", ")} below` : "", mode.crossed ? "crossed" : ""];
-  return <span class="tag">{words.filter(Boolean).join("; ") || "other branch"}</span>;
+  const said = words.filter(Boolean).join("; ") || "other branch";
+  return (
+    <span
+      class="tag"
+      title={meaning(mode.crossed ? "crossed" : below.length > 0 ? "leg 2 below" : "other branch")}
+    >
+      {said}
+    </span>
+  );
 }
 
 function byPose({ solution: { platform } }: Position): string {

@@ -2,9 +2,10 @@
 
 import { useSignal } from "@preact/signals";
 import type { Schemas, WorkspaceSummary } from "verne-client";
+import { clamp } from "../state/joints";
 import { change, section, slice } from "../state/store";
 import { squareMetres } from "../words/numbers";
-import { SlideField } from "./fields";
+import { SlideField } from "./slide";
 
 interface Props {
   found: WorkspaceSummary;
@@ -47,7 +48,9 @@ export function SectionControls({ found, bounds }: Props) {
           value={height}
           min={Math.ceil(min)}
           max={Math.floor(max)}
+          step={1}
           commit={(section) => change({ section })}
+          nudge={(by) => change({ section: clamp((section.peek() ?? height) + by, min, max) })}
         />
       )}
     </div>

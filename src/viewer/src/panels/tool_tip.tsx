@@ -1,62 +1,60 @@
 /** Where the tool's tip is on the part, to type or to drag. */
 
-import { change, complaint, drag, position, tool } from "../state/store";
+import { change, drag, heading, position, refusal } from "../state/store";
+import type { PartPose, Target } from "../state/target";
 import { moveTo } from "../state/motion";
 import { degrees, mm, number } from "../words/numbers";
+import { tooltip } from "../words/symbols";
 import { Choice, NumberField } from "./fields";
+import { Refused } from "./refused";
 
 const KEPT = [
   ["part", "angles on the part"],
   ["tool", "the table"],
 ] as const;
 
+const FIELDS = [
+  ["x", "X on the part", "X", "mm"],
+  ["y", "Y on the part", "Y", "mm"],
+  ["z", "Z above the table", "Z", "mm"],
+  ["phi1", "Inclination phi 1", "φ₁", "°"],
+  ["phi2", "Azimuth phi 2", "φ₂", "°"],
+] as const;
+type Field = (typeof FIELDS)[number];
+
 export function ToolTipPanel() {
   const solution = position.value?.solution;
   const part = solution?.part;
   if (!solution || !part) return null;
-  const { x, y, z, phi1, phi2 } = part;
-  const pose = { x, y, z, phi1, phi2 };
+  const refused = refusal.value;
+  const known: PartPose = { x: part.x, y: part.y, z: part.z, phi1: part.phi1, phi2: part.phi2 };
+  // A pose that cannot be reached stays in its fields.
+  const pose = posed(heading.value) ?? posed(refused?.target) ?? known;
   const { platform } = solution;
-  const put = (change: Partial<typeof pose>) => moveTo({ by: "part", pose: { ...pose, ...change } });
-  const trouble = complaint.value;
+  /** Only a field whose value is not where the machine stands can be at fault. */
+  const fault = (name: Field[0]) => {
+    if (!refused || posed(refused.target) !== pose || pose[name] === known[name]) return undefined;
+    return refused.fields[`pose/${name}`] ?? "";
+  };
+  const field = ([name, label, symbol, unit]: Field) => (
+    <NumberField
+      key={name}
+      label={label}
+      symbol={symbol}
+      unit={unit}
+      value={pose[name]}
+      fault={fault(name)}
+      commit={(value) => moveTo({ by: "part", pose: { ...pose, [name]: value } })}
+    />
+  );
   return (
     <section aria-labelledby="tip">
       <header>
         <h2 id="tip">Tool tip on the part</h2>
       </header>
-      <div class="row three">
-        <NumberField label="X on the part" symbol="X" unit="mm" value={x} commit={(x) => put({ x })} />
-        <NumberField label="Y on the part" symbol="Y" unit="mm" value={y} commit={(y) => put({ y })} />
-        <NumberField label="Z above the table" symbol="Z" unit="mm" value={z} commit={(z) => put({ z })} />
-      </div>
-      <div class="row three">
-        <NumberField
-          label="Inclination phi 1"
-          symbol="φ₁"
-          unit="°"
-          value={phi1}
-          commit={(phi1) => put({ phi1 })}
-        />
-        <NumberField
-          label="Azimuth phi 2"
-          symbol="φ₂"
-          unit="°"
-          value={phi2}
-          commit={(phi2) => put({ phi2 })}
-        />
-        <NumberField
-          label="Tool length"
-          symbol="Tool"
-          unit="mm"
-          value={tool.value}
-          min={0}
-          max={1e6}
-          commit={(tool) => change({ tool })}
-        />
-      </div>
-      <p role="status" class={trouble ? "trouble" : "hint"} data-testid="trouble">
-        {trouble ? trouble.sentence : "Drag the arrows at the tip, or type."}
-      </p>
+      <div class="row three">{FIELDS.slice(0, 3).map(field)}</div>
+      <div class="row three">{FIELDS.slice(3).map(field)}</div>
+      <Refused by="pose">Drag the arrows or the knobs at the tip, or type.</Refused>
       <Choice
         legend="Dragging keeps"
         name="drag"
@@ -65,13 +63,17 @@ export function ToolTipPanel() {
         choose={(drag) => change({ drag })}
       />
       <dl class="figures">
-        <dt>Platform x, y, z</dt>
+        <dt title={tooltip("x")}>Platform x, y, z</dt>
         <dd>
           {number(platform.x)}, {number(platform.y)}, {mm(platform.z)}
         </dd>
-        <dt>Platform tilt α</dt>
+        <dt title={tooltip("α")}>Platform tilt α</dt>
         <dd>{degrees(platform.alpha, 2)}</dd>
       </dl>
     </section>
   );
+}
+
+function posed(target: Target | null | undefined): PartPose | null {
+  return target?.by === "part" ? target.pose : null;
 }

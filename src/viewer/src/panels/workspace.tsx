@@ -1,20 +1,20 @@
 /** Which workspace, its figures, and what it takes to have it. */
 
 import type { WorkspaceKind, WorkspaceSummary } from "verne-client";
-import { again, cancelComputation } from "../state/computation";
+import { again, cancelComputation, outdated } from "../state/computation";
 import {
   change,
   changeWorkspace,
   computing,
   overTable,
-  tool,
   wanted,
   workspace,
+  workspaceAngles,
   workspaceNote,
 } from "../state/store";
 import { cubicMetres, number, squareMetres } from "../words/numbers";
 import { Downloads } from "./downloads";
-import { Choice, NumberField, SlideField } from "./fields";
+import { Choice, NumberField } from "./fields";
 import { Legend } from "./legend";
 import { SectionControls } from "./section";
 
@@ -24,12 +24,12 @@ const KINDS = [
   ["part", "on the part"],
 ] as const satisfies readonly (readonly [WorkspaceKind, string])[];
 
-/** The tool lengths that the slider offers, mm; longer ones are typed. */
-const LONGEST = 400;
-
 export function WorkspacePanel() {
   const asked = wanted.value;
   const found = workspace.value;
+  const { phi1, phi2 } = workspaceAngles.value;
+  const pin = (angles: { phi1?: number; phi2?: number }) =>
+    changeWorkspace({ phi1, phi2, ...angles, follows: false });
   return (
     <section aria-labelledby="workspace">
       <header>
@@ -58,16 +58,6 @@ export function WorkspacePanel() {
         options={KINDS}
         choose={(kind) => change({ workspace: { ...asked, kind }, section: null })}
       />
-      <SlideField
-        label="Tool length"
-        symbol="Tool"
-        unit="mm"
-        value={tool.value}
-        min={0}
-        max={LONGEST}
-        step={5}
-        commit={(tool) => change({ tool })}
-      />
       {asked.kind === "part" ? (
         <TableFields />
       ) : (
@@ -80,17 +70,17 @@ export function WorkspacePanel() {
               label="Tool inclination on the part, phi 1"
               symbol="φ₁"
               unit="°"
-              value={asked.phi1}
+              value={phi1}
               step={5}
-              commit={(phi1) => changeWorkspace({ phi1 })}
+              commit={(phi1) => pin({ phi1 })}
             />
             <NumberField
               label="Tool azimuth on the part, phi 2"
               symbol="φ₂"
               unit="°"
-              value={asked.phi2}
+              value={phi2}
               step={5}
-              commit={(phi2) => changeWorkspace({ phi2 })}
+              commit={(phi2) => pin({ phi2 })}
             />
           </>
         )}
@@ -106,6 +96,19 @@ export function WorkspacePanel() {
           commit={(tolerance) => changeWorkspace({ tolerance })}
         />
       </div>
+      {asked.kind === "part" && (
+        <label class="check">
+          <input
+            type="checkbox"
+            checked={asked.follows}
+            onChange={(event) => {
+              if (event.currentTarget.checked) changeWorkspace({ follows: true });
+              else pin({});
+            }}
+          />
+          φ₁ and φ₂ follow the machine
+        </label>
+      )}
       <Progress />
       {found && <Figures found={found} />}
       {found && found.bounds && <SectionControls found={found} bounds={found.bounds} />}
@@ -117,7 +120,7 @@ export function WorkspacePanel() {
 
 /** The table as a limit: it holds for the margins as well. */
 function TableFields() {
-  const { table_clearance: least, tool_radius: radius } = overTable.value;
+  const { table_clearance: least } = overTable.value;
   return (
     <div class="row three">
       <NumberField
@@ -129,15 +132,6 @@ function TableFields() {
         min={0}
         max={1e6}
         commit={(clearance) => change({ clearance })}
-      />
-      <NumberField
-        label="Radius of the tool’s end"
-        symbol="Radius"
-        unit="mm"
-        value={radius}
-        min={0}
-        max={1e6}
-        commit={(radius) => change({ radius })}
       />
     </div>
   );
@@ -174,8 +168,9 @@ function Progress() {
     <div class="progress">
       <p role="status" class="trouble" data-testid="workspace-note">
         {note}
+        {outdated.value && " The last workspace remains, in grey."}
       </p>
-      {!workspace.value && (
+      {(outdated.value || !workspace.value) && (
         <button type="button" class="small" onClick={again}>
           Compute again
         </button>
@@ -185,7 +180,7 @@ function Progress() {
 }
 
 function Figures({ found }: { found: WorkspaceSummary }) {
-  const stale = computing.value !== null ? " stale" : "";
+  const stale = outdated.value ? " stale" : "";
   const up = found.frame === "base" ? "z down" : "z up";
   return (
     <>

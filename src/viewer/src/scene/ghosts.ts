@@ -1,16 +1,23 @@
 /** The other positions of the machine, seen through, to be pointed at and picked. */
 
-import { Group, Mesh, Raycaster, Vector2 } from "three";
+import { Group, Mesh, Raycaster, Vector2, type Material } from "three";
+import type { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
 import type { Machine } from "verne-client";
 import type { Position } from "../state/store";
 import { samePosition } from "../state/same";
 import type { Materials } from "./materials";
-import { Mechanism } from "./mechanism";
+import { Mechanism, sliderPlace } from "./mechanism";
 import type { Stage } from "./stage";
+import { label } from "./triads";
+
+interface Ghost {
+  mechanism: Mechanism;
+  number: CSS2DObject;
+}
 
 export class Ghosts {
   readonly group = new Group();
-  private drawn: Mechanism[] = [];
+  private drawn: Ghost[] = [];
   private geometry: Machine["geometry"] | null = null;
   private readonly ray = new Raycaster();
 
@@ -29,24 +36,36 @@ export class Ghosts {
   ): void {
     if (geometry !== this.geometry) {
       this.geometry = geometry;
+      // A number inside of a group stays on the page when the group goes.
+      for (const { number } of this.drawn) number.removeFromParent();
       this.drawn = [];
       this.group.clear();
     }
     while (this.drawn.length < positions.length) {
-      const ghost = new Mechanism(geometry, this.materials);
-      this.drawn.push(ghost);
-      this.group.add(ghost.group);
+      const mechanism = new Mechanism(geometry, this.materials);
+      const number = label(String(this.drawn.length + 1), "ghost");
+      mechanism.group.add(number);
+      this.drawn.push({ mechanism, number });
+      this.group.add(mechanism.group);
     }
-    this.drawn.forEach((ghost, i) => {
+    this.drawn.forEach(({ mechanism, number }, i) => {
       const at = positions[i];
-      ghost.group.visible = at !== undefined && !(here && samePosition(at, here));
+      mechanism.group.visible = at !== undefined && !(here && samePosition(at, here));
       if (!at) return;
       const { rho } = at.joints;
-      ghost.place(rho, at.solution.platform, tool);
-      ghost.hideSliders(
-        rho.map((value, slider) => Math.abs(value - (here?.joints.rho[slider] ?? Infinity)) < 1e-3),
+      const { platform, feasible } = at.solution;
+      mechanism.place(rho, platform, tool);
+      const same = rho.map(
+        (value, slider) => Math.abs(value - (here?.joints.rho[slider] ?? Infinity)) < 1e-3,
       );
-      this.dress(ghost, i === pointed);
+      mechanism.hideSliders(same);
+      // Where it differs: at a slider of its own, or at the platform.
+      const own = ([0, 1, 2] as const).find((slider) => same[slider] === false);
+      if (own === undefined) number.position.set(platform.x, platform.y, platform.z);
+      else number.position.copy(sliderPlace(geometry, own)).setZ(rho[own]);
+      number.element.classList.toggle("broken", !feasible);
+      const { pointedGhost, ghost, brokenGhost } = this.materials;
+      dress(mechanism, i === pointed ? pointedGhost : feasible ? ghost : brokenGhost);
     });
   }
 
@@ -54,18 +73,17 @@ export class Ghosts {
   under(at: Vector2): number | null {
     this.ray.setFromCamera(at, this.stage.camera);
     let nearest: { ghost: number; distance: number } | null = null;
-    this.drawn.forEach(({ group }, ghost) => {
+    this.drawn.forEach(({ mechanism: { group } }, ghost) => {
       if (!group.visible) return;
       const hit = this.ray.intersectObject(group, true).find(({ object }) => object instanceof Mesh);
       if (hit && (!nearest || hit.distance < nearest.distance)) nearest = { ghost, distance: hit.distance };
     });
     return (nearest as { ghost: number } | null)?.ghost ?? null;
   }
+}
 
-  private dress(ghost: Mechanism, pointed: boolean): void {
-    const material = pointed ? this.materials.pointedGhost : this.materials.ghost;
-    ghost.group.traverse((part) => {
-      if (part instanceof Mesh) part.material = material;
-    });
-  }
+function dress({ group }: Mechanism, material: Material): void {
+  group.traverse((part) => {
+    if (part instanceof Mesh) part.material = material;
+  });
 }

@@ -5,6 +5,7 @@ import { TransformControls } from "three/addons/controls/TransformControls.js";
 import type { Materials } from "./materials";
 import { ball } from "./solids";
 import type { Stage } from "./stage";
+import { label } from "./triads";
 
 export class Handle {
   readonly group = new Group();
@@ -21,9 +22,13 @@ export class Handle {
     this.marker = ball(0.016, materials.marker);
     this.marker.renderOrder = 30;
     this.marker.visible = false;
+    const text = label("wanted here: cannot be reached", "refused");
+    text.center.set(0.5, -0.6);
+    this.marker.add(text);
     this.controls = new TransformControls(stage.camera, stage.canvas);
     this.controls.setSpace("local");
     this.controls.setSize(0.62);
+    stage.cameraTaken.push((camera) => (this.controls.camera = camera));
     // Arrows along the axes, and the plane of the table.
     this.controls.showYZ = false;
     this.controls.showXZ = false;

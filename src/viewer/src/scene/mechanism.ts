@@ -18,6 +18,12 @@ export function outwards(g: Machine["geometry"], leg: 0 | 1 | 2): Vector3 {
   return new Vector3(0, leg === 1 ? -1 : 1, 0);
 }
 
+/** A slider's place with rho = 0, between its joints. */
+export function sliderPlace(g: Machine["geometry"], leg: 0 | 1 | 2): Vector3 {
+  if (leg === 0) return new Vector3(g.d1, 0, 0);
+  return new Vector3(g.d2, leg === 1 ? -g.r4 : g.r4, 0);
+}
+
 export class Mechanism {
   readonly group = new Group();
   private readonly sliders: Mesh[];

@@ -12,6 +12,7 @@ const NAMES = [
   "table",
   "accent",
   "ghost",
+  "broken-ghost",
   "tool",
   "bad",
   "warn",

@@ -28,10 +28,15 @@ export class Resolution {
     private readonly redraw: () => void,
   ) {
     this.apply(1);
-    const touch = () => (this.touched = performance.now());
+    const touch = () => this.touch();
     for (const event of ["pointerdown", "wheel", "keydown", "input"])
       addEventListener(event, touch, { passive: true });
     addEventListener("pointermove", ({ buttons }) => buttons > 0 && touch(), { passive: true });
+  }
+
+  /** Tells that the hand, or a program that is played, moves the scene. */
+  touch(): void {
+    this.touched = performance.now();
   }
 
   /** Tells that a picture is about to be drawn. */

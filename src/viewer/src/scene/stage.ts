@@ -1,18 +1,36 @@
-/** Camera, light and canvas; draws when something changed and not otherwise. */
+/** Cameras, light and canvas; draws when something changed and not otherwise. */
 
-import { DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
+import {
+  DirectionalLight,
+  HemisphereLight,
+  MathUtils,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Camera } from "../state/view";
+import { framing } from "../geometry/framing";
 import { Resolution } from "./resolution";
+
+/** Nearest and farthest that the camera goes, and sees, in units of a machine with rods of a metre. */
+const REACH = { from: 0.2, to: 25, near: 0.05, far: 60 };
 
 export class Stage {
   readonly scene = new Scene();
-  readonly camera = new PerspectiveCamera(32, 1, 0.05, 60);
   readonly renderer: WebGLRenderer;
   readonly controls: OrbitControls;
   /** Called before each picture. */
   readonly beforeDrawing: (() => void)[] = [];
+  /** Called when the other camera is taken. */
+  readonly cameraTaken: ((camera: Stage["camera"]) => void)[] = [];
   readonly resolution: Resolution;
+  private readonly perspective = new PerspectiveCamera(32, 1, REACH.near, REACH.far);
+  private readonly parallel = new OrthographicCamera(-1, 1, 1, -1, REACH.near, REACH.far);
+  private taken: PerspectiveCamera | OrthographicCamera = this.perspective;
+  private aspect = 1;
   private asked = false;
 
   constructor(
@@ -24,14 +42,40 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, antialias: !software, powerPreference: "high-performance" });
     this.renderer.localClippingEnabled = true;
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.minDistance = 0.2;
-    this.controls.maxDistance = 25;
     this.controls.listenToKeyEvents(canvas);
     this.controls.addEventListener("change", () => this.draw());
     this.resolution = new Resolution(this.renderer, software ? 2 : 1, () => this.draw());
     this.light();
+    this.reach(1);
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement ?? canvas);
     this.fit();
+  }
+
+  get camera(): PerspectiveCamera | OrthographicCamera {
+    return this.taken;
+  }
+
+  /** The vertical angle that a camera with perspective sees, radians. */
+  get angle(): number {
+    return MathUtils.degToRad(this.perspective.fov);
+  }
+
+  /** What a pixel covers at the point that is looked at, metres. */
+  get pixel(): number {
+    const { height } = this.seen();
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    return (height ?? 2 * distance * Math.tan(this.angle / 2)) / this.canvas.clientHeight;
+  }
+
+  /** Suits distances to a machine's size, 1 for one with rods of a metre. */
+  reach(size: number): void {
+    this.controls.minDistance = REACH.from * size;
+    this.controls.maxDistance = REACH.to * size;
+    for (const camera of [this.perspective, this.parallel]) {
+      camera.near = REACH.near * size;
+      camera.far = REACH.far * size;
+      camera.updateProjectionMatrix();
+    }
   }
 
   /** Asks for a picture. */
@@ -41,8 +85,7 @@ export class Stage {
     requestAnimationFrame((now) => {
       this.asked = false;
       this.resolution.prepare(now);
-      for (const call of this.beforeDrawing) call();
-      this.renderer.render(this.scene, this.camera);
+      this.render();
       // For those who wait for a picture: how many there were, and whether this one stays.
       this.canvas.dataset["picture"] = this.resolution.moving ? "quick" : "good";
       const drawn = Number(this.canvas.dataset["pictures"] ?? 0) + 1;
@@ -50,33 +93,61 @@ export class Stage {
     });
   }
 
-  look({ eye, target }: Camera): void {
-    this.camera.position.set(...eye);
+  /** Draws now. */
+  render(): void {
+    for (const call of this.beforeDrawing) call();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  look({ eye, target, height }: Camera): void {
+    const camera = height === null ? this.perspective : this.parallel;
+    if (camera === this.parallel) {
+      this.parallel.top = (height ?? 1) / 2;
+      this.parallel.bottom = -this.parallel.top;
+      this.parallel.zoom = 1;
+      this.widen();
+    }
+    if (camera !== this.taken) {
+      this.taken = camera;
+      this.controls.object = camera;
+      for (const call of this.cameraTaken) call(camera);
+    }
+    camera.position.set(...eye);
     this.controls.target.set(...target);
     this.controls.update();
+    this.canvas.dataset["camera"] = height === null ? "perspective" : "parallel";
     this.draw();
   }
 
   seen(): Camera {
-    return { eye: this.camera.position.toArray(), target: this.controls.target.toArray() };
+    const { top, bottom, zoom } = this.parallel;
+    return {
+      eye: this.camera.position.toArray(),
+      target: this.controls.target.toArray(),
+      height: this.camera === this.parallel ? (top - bottom) / zoom : null,
+    };
   }
 
-  /** Looks at a ball from a direction, so that all of it is seen. */
-  frame(centre: Vector3, radius: number, from: Vector3): void {
-    const half = (this.camera.fov * Math.PI) / 360;
-    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
-    const distance = radius / Math.sin(narrow);
-    const eye = centre.clone().addScaledVector(from.clone().normalize(), distance);
-    this.look({ eye: eye.toArray(), target: centre.toArray() });
+  /** Looks at points from a direction, so that all of them are seen. */
+  frame(points: Vector3[], from: Vector3, parallel: boolean): void {
+    this.look(framing(points, from, parallel ? null : this.angle / 2, this.aspect));
   }
 
   private fit(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement ?? this.canvas;
     if (width === 0 || height === 0) return;
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    this.aspect = width / height;
+    this.widen();
     this.renderer.setSize(width, height, false);
     this.draw();
+  }
+
+  private widen(): void {
+    this.perspective.aspect = this.aspect;
+    this.perspective.updateProjectionMatrix();
+    this.parallel.right = this.parallel.top * this.aspect;
+    this.parallel.left = -this.parallel.right;
+    this.parallel.updateProjectionMatrix();
   }
 
   private light(): void {

@@ -1,30 +1,42 @@
 /** What stands still, and the table: columns with guideways, floor, cradle and turntable. */
 
-import { BufferGeometry, GridHelper, Group, LineSegments, Vector3 } from "three";
+import { BufferGeometry, GridHelper, Group, LineSegments, Vector3, type Material, type Mesh } from "three";
 import type { Machine } from "verne-client";
 import { baseFromCradle, baseFromTable, type TableAngles } from "../geometry/frames";
 import type { Materials } from "./materials";
 import { outwards, unitOf } from "./mechanism";
 import { bar, box, column, span } from "./solids";
 
+/** The heights of the columns' upper ends and of the floor, base frame, mm. */
+function extent({ geometry, table, limits }: Machine): { top: number; floor: number } {
+  const u = unitOf(geometry);
+  return {
+    top: Math.min(...limits.stroke.map(([low = 0]) => low)) - 160 * u,
+    floor: table.da + Math.max(Math.abs(table.dt) + 180 * u, 470 * u),
+  };
+}
+
+/** The cosine of the angle to the camera within which a column is in front. */
+const IN_FRONT = 0.8;
+
 export class Surroundings {
   readonly group = new Group();
-  /** The floor's height in the base frame, mm. */
-  readonly floor: number;
-  /** The guideways' upper ends. */
-  readonly top: number;
+  private readonly floor: number;
+  private readonly top: number;
   private readonly cradle = new Group();
   private readonly turntable = new Group();
   private readonly unit: number;
+  /** What can stand in front of the machine, with the direction from the machine to it. */
+  private readonly fronts: { out: Vector3; bodies: Mesh[]; material: Material }[] = [];
 
   constructor(
     private readonly machine: Machine,
     private readonly materials: Materials,
   ) {
-    const { geometry, table, limits } = machine;
-    const u = (this.unit = unitOf(geometry));
-    this.floor = table.da + Math.max(Math.abs(table.dt) + 180 * u, 470 * u);
-    this.top = Math.min(...limits.stroke.map(([low = 0]) => low)) - 160 * u;
+    this.unit = unitOf(machine.geometry);
+    const { top, floor } = extent(machine);
+    this.floor = floor;
+    this.top = top;
     for (const part of [this.cradle, this.turntable]) part.matrixAutoUpdate = false;
     this.group.add(this.cradle, this.turntable, ...this.columns(), ...this.posts(), this.grid());
     this.build();
@@ -36,6 +48,14 @@ export class Surroundings {
     this.cradle.matrix.copy(baseFromCradle(table, angles.theta1));
     this.turntable.matrix.copy(baseFromTable(table, angles));
     for (const part of [this.cradle, this.turntable]) part.matrixWorldNeedsUpdate = true;
+  }
+
+  /** Sees through the columns and posts on the side of a camera in this direction of the base frame; null: through none. */
+  clear(camera: Vector3 | null): void {
+    for (const { out, bodies, material } of this.fronts) {
+      const inFront = camera !== null && out.dot(camera) > IN_FRONT;
+      for (const body of bodies) body.material = inFront ? this.materials.faded : material;
+    }
   }
 
   /** Columns behind the sliders, each with its guideway over the stroke, and beams between their heads. */
@@ -73,6 +93,8 @@ export class Surroundings {
         materials,
       );
       heads.push(middle.setZ(this.top + 30 * u));
+      this.fronts.push({ out, bodies: [post], material: materials.frame });
+      this.fronts.push({ out, bodies: [guideway], material: materials.metal });
       return [post, guideway];
     });
     const beams = [
@@ -90,14 +112,16 @@ export class Surroundings {
   private posts() {
     const { unit: u, materials } = this;
     const { da } = this.machine.table;
-    return [-1, 1].map((side) =>
-      box(
+    return [-1, 1].map((side) => {
+      const post = box(
         new Vector3(side * 455 * u, -70 * u, da - 60 * u),
         new Vector3(side * 515 * u, 70 * u, this.floor),
         materials.frame,
         materials,
-      ),
-    );
+      );
+      this.fronts.push({ out: new Vector3(side, 0, 0), bodies: [post], material: materials.frame });
+      return post;
+    });
   }
 
   private grid() {

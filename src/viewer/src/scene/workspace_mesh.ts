@@ -2,6 +2,7 @@
 
 import {
   BackSide,
+  Color,
   FrontSide,
   Group,
   Matrix4,
@@ -11,6 +12,7 @@ import {
   Vector3,
   type BufferGeometry,
   type MeshStandardMaterial,
+  type Raycaster,
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { WorkspaceSummary } from "verne-client";
@@ -21,18 +23,40 @@ import { shares } from "../geometry/shares";
 /** As it is, and coarser for machines that cannot move it so. */
 type Grade = "fine" | "coarse";
 
+/** A piece of the surface that one limit bounds, seen from one side. */
+interface Piece {
+  mesh: Mesh<BufferGeometry, MeshLambertMaterial>;
+  colour: Color;
+  /** The limit's name in the palette. */
+  name: string;
+}
+
+export interface Look {
+  opaque: boolean;
+  /** Drawn without colours: it is not the workspace that is wanted. */
+  outdated: boolean;
+  /** The only limit whose pieces are seen well; null: all. */
+  isolated: string | null;
+}
+
 /** The surface seen from within and from without, in the order in which they are drawn. */
 const SIDES = [
   { side: BackSide, opacity: 0.22 },
   { side: FrontSide, opacity: 0.36 },
 ] as const;
 
+/** Opacity of what is not isolated, and of what is. */
+const FADED = 0.07;
+const ISOLATED = 0.9;
+const GREY = new Color(0x8a8f96);
+
 export class WorkspaceMesh {
   readonly group = new Group();
   private readonly grades = { fine: new Group(), coarse: new Group() };
+  private readonly pieces: Record<Grade, Piece[]> = { fine: [], coarse: [] };
   private readonly shown: Record<Grade, string | null> = { fine: null, coarse: null };
   private readonly loader = new GLTFLoader();
-  private opaque = false;
+  private look: Look = { opaque: false, outdated: false, isolated: null };
   private readonly plane = new Plane();
   /** In the GLB's own frame, metres: what lies below it is shown. */
   private height: number | null = null;
@@ -43,8 +67,8 @@ export class WorkspaceMesh {
     this.quick(false);
   }
 
-  solid(solid: boolean): void {
-    this.opaque = solid;
+  dress(look: Look): void {
+    this.look = look;
     this.paint();
   }
 
@@ -52,34 +76,33 @@ export class WorkspaceMesh {
   async show(summary: WorkspaceSummary | null, grade: Grade = "fine"): Promise<Surface[] | null> {
     this.shown[grade] = summary?.id ?? null;
     if (!summary || summary.triangles === 0) {
-      clear(this.grades[grade]);
+      this.clear(grade);
       return [];
     }
     const loaded = await this.loader.parseAsync(await verne.mesh(summary.id), "");
     if (this.shown[grade] !== summary.id) return null;
-    clear(this.grades[grade]);
+    this.clear(grade);
     loaded.scene.updateMatrixWorld(true);
-    const pieces: Mesh<BufferGeometry, MeshStandardMaterial>[] = [];
+    const found: Mesh<BufferGeometry, MeshStandardMaterial>[] = [];
     loaded.scene.traverse((node) => {
-      if (node instanceof Mesh) pieces.push(node as Mesh<BufferGeometry, MeshStandardMaterial>);
+      if (node instanceof Mesh) found.push(node as Mesh<BufferGeometry, MeshStandardMaterial>);
     });
-    for (const piece of pieces) {
-      for (const [order, { side }] of SIDES.entries()) {
-        const shown = new Mesh(
-          piece.geometry,
-          new MeshLambertMaterial({ color: piece.material.color, side }),
-        );
-        piece.getWorldPosition(shown.position);
-        shown.renderOrder = 10 + order;
-        this.grades[grade].add(shown);
-      }
-    }
+    const palette = (found[0]?.userData["palette"] ?? []) as Omit<Surface, "share">[];
+    for (const piece of found) this.add(grade, piece, palette);
     this.paint();
-    const palette = (pieces[0]?.userData["palette"] ?? []) as Omit<Surface, "share">[];
     return shares(
-      pieces.map((piece) => piece.geometry),
+      found.map((piece) => piece.geometry),
       palette,
     );
+  }
+
+  /** The limit whose piece is nearest along a ray; null where there is none. */
+  under(ray: Raycaster): string | null {
+    const meshes = this.pieces.fine.map(({ mesh }) => mesh);
+    const seen = ray
+      .intersectObjects(meshes, false)
+      .find(({ point }) => this.height === null || this.plane.distanceToPoint(point) >= 0);
+    return this.pieces.fine.find(({ mesh }) => mesh === seen?.object)?.name ?? null;
   }
 
   /** The coarser one, where there is one, while the hand moves. */
@@ -103,14 +126,35 @@ export class WorkspaceMesh {
     this.turnPlane();
   }
 
-  /** Gives every piece the transparency and the section that are wanted. */
+  private add(
+    grade: Grade,
+    piece: Mesh<BufferGeometry, MeshStandardMaterial>,
+    palette: { name: string }[],
+  ): void {
+    const name = palette[piece.geometry.userData["tag"] as number]?.name ?? "";
+    const colour = piece.material.color;
+    for (const [order, { side }] of SIDES.entries()) {
+      const mesh = new Mesh(piece.geometry, new MeshLambertMaterial({ side }));
+      piece.getWorldPosition(mesh.position);
+      mesh.renderOrder = 10 + order;
+      this.grades[grade].add(mesh);
+      this.pieces[grade].push({ mesh, colour, name });
+    }
+  }
+
+  /** Gives every piece the colour, the transparency and the section that are wanted. */
   private paint(): void {
-    for (const shown of [...this.grades.fine.children, ...this.grades.coarse.children]) {
-      const material = (shown as Mesh<BufferGeometry, MeshLambertMaterial>).material;
-      const opacity = SIDES.find(({ side }) => side === material.side)?.opacity ?? 1;
-      material.transparent = !this.opaque;
-      material.opacity = this.opaque ? 1 : opacity;
-      material.depthWrite = this.opaque;
+    const { opaque, outdated, isolated } = this.look;
+    for (const { mesh, colour, name } of [...this.pieces.fine, ...this.pieces.coarse]) {
+      const { material } = mesh;
+      const usual = SIDES.find(({ side }) => side === material.side)?.opacity ?? 1;
+      const plain = opaque ? 1 : usual;
+      const opacity = isolated === null ? plain : name === isolated ? ISOLATED : FADED;
+      material.color.copy(colour);
+      if (outdated) material.color.lerp(GREY, 0.85);
+      material.opacity = outdated ? Math.min(opacity, usual) * 0.6 : opacity;
+      material.transparent = material.opacity < 1;
+      material.depthWrite = !material.transparent;
       material.clippingPlanes = this.height === null ? [] : [this.plane];
       material.needsUpdate = true;
     }
@@ -121,12 +165,13 @@ export class WorkspaceMesh {
     this.plane.setFromNormalAndCoplanarPoint(new Vector3(0, -1, 0), new Vector3(0, this.height, 0));
     this.plane.applyMatrix4(this.group.matrix);
   }
-}
 
-function clear(group: Group): void {
-  for (const shown of group.children as Mesh<BufferGeometry, MeshLambertMaterial>[]) {
-    shown.geometry.dispose();
-    shown.material.dispose();
+  private clear(grade: Grade): void {
+    for (const { mesh } of this.pieces[grade]) {
+      mesh.geometry.dispose();
+      mesh.material.dispose();
+    }
+    this.pieces[grade] = [];
+    this.grades[grade].clear();
   }
-  group.clear();
 }

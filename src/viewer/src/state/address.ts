@@ -1,7 +1,7 @@
 /** The view in the address, after the #: only what differs from the first view. */
 
 import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
-import { INITIAL, type Camera, type Ghosts, type Joints, type View } from "./view";
+import { INITIAL, type Camera, type Ghosts, type Joints, type ProgramView, type View } from "./view";
 import { packed, unpacked } from "./packed";
 
 const KINDS: readonly WorkspaceKind[] = ["platform", "tool", "part"];
@@ -23,53 +23,109 @@ export async function toAddress(view: View): Promise<string> {
     ["workspace", !ws.shown ? "hidden" : ws.kind === base.kind ? null : ws.kind],
     ["kind", !ws.shown && ws.kind !== base.kind ? ws.kind : null],
     ["solid", ws.solid ? "1" : null],
-    ["phi", ws.phi1 === 0 && ws.phi2 === 0 ? null : numbers([ws.phi1, ws.phi2], 3)],
+    ["phi", ws.follows ? null : numbers([ws.phi1, ws.phi2], 3)],
     ["tolerance", ws.tolerance === base.tolerance ? null : String(ws.tolerance)],
     ["section", view.section === null ? null : numbers([view.section], 3)],
-    ["camera", view.camera && numbers([...view.camera.eye, ...view.camera.target], 3)],
+    ["program", view.program && (await packed(view.program))],
+    ["camera", view.camera && cameraNumbers(view.camera)],
   ];
   const said = entries.filter((entry): entry is [string, string] => entry[1] !== null);
   return said.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
 }
 
-/** What cannot be read is left as it is in the first view. */
-export async function fromAddress(hash: string): Promise<View> {
-  const said = new URLSearchParams(hash.replace(/^#/, ""));
-  const list = (name: string, length: number) => read(said.get(name), length);
+/** What an address says. */
+export interface Said {
+  view: View;
+  /** The entries that cannot be read; the first view replaces them. */
+  unread: string[];
+}
+
+export async function fromAddress(hash: string): Promise<Said> {
+  const said = new Entries(hash);
   const base = INITIAL.workspace;
-  const shown = said.get("workspace") !== "hidden";
-  const own = said.get("own");
-  return {
-    machine: said.get("machine") ?? INITIAL.machine,
-    own: own === null ? null : ((await unpacked(own)) as Machine | null),
-    joints: asJoints(list("joints", 5)),
-    mode: asPose(list("mode", 4)),
-    tool: positive(list("tool", 1)?.[0], INITIAL.tool),
-    radius: positive(list("radius", 1)?.[0], INITIAL.radius),
-    clearance: positive(list("clearance", 1)?.[0], INITIAL.clearance),
-    drag: oneOf(said.get("drag"), ["part", "tool"] as const, INITIAL.drag),
-    ghosts: oneOf(said.get("ghosts"), GHOSTS, INITIAL.ghosts),
+  const shown = said.text("workspace") !== "hidden";
+  const own = said.text("own");
+  const phi = said.numbers("phi", 2);
+  const view: View = {
+    machine: said.text("machine") ?? INITIAL.machine,
+    own: own === null ? null : said.check("own", asMachine(await unpacked(own))),
+    joints: asJoints(said.numbers("joints", 5)),
+    mode: asPose(said.numbers("mode", 4)),
+    tool: said.positive("tool") ?? INITIAL.tool,
+    radius: said.positive("radius") ?? INITIAL.radius,
+    clearance: said.positive("clearance") ?? INITIAL.clearance,
+    drag: said.oneOf("drag", ["part", "tool"] as const) ?? INITIAL.drag,
+    ghosts: said.oneOf("ghosts", GHOSTS) ?? INITIAL.ghosts,
     workspace: {
       shown,
-      solid: said.get("solid") === "1",
-      kind: oneOf(said.get(shown ? "workspace" : "kind"), KINDS, base.kind),
-      phi1: list("phi", 2)?.[0] ?? base.phi1,
-      phi2: list("phi", 2)?.[1] ?? base.phi2,
-      tolerance: positive(list("tolerance", 1)?.[0], base.tolerance),
+      solid: said.oneOf("solid", ["0", "1"]) === "1",
+      kind: (shown ? said.oneOf("workspace", KINDS) : said.oneOf("kind", KINDS)) ?? base.kind,
+      follows: phi === null,
+      phi1: phi?.[0] ?? base.phi1,
+      phi2: phi?.[1] ?? base.phi2,
+      tolerance: said.positive("tolerance") ?? base.tolerance,
     },
-    section: list("section", 1)?.[0] ?? null,
-    camera: asCamera(list("camera", 6)),
+    section: said.numbers("section", 1)?.[0] ?? null,
+    camera: asCamera(said.numbers("camera", 7) ?? said.numbers("camera", 6)),
+    program: said.check("program", asProgram(await unpacked(said.text("program") ?? ""))),
   };
+  return { view, unread: said.unread() };
+}
+
+/** The entries of an address; it keeps which of them were read. */
+class Entries {
+  private readonly entries: URLSearchParams;
+  private readonly read = new Set<string>();
+
+  constructor(hash: string) {
+    this.entries = new URLSearchParams(hash.replace(/^#/, ""));
+  }
+
+  text(name: string): string | null {
+    return this.check(name, this.entries.get(name));
+  }
+
+  /** Notes that an entry could be read, unless its value is null. */
+  check<T>(name: string, value: T | null): T | null {
+    if (value === null) this.read.delete(name);
+    else this.read.add(name);
+    return value;
+  }
+
+  numbers(name: string, length: number): number[] | null {
+    const words = this.entries.get(name)?.split(",") ?? [];
+    const values = words.map((word) => (word.trim() === "" ? Number.NaN : Number(word)));
+    return this.check(name, values.length === length && values.every(Number.isFinite) ? values : null);
+  }
+
+  positive(name: string): number | null {
+    const value = this.numbers(name, 1)?.[0] ?? -1;
+    return this.check(name, value >= 0 ? value : null);
+  }
+
+  oneOf<T extends string>(name: string, words: readonly T[]): T | null {
+    const word = this.entries.get(name);
+    return this.check(name, words.find((known) => known === word) ?? null);
+  }
+
+  unread(): string[] {
+    return [...this.entries]
+      .filter(([name]) => !this.read.has(name))
+      .map(([name, value]) => `${name}=${value}`);
+  }
 }
 
 function numbers(values: number[], decimals: number): string {
   return values.map((value) => String(Number(value.toFixed(decimals)) + 0)).join(",");
 }
 
-function read(text: string | null, length: number): number[] | null {
-  if (text === null) return null;
-  const values = text.split(",").map((word) => (word.trim() === "" ? Number.NaN : Number(word)));
-  return values.length === length && values.every(Number.isFinite) ? values : null;
+/** Anything may be packed; the service examines what looks like a machine. */
+function asMachine(found: unknown): Machine | null {
+  return typeof found === "object" && found !== null && "geometry" in found ? (found as Machine) : null;
+}
+
+function cameraNumbers({ eye, target, height }: Camera): string {
+  return numbers([...eye, ...target, ...(height === null ? [] : [height])], 3);
 }
 
 function asJoints(list: number[] | null): Joints | null {
@@ -87,13 +143,10 @@ function asPose(list: number[] | null): PlatformPose | null {
 function asCamera(list: number[] | null): Camera | null {
   if (!list) return null;
   const [a, b, c, d, e, f] = list as [number, number, number, number, number, number];
-  return { eye: [a, b, c], target: [d, e, f] };
+  return { eye: [a, b, c], target: [d, e, f], height: list[6] ?? null };
 }
 
-function positive<T>(value: number | undefined, otherwise: T): number | T {
-  return value !== undefined && value >= 0 ? value : otherwise;
-}
-
-function oneOf<T extends string>(word: string | null, words: readonly T[], otherwise: T): T {
-  return words.find((known) => known === word) ?? otherwise;
+function asProgram(found: unknown): ProgramView | null {
+  const { id, name, settings } = (found ?? {}) as Partial<ProgramView>;
+  return typeof id === "string" && typeof name === "string" ? { id, name, settings: settings ?? {} } : null;
 }

@@ -1,14 +1,14 @@
 /** The address follows the view, and the view an address that is typed or pasted. */
 
 import { effect } from "@preact/signals";
-import { fromAddress, toAddress } from "./address";
+import { fromAddress, toAddress, type Said } from "./address";
 import { view } from "./store";
 import type { View } from "./view";
 
 const REST = 250;
 let written = "";
 
-export function viewOfAddress(): Promise<View> {
+export function saidByAddress(): Promise<Said> {
   written = location.hash;
   return fromAddress(location.hash);
 }
@@ -22,9 +22,9 @@ export function keepAddress(): void {
 }
 
 /** Calls when the address changes by another hand. */
-export function onNewAddress(load: (view: View) => void): void {
+export function onNewAddress(follow: (said: Said) => void): void {
   addEventListener("hashchange", () => {
-    if (location.hash !== written) void viewOfAddress().then(load);
+    if (location.hash !== written) void saidByAddress().then(follow);
   });
 }
 

@@ -1,6 +1,6 @@
 /** Keeps the workspace that is shown the one that the view asks for. */
 
-import { batch, computed, effect, untracked } from "@preact/signals";
+import { batch, computed, effect, signal, untracked } from "@preact/signals";
 import { CancelledError, type Watch, type WorkspaceRequest, type WorkspaceSummary } from "verne-client";
 import { inWords, verne } from "../api/client";
 import { latest } from "../api/latest";
@@ -15,6 +15,7 @@ import {
   tool,
   wanted,
   workspace,
+  workspaceAngles,
   workspaceNote,
 } from "./store";
 
@@ -29,15 +30,21 @@ const MANY = 12_000;
 const FEW = 5_000;
 
 /** The question as text, so that equal ones are equal. */
-const question = computed(() => {
+export const question = computed(() => {
   const known = machine.value;
   if (!known || !wanted.value.shown) return null;
-  const { kind, phi1, phi2, tolerance } = wanted.value;
+  const { kind, tolerance } = wanted.value;
   const request: WorkspaceRequest = { machine: known.ref, kind, tolerance };
   if (kind !== "platform") request.tool_length = tool.value;
-  if (kind === "part") Object.assign(request, { phi1, phi2, ...overTable.value });
+  if (kind === "part") Object.assign(request, { ...workspaceAngles.value, ...overTable.value });
   return JSON.stringify(request);
 });
+
+/** The question that the workspace answers. */
+const answered = signal<string | null>(null);
+
+/** Whether the workspace that is shown is not the one that is wanted. */
+export const outdated = computed(() => workspace.value !== null && answered.value !== question.value);
 
 const cut = computed(() => {
   const found = workspace.value;
@@ -54,7 +61,8 @@ export function keepWorkspace(): void {
       workspace.value = null;
       return;
     }
-    const timer = setTimeout(() => void ask(JSON.parse(asked) as WorkspaceRequest), REST);
+    if (workspace.peek() && answered.peek() === asked) return;
+    const timer = setTimeout(() => void ask(asked), REST);
     return () => clearTimeout(timer);
   });
   keepStandIn();
@@ -91,7 +99,7 @@ function keepStandIn(): void {
 /** Asks again what was cancelled or failed. */
 export function again(): void {
   const asked = question.peek();
-  if (asked !== null) void ask(JSON.parse(asked) as WorkspaceRequest);
+  if (asked !== null) void ask(asked);
 }
 
 /** Cancels on the operator's word. */
@@ -116,29 +124,34 @@ async function compute(request: WorkspaceRequest, watch: Watch = {}): Promise<Wo
   throw new Error("The service sent something else than the workspace's figures.");
 }
 
-async function ask(request: WorkspaceRequest): Promise<void> {
+async function ask(asked: string): Promise<void> {
   const own = (stop = new AbortController());
   computing.value = { progress: null, state: "waiting", job: null };
   workspaceNote.value = null;
   try {
-    const found = await compute(request, {
+    const found = await compute(JSON.parse(asked) as WorkspaceRequest, {
       signal: own.signal,
       onProgress: ({ id, state, progress }) => {
         if (own === stop)
           computing.value = { progress, state: state === "queued" ? "queued" : "running", job: id };
       },
     });
-    if (own === stop) finish(found, found.explanation ?? null);
+    if (own !== stop) return;
+    batch(() => {
+      workspace.value = found;
+      answered.value = asked;
+      end(found.explanation ?? null);
+    });
   } catch (thrown) {
     if (own !== stop) return;
     const cancelled = thrown instanceof CancelledError || own.signal.aborted;
-    finish(null, cancelled ? "Cancelled." : inWords(thrown));
+    end(cancelled ? "Cancelled." : inWords(thrown));
   }
 }
 
-function finish(found: WorkspaceSummary | null, note: string | null): void {
+/** The last workspace remains where none has been found. */
+function end(note: string | null): void {
   batch(() => {
-    workspace.value = found;
     workspaceNote.value = note;
     computing.value = null;
   });

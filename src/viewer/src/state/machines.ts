@@ -3,17 +3,20 @@
 import { batch } from "@preact/signals";
 import { unwrap, type Machine, type MachineRef } from "verne-client";
 import { verne } from "../api/client";
-import { change, complaint, ghosts, machine, published, workspace, type InUse } from "./store";
+import { change, refusal, ghosts, machine, published, workspace, type InUse } from "./store";
 import { stay } from "./motion";
-import type { View } from "./view";
+import type { Joints, View } from "./view";
 
 export async function listMachines(): Promise<void> {
   published.value = unwrap(await verne.api.GET("/machines")).machines;
 }
 
-/** Loads the view's machine and puts it where the view says. */
+/** Loads the view's machine. Nothing says yet where it stands. */
 export async function loadMachine({ machine: name, own }: View): Promise<void> {
-  if (own) return use(await examined(own, own));
+  if (own) {
+    use(await examined(own, own));
+    return;
+  }
   const found = unwrap(await verne.api.GET("/machines/{name}", { params: { path: { name } } }));
   use(await examined(name, found.definition));
 }
@@ -24,6 +27,7 @@ export async function takePublished(name: string): Promise<void> {
   const next = await examined(name, found.definition);
   change({ machine: name, own: null, joints: null, mode: null });
   use(next);
+  stay();
 }
 
 /** Takes a machine of one's own, from its home; the service's faults are thrown. */
@@ -31,16 +35,20 @@ export async function takeOwn(own: Machine): Promise<void> {
   const next = await examined(own, own);
   change({ own, joints: null, mode: null });
   use(next);
+  stay();
 }
 
 function use(next: InUse): void {
   batch(() => {
     machine.value = next;
     ghosts.value = [];
-    complaint.value = null;
+    refusal.value = null;
     workspace.value = null;
   });
-  stay();
+}
+
+export function home(): Joints | null {
+  return machine.peek()?.home.joints ?? null;
 }
 
 /** Home is where everything is symmetric, with the sliders about the middle of their strokes. */

@@ -2,7 +2,10 @@
 
 import { computed, signal } from "@preact/signals";
 import type { Machine, MachineRef, Schemas, Slice, Solution, WorkspaceSummary } from "verne-client";
+import type { Failure } from "../api/client";
+import type { FieldFaults } from "../api/faults";
 import type { Home } from "../words/margins";
+import type { Target } from "./target";
 import { INITIAL, type Joints, type View } from "./view";
 
 /** The machine in use. */
@@ -18,13 +21,16 @@ export interface InUse {
 export interface Position {
   joints: Joints;
   solution: Solution;
+  /** What the service did not check for it. */
+  notChecked: Schemas["Unchecked"][];
 }
 
 /** Where the machine was wanted and cannot be. */
-export interface Complaint {
+export interface Refusal {
+  target: Target;
   sentence: string;
-  /** The tip's wanted place and its frame; null where only joints were wanted. */
-  wanted: { frame: "part" | "base"; x: number; y: number; z: number } | null;
+  /** What the service says about single fields of the target. */
+  fields: FieldFaults;
 }
 
 export interface Computing {
@@ -60,8 +66,25 @@ export const published = signal<Schemas["MachineEntry"][]>([]);
 export const machine = signal<InUse | null>(null);
 export const position = signal<Position | null>(null);
 export const ghosts = signal<Position[]>([]);
-export const complaint = signal<Complaint | null>(null);
+/** Where the machine is going: the newest target, until it is answered. */
+export const heading = signal<Target | null>(null);
+export const refusal = signal<Refusal | null>(null);
+/** The joints that controls show: those that are wanted, where joints are wanted, or those where the machine stands. */
+export const wantedJoints = computed(() => {
+  const target = heading.value ?? refusal.value?.target;
+  if (target?.by === "joints") return target.joints;
+  return position.value?.joints ?? machine.value?.home.joints ?? null;
+});
 
+/** The tool's angles on the part for which a workspace is wanted, degrees. */
+export const workspaceAngles = computed(() => {
+  const { follows, phi1, phi2 } = view.value.workspace;
+  if (!follows) return { phi1, phi2 };
+  const part = position.value?.solution.part;
+  return { phi1: thousandth(part?.phi1 ?? 0), phi2: thousandth(part?.phi2 ?? 0) };
+});
+
+/** The last workspace that was computed; `outdated` tells whether another one is wanted. */
 export const workspace = signal<WorkspaceSummary | null>(null);
 /** A coarser mesh of the same workspace, for slow machines while the hand moves. */
 export const standIn = signal<WorkspaceSummary | null>(null);
@@ -71,12 +94,19 @@ export const computing = signal<Computing | null>(null);
 /** Why there is no workspace to see. */
 export const workspaceNote = signal<string | null>(null);
 export const surfaces = signal<Surface[]>([]);
+/** The limit whose faces are pointed at, in the scene or in the legend, and the one that a click keeps. */
+export const pointedLimit = signal<string | null>(null);
+export const keptLimit = signal<string | null>(null);
+/** The only limit whose faces are seen well; null: all. */
+export const isolated = computed(() => pointedLimit.value ?? keptLimit.value);
 export const slice = signal<Slice | null>(null);
 
 /** A ghost that is pointed at or focused: its place in the list. */
 export const pointed = signal<number | null>(null);
 /** A failure that concerns the whole page. */
-export const failure = signal<string | null>(null);
+export const failure = signal<Failure | null>(null);
+/** What a link asked for and the page does not show. */
+export const notice = signal<string | null>(null);
 
 export function change(part: Partial<View>): void {
   view.value = { ...view.peek(), ...part };
@@ -84,4 +114,9 @@ export function change(part: Partial<View>): void {
 
 export function changeWorkspace(part: Partial<View["workspace"]>): void {
   change({ workspace: { ...view.peek().workspace, ...part } });
+}
+
+/** Equal postures ask for equal workspaces. */
+function thousandth(angle: number): number {
+  return Math.round(angle * 1000) / 1000 + 0;
 }

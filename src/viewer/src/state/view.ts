@@ -1,6 +1,7 @@
 /** What is looked at: everything that a colleague needs to see the same. */
 
 import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
+import type { Settings } from "../program/settings";
 
 /** Solutions with the same sliders (assembly), the same platform position, or the same tool pose. */
 export type Ghosts = "none" | "assembly" | "platform" | "inverse";
@@ -27,6 +28,16 @@ export interface View {
   /** Height of the cut in the workspace's frame, mm. */
   section: number | null;
   camera: Camera | null;
+  program: ProgramView | null;
+}
+
+/** A program that the service keeps. */
+export interface ProgramView {
+  id: string;
+  /** The name of its file. */
+  name: string;
+  /** What differs from the defaults. */
+  settings: Partial<Settings>;
 }
 
 export interface Joints {
@@ -39,6 +50,8 @@ export interface WorkspaceView {
   shown: boolean;
   solid: boolean;
   kind: WorkspaceKind;
+  /** Whether the tool's angles on the part are those of the machine, or phi1 and phi2 below. */
+  follows: boolean;
   phi1: number;
   phi2: number;
   tolerance: number;
@@ -48,6 +61,8 @@ export interface WorkspaceView {
 export interface Camera {
   eye: [number, number, number];
   target: [number, number, number];
+  /** The height of the picture in the scene, metres, of a camera without perspective; null with perspective. */
+  height: number | null;
 }
 
 export const INITIAL: View = {
@@ -60,7 +75,8 @@ export const INITIAL: View = {
   clearance: null,
   drag: "part",
   ghosts: "none",
-  workspace: { shown: true, solid: false, kind: "part", phi1: 0, phi2: 0, tolerance: 1 },
+  workspace: { shown: true, solid: false, kind: "part", follows: true, phi1: 0, phi2: 0, tolerance: 1 },
   section: null,
   camera: null,
+  program: null,
 };

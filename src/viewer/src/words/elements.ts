@@ -4,6 +4,12 @@ import type { Schemas } from "verne-client";
 
 type Constraint = Schemas["Constraint"];
 
+/** A limit as meshes name it, `stroke slider2.max`. */
+export function limitInWords(name: string): string {
+  const [constraint = "", element = ""] = name.split(" ");
+  return boundary(constraint as Constraint, element);
+}
+
 /** `slider2.max` → "slider 2 at its lower end"; for legends. */
 export function boundary(constraint: Constraint, element: string): string {
   const slider = /^slider(\d)\.(min|max)$/.exec(element);

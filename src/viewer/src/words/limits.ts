@@ -4,9 +4,8 @@ import type { Answer, Limit } from "verne-client";
 import { end, leg, lowest, rods } from "./elements";
 import { degrees, mm, number } from "./numbers";
 
-/** An answer without a solution; null where there is one. */
-export function refusal(answer: Answer): string | null {
-  if (answer.solutions.length > 0) return null;
+/** Why an answer has no solution. */
+export function reasonOf(answer: Answer): string {
   if (answer.reason === "self_motion") return "The sliders do not hold the platform there.";
   const limit = answer.constraint;
   if (!limit) return "Out of reach.";

@@ -59,7 +59,10 @@ export function bars(margins: Margins, machine: Machine, home: Home): Bar[] {
     add("platform_joint", "deg", rod, margins.platform_joint[i] ?? 0, limits.platform_cone);
   }
   add("parallel_singularity", "1", "platform", margins.parallel_singularity, Math.abs(home.det));
-  add("rod_crossing", "mm", "leg1", margins.rod_crossing, g.R1 - g.r1);
+  // With R1 = r1 the rods of leg I stay parallel: no limit.
+  if (margins.rod_crossing !== undefined) {
+    add("rod_crossing", "mm", "leg1", margins.rod_crossing, g.R1 - g.r1 || g.R1);
+  }
   const { worst } = margins;
   const touching = worst.constraint === "rod_interference" ? worst.element : "rods";
   add("rod_interference", "mm", touching, margins.rod_interference, home.rodDistance);

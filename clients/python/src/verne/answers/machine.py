@@ -7,7 +7,7 @@ from typing import NotRequired, TypedDict
 
 
 class Geometry(TypedDict):
-    """Dimensions of the parallel module, mm."""
+    """Dimensions of the parallel module: lengths in mm."""
 
     D1: float
     d1: float
@@ -21,6 +21,8 @@ class Geometry(TypedDict):
     L2: float
     L3: float
     parallelogram_half_width: float
+    parallelogram_direction: NotRequired[float]
+    """Direction of leg II's parallelogram, degrees; 0 unless R1 = r1."""
     rod_radius: float
 
 

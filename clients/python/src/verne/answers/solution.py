@@ -96,6 +96,72 @@ class Conditioning:
 
 
 @dataclass(frozen=True, slots=True)
+class Rate:
+    """A rate with its unit, ``mm/s`` or ``rad/s``."""
+
+    name: str
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class GreatestSpeed:
+    """The greatest speed in one direction, mm/s, and the joint whose drive limits it."""
+
+    speed: float
+    joint: str
+
+
+@dataclass(frozen=True, slots=True)
+class GreatestSpeeds:
+    """Greatest speeds of the tool end along x, y and z of the part frame, while the rest stands still."""
+
+    x: GreatestSpeed
+    y: GreatestSpeed
+    z: GreatestSpeed
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorAmplification:
+    """How far the tool end moves, µm, if a slider is off by 1 µm or an axis by 1 arcsecond."""
+
+    rho1: float
+    rho2: float
+    rho3: float
+    theta1: float
+    theta2: float
+
+
+@dataclass(frozen=True, slots=True)
+class Jacobian:
+    """From the rates of the joints to those of the tool in the part frame."""
+
+    rows: list[Rate]
+    columns: list[Rate]
+    characteristic_length: float
+    """Length by which lengths are divided before the singular values are computed, mm."""
+    singularities: list[str]
+    """Why ``condition_number`` is None: ``parallel_singularity``, ``pole`` or ``inverse_singularity``."""
+    det_p: float
+    matrix: list[list[float]] | None = None
+    """None at a parallel singularity."""
+    singular_values: list[float] | None = None
+    condition_number: float | None = None
+    greatest_speeds: GreatestSpeeds | None = None
+    """Only a machine with drives has them; None at a singularity other than the pole."""
+    error_amplification: ErrorAmplification | None = None
+
+    def to_numpy(self) -> NDArray[np.float64]:
+        """The matrix.
+
+        Raises:
+            ValueError: The posture is a parallel singularity and has no matrix.
+        """
+        if self.matrix is None:
+            raise ValueError("a parallel singularity has no Jacobian")
+        return np.array(self.matrix)
+
+
+@dataclass(frozen=True, slots=True)
 class Margins:
     """Signed distances to all limits: positive inside, negative outside; mm, degrees or a number without unit."""
 
@@ -107,8 +173,9 @@ class Margins:
     parallel_singularity: float
     slider_joint: list[float]
     platform_joint: list[float]
-    rod_crossing: float
     rod_interference: float
+    rod_crossing: float | None = None
+    """None where R1 = r1 and the platform does not turn."""
     tilt: list[float] | None = None
     rotary: list[float] | None = None
     table_clearance: Limit | None = None
@@ -130,6 +197,8 @@ class Solution:
     """Largest error of a rod's length, mm, when the service puts the solution back into the equations."""
     margins: Margins
     conditioning: Conditioning
+    jacobian: Jacobian | None = None
+    """Only with ``jacobian=True``."""
     joints: Joints | None = None
     part: PartPose | None = None
     windings: int | None = None

@@ -85,7 +85,7 @@ class FamilySummary:
 
 @dataclass(frozen=True, slots=True)
 class PointGrid:
-    """The grid of a dexterity map."""
+    """The grid of a dexterity map, or of a region of origins."""
 
     origin: tuple[float, float, float]
     """First point, mm."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 import pyarrow
 
@@ -17,6 +17,7 @@ from verne.session import Operation, Session, given
 from verne.table import Rows, Table, to_arrow
 
 T = TypeVar("T", bound=Table)
+JacobianColumns = Literal["condition", "matrix"]
 
 POSITION = ("x", "y", "z")
 POSE = (*POSITION, "phi1", "phi2")
@@ -41,6 +42,8 @@ def ik_batch(
     tool_radius: float = 0.0,
     continuous: bool = False,
     start: Start | None = None,
+    jacobian: JacobianColumns | None = None,
+    characteristic_length: float | None = None,
     machine: str | Machine = "verne",
 ) -> Operation[JointBatch]:
     """Solves the inverse problem for many poses: one solution in the working mode for each.
@@ -56,10 +59,14 @@ def ik_batch(
         continuous: Whether each row continues from the row before. All rows then travel in one request, and its size
             must be below the service's limit: 16 MiB by default, or 300,000 rows.
         start: Joints from which the first row continues: rho1, rho2, rho3 in mm, theta1, theta2 in degrees.
+        jacobian: Columns of the Jacobian in the answer: ``condition`` (det_p, condition_number, and speed_x to speed_z
+            if the machine has drives), or ``matrix`` (j11 to j55, too). Only frame ``part`` has it.
+        characteristic_length: Length by which the Jacobian's lengths are divided before its condition number is
+            computed, mm. By default it is R1 of the machine.
         machine: Name of a published machine, or a machine.
 
     Raises:
-        ValueError: An array does not have these columns, or another column has a name of the answer's.
+        ValueError: An array does not have these columns.
         Problem: The service refused the request or a column. An invalid row is no problem: ``detail`` says what is
             wrong with it.
     """
@@ -70,6 +77,8 @@ def ik_batch(
         tool_radius=tool_radius,
         continuous=continuous or None,
         start=None if start is None else json.dumps(joints_of(start)),
+        jacobian=jacobian,
+        characteristic_length=characteristic_length,
         machine=machine if isinstance(machine, str) else json.dumps(machine),
     )
     layouts = (POSE, POSE_WITH_AXIS) if frame == "part" else (POSITION,)
@@ -84,6 +93,8 @@ def fk_batch(
     tool_length: float = 0.0,
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
+    jacobian: JacobianColumns | None = None,
+    characteristic_length: float | None = None,
     machine: str | Machine = "verne",
 ) -> Operation[PoseBatch]:
     """Solves the forward problem for many joints: one solution in the working mode for each row.
@@ -94,10 +105,14 @@ def fk_batch(
         tool_length: Distance from P to the tool end, mm.
         table_clearance: Least height over the table, mm. By default it is the machine's limit, if it has one.
         tool_radius: Radius of the tool's end circle, mm. Only ``table_clearance`` uses it.
+        jacobian: Columns of the Jacobian in the answer: ``condition`` (det_p, condition_number, and speed_x to speed_z
+            if the machine has drives), or ``matrix`` (j11 to j55, too). It needs theta1 and theta2.
+        characteristic_length: Length by which the Jacobian's lengths are divided before its condition number is
+            computed, mm. By default it is R1 of the machine.
         machine: Name of a published machine, or a machine.
 
     Raises:
-        ValueError: An array does not have these columns, or another column has a name of the answer's.
+        ValueError: An array does not have these columns.
         Problem: The service refused the request or a column. An invalid row is no problem: ``detail`` says what is
             wrong with it.
     """
@@ -105,6 +120,8 @@ def fk_batch(
         tool_length=tool_length,
         table_clearance=table_clearance,
         tool_radius=tool_radius,
+        jacobian=jacobian,
+        characteristic_length=characteristic_length,
         machine=machine if isinstance(machine, str) else json.dumps(machine),
     )
     return (yield from _batch(session, "fk/batch", joints, (JOINTS, JOINTS[:3]), options, PoseBatch))
@@ -136,7 +153,7 @@ def contains(
         machine: Name of a published machine, or a machine.
 
     Raises:
-        ValueError: An array does not have these columns, or another column has a name of the answer's.
+        ValueError: An array does not have these columns.
         Problem: The service refused the request.
     """
     options = given(

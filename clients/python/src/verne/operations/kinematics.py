@@ -23,6 +23,8 @@ def fk(
     solutions: Wanted = "working",
     near_joints: Numbers | None = None,
     near_pose: Numbers | None = None,
+    jacobian: bool = False,
+    characteristic_length: float | None = None,
     machine: str | Machine = "verne",
 ) -> Operation[ForwardResult]:
     """Solves the forward problem: from joints to poses.
@@ -37,6 +39,9 @@ def fk(
         near_joints: Sorts the solutions by their distance from these joints: three or five numbers as in ``joints``.
         near_pose: Sorts them by their distance from this pose of the platform: x, y, z in mm, and perhaps alpha in
             degrees.
+        jacobian: Whether each solution has its ``jacobian``. It needs theta1 and theta2.
+        characteristic_length: Length by which the Jacobian's lengths are divided before its singular values are
+            computed, mm. By default it is R1 of the machine.
         machine: Name of a published machine, or a machine.
 
     Raises:
@@ -49,6 +54,8 @@ def fk(
         tool_radius=tool_radius,
         solutions=solutions,
         near=_near(near_joints, near_pose),
+        jacobian=jacobian or None,
+        characteristic_length=characteristic_length,
         machine=machine,
     )
     response = yield from session.send(session.post("fk", body))
@@ -71,6 +78,8 @@ def ik(
     solutions: Wanted = "working",
     near_joints: Numbers | None = None,
     near_pose: Numbers | None = None,
+    jacobian: bool = False,
+    characteristic_length: float | None = None,
     machine: str | Machine = "verne",
 ) -> Operation[InverseResult]:
     """Solves the inverse problem: from a pose to joints.
@@ -92,6 +101,9 @@ def ik(
             theta1, theta2 in degrees, which also choose the winding of the table.
         near_pose: Sorts them by their distance from this pose of the platform: x, y, z in mm, and perhaps alpha in
             degrees.
+        jacobian: Whether each solution has its ``jacobian``. Only frame ``part`` has it.
+        characteristic_length: Length by which the Jacobian's lengths are divided before its singular values are
+            computed, mm. By default it is R1 of the machine.
         machine: Name of a published machine, or a machine.
 
     Raises:
@@ -105,6 +117,8 @@ def ik(
         tool_radius=tool_radius,
         solutions=solutions,
         near=_near(near_joints, near_pose),
+        jacobian=jacobian or None,
+        characteristic_length=characteristic_length,
         machine=machine,
     )
     response = yield from session.send(session.post("ik", body))

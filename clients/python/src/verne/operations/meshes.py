@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import httpx
 
+from verne.answers.fitting import OriginsSummary
 from verne.answers.workspace import DexteritySummary, FamilySummary, Slice, WorkspaceSummary
 from verne.arrow_stream import read_stream
 from verne.decoding import decode
@@ -96,6 +97,21 @@ def dexterity_mesh(
 def dexterity_trimesh(job: Submission[DexteritySummary], points: PointSet = "reachable") -> Operation[Trimesh]:
     """The surface of the points that some, or all, inclinations reach, as a mesh of trimesh, mm. Needs trimesh."""
     return _trimesh((yield from dexterity_mesh(job, points, "ply")))
+
+
+def origins_mesh(job: Submission[OriginsSummary], format: MeshFormat = "glb") -> Operation[bytes]:
+    """The surface of a region of origins as the bytes of a file.
+
+    Args:
+        format: As for a workspace's mesh.
+    """
+    links = (yield from job.result()).links
+    return (yield from _file(job.session, links.mesh, format))
+
+
+def origins_trimesh(job: Submission[OriginsSummary]) -> Operation[Trimesh]:
+    """The surface of a region of origins as a mesh of trimesh, mm. Needs trimesh."""
+    return _trimesh((yield from origins_mesh(job, "ply")))
 
 
 def cells(job: Submission[DexteritySummary]) -> Operation[Table]:

@@ -154,7 +154,7 @@ def toolpath(
         source = yield from program(session, source, format=format)
     body = given(
         program=source.id,
-        tool_length=_lengths(tool_length),
+        tool_length=lengths_of(tool_length),
         length_before=length_before,
         setup=setup,
         offsets=offsets,
@@ -176,7 +176,8 @@ def toolpath(
     return (yield from submit(session, "toolpath", body, ToolpathReport))
 
 
-def _lengths(lengths: float | Mapping[int, float] | None) -> Any:
+def lengths_of(lengths: float | Mapping[int, float] | None) -> Any:
+    """The lengths of tools as the service reads them."""
     return {str(tool): length for tool, length in lengths.items()} if isinstance(lengths, Mapping) else lengths
 
 

@@ -47,7 +47,10 @@ pub(crate) async fn get_summary(
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
     let record = record(&state, id).await?;
-    if record.kind == QuestionKind::Toolpath {
+    if matches!(
+        record.kind,
+        QuestionKind::Toolpath | QuestionKind::Placement | QuestionKind::Window | QuestionKind::Origins
+    ) {
         return Err(LookupError::Result(record.id.to_string()).into());
     }
     summary(&state, record).cached(IMMUTABLE).respond(&conditions)
@@ -84,6 +87,9 @@ pub(crate) async fn get_mesh(
         None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format)))?,
     };
     let record = record(&state, id).await?;
+    if record.kind == QuestionKind::Origins {
+        return Err(LookupError::Result(record.id.to_string()).into());
+    }
     let surface = Surface::of(record.id, record.kind, query.set)?;
     let question = || state.results.questions.get_or_read(record.id, &record.question);
     let mesh = mesh_or_job(&state, &surface, format, &wait_policy, question).await?;
@@ -155,8 +161,17 @@ pub(crate) async fn record(state: &AppState, id: String) -> Result<Record, Looku
 
 /// The record of a stored tool path.
 pub(crate) async fn stored_toolpath(state: &AppState, id: String) -> Result<Record, LookupError> {
+    stored_of_toolpath(state, id, &[QuestionKind::Toolpath]).await
+}
+
+/// The record of a stored result below `/toolpath` of one of some kinds.
+pub(crate) async fn stored_of_toolpath(
+    state: &AppState,
+    id: String,
+    kinds: &[QuestionKind],
+) -> Result<Record, LookupError> {
     match record(state, id).await {
-        Ok(record) if record.kind == QuestionKind::Toolpath => Ok(record),
+        Ok(record) if kinds.contains(&record.kind) => Ok(record),
         Ok(record) => Err(LookupError::Toolpath(record.id.to_string())),
         Err(LookupError::Result(id)) => Err(LookupError::Toolpath(id)),
         Err(other) => Err(other),

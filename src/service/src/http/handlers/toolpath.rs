@@ -8,10 +8,10 @@ use axum::response::Response;
 use crate::http::conditional_response::{Conditions, IMMUTABLE};
 use crate::http::error::HttpError;
 use crate::http::extractors::PathParameter;
-use crate::http::handlers::results::stored_toolpath;
+use crate::http::handlers::results::stored_of_toolpath;
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
-use crate::http::openapi::body_schemas::{Binary, Text};
+use crate::http::openapi::body_schemas::{Binary, Text, ToolpathResult};
 use crate::http::openapi::problem_responses::{ReportProblems, ToolpathFileProblems, ToolpathProblems};
 use crate::http::program_body::ProgramInMemory;
 use crate::http::result_representation::{summary, summary_or_job};
@@ -21,6 +21,7 @@ use crate::http::wait_policy::WaitPolicy;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::programs::{load_program, store_program};
 use crate::operations::question::Question;
+use crate::operations::question_text::QuestionKind;
 use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
 use crate::operations::toolpath_request::{ProgramSource, read_request};
 use crate::wire::error::OperationError;
@@ -112,13 +113,18 @@ async fn report(
     summary_or_job(state, &question, &wait_policy).await?.respond(state, wait_policy, conditions)
 }
 
-/// The report on a tool path
+/// The report on a tool path, or another answer about a program
 ///
-/// Returns the answer that POST /toolpath gave with this id. If the service has evicted it, repeat the request.
+/// Returns the answer that POST /toolpath, POST /toolpath/placement or POST /toolpath/origins gave with this id. If the
+/// service has evicted it, repeat the request.
 #[utoipa::path(
     get, path = "/toolpath/{id}", operation_id = "get_toolpath", tag = "toolpath",
     params(("id" = String, Path, description = "The id from an answer of /toolpath.")),
-    responses((status = 200, description = "The report.", body = ToolpathReport), ReportProblems)
+    responses(
+        (status = 200, description = "The report on a tool path, or another answer about a program.", body =
+            ToolpathResult),
+        ReportProblems
+    )
 )]
 pub(crate) async fn get_report(
     State(state): State<SharedState>,
@@ -127,7 +133,9 @@ pub(crate) async fn get_report(
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
-    let record = stored_toolpath(&state, id).await?;
+    let kinds =
+        [QuestionKind::Toolpath, QuestionKind::Window, QuestionKind::Placement, QuestionKind::Origins];
+    let record = stored_of_toolpath(&state, id, &kinds).await?;
     summary(&state, record).cached(IMMUTABLE).respond(&conditions)
 }
 
@@ -163,6 +171,15 @@ async fn question(
     if state.results.record(question.id).await.is_some() {
         return Ok(question);
     }
+    with_program(state, question, source).await
+}
+
+/// The question with its estimated work. Its program is checked, and stored for the job.
+pub(crate) async fn with_program(
+    state: &AppState,
+    question: ToolpathQuestion,
+    source: ProgramSource,
+) -> Result<ToolpathQuestion, HttpError> {
     let program = match &source {
         ProgramSource::Received(received) => Arc::clone(&received.program),
         ProgramSource::Stored(id) => load_program(&state.results, *id).await?,

@@ -32,6 +32,9 @@ pub(crate) struct Summary;
 /// The summary of a workspace or a family.
 pub(crate) struct WorkspaceAnswer;
 
+/// The report on a tool path, or another answer about a program.
+pub(crate) struct ToolpathResult;
+
 // A mesh as JSON.
 #[expect(dead_code, reason = "only its schema is used")]
 #[derive(ToSchema)]
@@ -74,6 +77,14 @@ impl PartialSchema for Summary {
 }
 
 impl ToSchema for Summary {}
+
+impl PartialSchema for ToolpathResult {
+    fn schema() -> RefOr<Schema> {
+        one_of(&["ToolpathReport", "Window", "Placement", "OriginsSummary"]).into()
+    }
+}
+
+impl ToSchema for ToolpathResult {}
 
 impl PartialSchema for WorkspaceAnswer {
     fn schema() -> RefOr<Schema> {

@@ -1,13 +1,14 @@
 //! An example of each operation: a request, and the answer that the solver computes.
 
-use std::fmt::Display;
+mod toolpaths;
 
-use serde::Serialize;
 use serde_json::{Value, json};
 use verne_program::Format;
 use verne_solver::workspace::Unobserved;
 
 use crate::http::machine_documents::{machine_answer, machine_list};
+use crate::http::openapi::example::{Example, PROGRAM, get, json_of, post, value_of};
+use crate::http::openapi::examples::toolpaths::of_toolpaths;
 use crate::http::openapi::machine_schema::machine_schema;
 use crate::operations::contains::answer_contains;
 use crate::operations::forward::answer_fk;
@@ -17,8 +18,6 @@ use crate::operations::inverse_batch::answer_ik_batch;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::programs::receiver::ProgramReceiver;
 use crate::operations::slice::answer_slice;
-use crate::operations::toolpath::compute_toolpath;
-use crate::operations::toolpath_request::{ProgramSource, read_request};
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::alphas::Alphas;
@@ -32,66 +31,6 @@ use crate::wire::query_string::parse_query;
 
 /// Most rows of an example.
 const ROWS: usize = 100;
-
-/// The program of the examples.
-const PROGRAM: &str = "PARTNO/COVER\nUNITS/MM\nLOADTL/3,LENGTH,120\nSPINDL/RPM,6000,CLW\nRAPID\n\
-    GOTO/0,0,350,0,0,1\nFEDRAT/800,MMPM\nGOTO/0,0,300\nGOTO/80,0,300,0,0.6,0.8\nFINI\n";
-
-/// A request that the tests send, and its answer.
-pub(crate) struct Example {
-    method: &'static str,
-    path: &'static str,
-    /// The body of POST, or the values of path and query parameters.
-    request: Value,
-    /// The file that a POST sends; `request` are its parameters then.
-    file: Option<&'static str>,
-    /// `None` for answers that are long or not JSON.
-    answer: Option<Value>,
-}
-
-impl Example {
-    /// Writes request and answer into the operation.
-    pub(crate) fn write_into(self, document: &mut Value) {
-        let Some(operation) = document["paths"][self.path].get_mut(self.method) else { return };
-        if self.method == "post" && self.file.is_none() {
-            operation["requestBody"]["content"]["application/json"]["example"] = self.request;
-        } else {
-            if let Some(file) = self.file {
-                operation["requestBody"]["content"]["application/octet-stream"]["example"] = json!(file);
-            }
-            let parameters = operation.get_mut("parameters").and_then(Value::as_array_mut);
-            for parameter in parameters.into_iter().flatten() {
-                if let Some(value) = parameter["name"].as_str().and_then(|name| self.request.get(name)) {
-                    parameter["example"] = value.clone();
-                }
-            }
-        }
-        let Some(answer) = self.answer else { return };
-        for status in ["200", "201"] {
-            if let Some(response) = operation["responses"].get_mut(status) {
-                response["content"]["application/json"]["example"] = answer.clone();
-            }
-        }
-    }
-}
-
-fn get(path: &'static str, request: Value, answer: Option<Value>) -> Example {
-    Example { method: "get", path, request, file: None, answer }
-}
-
-fn post<T: Serialize>(
-    path: &'static str,
-    request: Value,
-    answer: impl Fn(&[u8]) -> Result<T, OperationError>,
-) -> Example {
-    let answer = Some(json_of(answer(request.to_string().as_bytes())));
-    Example { method: "post", path, request, file: None, answer }
-}
-
-/// The answer as JSON, or the error, which the tests report as an outdated example.
-fn json_of(answer: Result<impl Serialize, impl Display>) -> Value {
-    answer.map_or_else(|error| json!({"error": error.to_string()}), |answer| json!(answer))
-}
 
 /// The examples of all operations, except the one that returns this document.
 pub(crate) fn examples() -> Vec<Example> {
@@ -229,46 +168,6 @@ fn program_summary() -> Value {
     json_of(received.and_then(|received| received.summary().ok_or(OperationError::Internal)))
 }
 
-fn of_toolpaths(machines: &MachineRegistry) -> Vec<Example> {
-    let points = json!([
-        {"x": 0, "y": 0, "z": 350, "i": 0, "j": 0, "k": 1},
-        {"x": 0, "y": 0, "z": 300, "i": 0, "j": 0, "k": 1, "feed": 500},
-        {"x": 20, "y": 0, "z": 300, "i": 0, "j": 0.28, "k": 0.96, "feed": 1000},
-    ]);
-    let request = json!({"program": {"points": points}, "setup": {"x": 10}, "tool_length": 120,
-                         "tolerance": {"tip": 0.05}});
-    let report = json_of(toolpath_report(&request, machines));
-    let of_report = json!({"id": report["id"]});
-    let of_path = json!({"id": report["id"], "least": 0, "greatest": 0.25});
-    let of_program = json!({"id": report["id"], "axes": "X,Y,Z,A,C", "feed_word": "inverse_time"});
-    let some_rows = || json!({"id": report["id"], "from": 0, "to": 3});
-    vec![
-        post("/toolpath", request, |_| Ok(&report)),
-        Example {
-            method: "post",
-            path: "/toolpath/file",
-            request: json!({"format": "apt", "tool_length": "120", "tip_tolerance": 0.05}),
-            file: Some(PROGRAM),
-            answer: None,
-        },
-        get("/toolpath/{id}", of_report, Some(report.clone())),
-        get("/toolpath/{id}/rows.json", some_rows(), None),
-        get("/toolpath/{id}/rows.ndjson", some_rows(), None),
-        get("/toolpath/{id}/rows.csv", some_rows(), None),
-        get("/toolpath/{id}/rows.arrow", some_rows(), None),
-        get("/toolpath/{id}/program", of_program, None),
-        get("/toolpath/{id}/path", of_path, None),
-    ]
-}
-
-/// The report on a tool path whose request has points.
-fn toolpath_report(request: &Value, machines: &MachineRegistry) -> Result<Value, OperationError> {
-    let (checked, source) = read_request(request.to_string().as_bytes(), machines)?;
-    let ProgramSource::Received(program) = &source else { return Err(OperationError::Internal) };
-    let question = checked.question(source.id());
-    value_of(compute_toolpath(&question, &program.program, |_| Ok(Vec::new()), |_, _| Ok(()), &Unobserved))
-}
-
 /// The id, the summary and a slice of the workspace for a request.
 fn workspace(request: &Value, machines: &MachineRegistry) -> Result<(String, Value, Value), OperationError> {
     let question = WorkspaceQuestion::new(&parse_body(request.to_string().as_bytes())?, machines)?;
@@ -276,8 +175,4 @@ fn workspace(request: &Value, machines: &MachineRegistry) -> Result<(String, Val
     let (inclination, alphas) = (workspace.inclination, Alphas::List(vec![0.0]));
     let slice = answer_slice(&question, inclination, 300.0, &alphas, SliceFormat::Json, &Unobserved);
     Ok((question.id.to_string(), value_of(Ok(workspace.summary))?, value_of(slice)?))
-}
-
-fn value_of(json: Result<Vec<u8>, OperationError>) -> Result<Value, OperationError> {
-    parse_body(&json?)
 }

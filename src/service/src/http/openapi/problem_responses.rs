@@ -109,6 +109,9 @@ problems! {
     RowsProblems: TOOLPATH, JOB, &[Code::Forbidden, Code::ProgramNotFound];
     /// Problems of the joint program of a tool path.
     JointProgramProblems: TOOLPATH, JOB, &[Code::Forbidden, Code::ProgramNotFound, Code::NoJointProgram];
+    /// Problems of mesh and slices of a region of origins. If the store evicted the mesh, a job computes it again,
+    /// which needs a role and the program.
+    RegionProblems: TOOLPATH, JOB, &[Code::NoRegion, Code::Forbidden, Code::ProgramNotFound];
     /// Problems of a machine.
     MachineProblems: &[Code::NotFound, Code::MachineNotFound];
     /// Problems of the list of jobs.

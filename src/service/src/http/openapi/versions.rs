@@ -20,6 +20,9 @@ const DOCUMENT: &str = include_str!("../../../../../openapi/openapi.json");
 /// The URL of the service in the document.
 const SERVER: &str = "\"url\": \"/\"";
 
+/// The address of the guide in the document.
+const GUIDE: &str = "\"/guide/\"";
+
 /// The document of a service below a base path.
 pub(crate) struct Documents {
     text: Cow<'static, str>,
@@ -33,7 +36,12 @@ impl Documents {
     pub(crate) fn new(base: &BasePath) -> Self {
         let text = match base.as_str() {
             "" => Cow::Borrowed(DOCUMENT),
-            base => Cow::Owned(DOCUMENT.replacen(SERVER, &SERVER.replace('/', base), 1)),
+            base => {
+                let guide = format!("\"{base}/guide/\"");
+                Cow::Owned(
+                    DOCUMENT.replacen(SERVER, &SERVER.replace('/', base), 1).replacen(GUIDE, &guide, 1),
+                )
+            }
         };
         let version_3_1 = content(text.clone().into_owned());
         Self { text, version_3_1, version_3_0: OnceCell::new() }

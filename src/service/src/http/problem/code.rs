@@ -92,6 +92,8 @@ problems! {
         Lookup(LookupError::Mesh(_)) => LookupError::Mesh("1f2e".to_owned());
     NoSlice, "no_slice", NOT_FOUND, "Only a single workspace has slices.";
         Lookup(LookupError::Slice(_)) => LookupError::Slice("1f2e".to_owned());
+    NoRegion, "no_region", NOT_FOUND, "Only a region of origins has a mesh and slices.";
+        Lookup(LookupError::Region(_)) => LookupError::Region("1f2e".to_owned());
     NoCells, "no_cells", NOT_FOUND, "Only a dexterity map has a grid of points.";
         Lookup(LookupError::Grid(_)) => LookupError::Grid("1f2e".to_owned());
     JobNotFound, "job_not_found", NOT_FOUND, "No job record has this id.";
@@ -108,7 +110,7 @@ problems! {
         "The machine cannot run the program, or a move of it has no duration.";
         Operation(OperationError::NoJointProgram(_)) => OperationError::NoJointProgram(
             "the machine cannot run the program; the report says why".to_owned());
-    OtherVersion, "other_version", CONFLICT, "Another version of the service created the job.";
+    OtherVersion, "other_version", CONFLICT, "A binary of another version, or for another target, created the job.";
         Operation(OperationError::OtherVersion) => OperationError::OtherVersion;
     BodyTooLarge, "body_too_large", PAYLOAD_TOO_LARGE, "The decoded body is larger than the limit.";
         Request(RequestError::BodyTooLarge(_)) => RequestError::BodyTooLarge(65_536);

@@ -19,7 +19,7 @@ const ID_PREFIX: &[u8] = b"verne program 1";
 /// A program that was received, and is not stored yet.
 #[derive(Clone, Debug)]
 pub(crate) struct ReceivedProgram {
-    /// The hash of the file, its format, the options for reading and the version of the service.
+    /// The hash of the file, its format, the options for reading, and the version and the target of the binary.
     pub id: ResultId,
     /// The format.
     pub format: Format,
@@ -109,8 +109,7 @@ struct ReceivedFile {
 
 impl ReceivedFile {
     fn new(format: Format, options: &ReadOptions) -> Self {
-        let mut hasher = blake3::Hasher::new();
-        hasher.update(ID_PREFIX).update(env!("CARGO_PKG_VERSION").as_bytes());
+        let mut hasher = ResultId::hasher(ID_PREFIX);
         // The text has no fixed length, its hash has.
         let reading = serde_json::json!([format.name(), options]).to_string();
         hasher.update(blake3::hash(reading.as_bytes()).as_bytes());

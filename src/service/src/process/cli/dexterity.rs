@@ -12,9 +12,12 @@ use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::dexterity_table::DexterityTable;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::mesh_files::{MeshDescription, write_mesh};
-use crate::process::cli::answer::{machine, to_json, with_flags};
+use crate::process::cli::answer::{machine, with_flags};
+use crate::process::cli::answer_format::AnswerFormat;
 use crate::process::cli::files::refuse_equal_files;
 use crate::process::cli::progress::TerminalProgress;
+use crate::process::cli::terminal::Terminal;
+use crate::process::cli::words::workspaces;
 use crate::wire::dexterity::{DexterityBody, Inclinations, SetName};
 use crate::wire::format::MeshFormat;
 use crate::wire::machine_ref::REFERENCE;
@@ -57,11 +60,13 @@ pub(crate) struct DexterityCommand {
     /// .ndjson or .arrow.
     #[arg(long, value_name = "FILE")]
     cells: Option<PathBuf>,
+    #[command(flatten)]
+    format: AnswerFormat,
 }
 
 impl DexterityCommand {
-    /// Writes the files, and the summary as JSON to `out`, with line breaks if `pretty`.
-    pub(crate) fn run(self, out: &mut impl Write, pretty: bool) -> Result<(), String> {
+    /// Writes the files, and the summary to `out`.
+    pub(crate) fn run(self, out: &mut impl Write, terminal: Option<Terminal>) -> Result<(), String> {
         let (output, cells) = (self.output.as_deref(), self.cells.as_deref());
         let machine_file = Some(Path::new(&self.machine)).filter(|path| path.is_file());
         refuse_equal_files(&[("the machine", machine_file)], &[("--output", output), ("--cells", cells)])?;
@@ -90,8 +95,7 @@ impl DexterityCommand {
             write_cells(&map, format, path)?;
         }
         let summary: Value = parse_body(&map.summary).map_err(with_flags)?;
-        writeln!(out, "{}", to_json(&summary, pretty)?)
-            .map_err(|error| format!("cannot write the answer: {error}"))
+        self.format.write(&summary, workspaces::dexterity, out, terminal)
     }
 }
 

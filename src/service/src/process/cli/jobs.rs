@@ -9,8 +9,10 @@ use reqwest::blocking::{Client, RequestBuilder};
 use serde_json::Value;
 use verne_jobs::JobId;
 
-use crate::process::cli::answer::to_json;
+use crate::process::cli::answer_format::AnswerFormat;
 use crate::process::cli::service_address::{checked, root_cause};
+use crate::process::cli::terminal::Terminal;
+use crate::process::cli::words::jobs;
 
 /// Jobs of a service.
 #[derive(Debug, Args)]
@@ -34,6 +36,8 @@ enum Command {
         /// The `next` of the list before this one.
         #[arg(long, value_name = "NEXT")]
         after: Option<String>,
+        #[command(flatten)]
+        format: AnswerFormat,
     },
     /// Cancel a job, as DELETE /jobs/{id} does. The answer is the resulting state of the job.
     Cancel {
@@ -41,6 +45,8 @@ enum Command {
         id: JobId,
         #[command(flatten)]
         service: Service,
+        #[command(flatten)]
+        format: AnswerFormat,
     },
 }
 
@@ -56,21 +62,23 @@ struct Service {
 }
 
 impl JobsCommand {
-    /// Writes the answer of the service to `out`, with line breaks if `pretty`.
-    pub(crate) fn run(&self, out: &mut impl Write, pretty: bool) -> Result<(), String> {
-        let answer = match &self.command {
-            Command::List { service, state, limit, after } => {
+    /// Writes the answer of the service to `out`.
+    pub(crate) fn run(&self, out: &mut impl Write, terminal: Option<Terminal>) -> Result<(), String> {
+        match &self.command {
+            Command::List { service, state, limit, after, format } => {
                 let mut query = Serializer::new(String::new());
                 query.append_pair("limit", &limit.to_string());
                 for (name, value) in [("state", state), ("after", after)] {
                     query.extend_pairs(value.iter().map(|value| (name, value)));
                 }
-                service.ask(&format!("/jobs?{}", query.finish()), Client::get)?
+                let answer = service.ask(&format!("/jobs?{}", query.finish()), Client::get)?;
+                format.write(&answer, jobs::list, out, terminal)
             }
-            Command::Cancel { id, service } => service.ask(&format!("/jobs/{id}"), Client::delete)?,
-        };
-        writeln!(out, "{}", to_json(&answer, pretty)?)
-            .map_err(|error| format!("cannot write the answer: {error}"))
+            Command::Cancel { id, service, format } => {
+                let answer = service.ask(&format!("/jobs/{id}"), Client::delete)?;
+                format.write(&answer, jobs::one, out, terminal)
+            }
+        }
     }
 }
 

@@ -4,13 +4,17 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use clap::Subcommand;
+use serde_json::Value;
 
 use crate::operations::forward::answer_fk;
 use crate::operations::inverse::answer_ik;
 use crate::operations::machine_registry::MachineRegistry;
-use crate::process::cli::answer::{exit_status, machine, to_json, with_flags};
+use crate::process::cli::answer::{exit_status, machine, with_flags};
 use crate::process::cli::batch::BatchCommand;
 use crate::process::cli::one_or_batch::OneOrBatch;
+use crate::process::cli::terminal::Terminal;
+use crate::process::cli::words::page::Page;
+use crate::process::cli::words::solutions;
 use crate::wire::answer::Answer;
 use crate::wire::query::{FkQuery, IkQuery};
 use crate::wire::request::{FkRequest, IkRequest};
@@ -38,27 +42,26 @@ pub(crate) enum KinematicsCommand {
 }
 
 impl KinematicsCommand {
-    /// Writes the JSON that the HTTP service would answer to `out`, with line breaks if `pretty`, or the answers to
-    /// rows.
+    /// Writes the answer of the HTTP service to `out`, or the answers to rows.
     pub(crate) fn run(
         self,
         out: &mut impl Write,
         err: &mut impl Write,
-        pretty: bool,
+        terminal: Option<Terminal>,
     ) -> Result<ExitCode, String> {
-        let (answer, pretty) = match self {
+        let (answer, format, words): (_, _, fn(&Value) -> Page) = match self {
             Self::Forward(command) => match *command {
-                OneOrBatch::One(question) => (forward(question.query)?, pretty || question.pretty),
-                OneOrBatch::Batch(batch) => return batch.run(out, err, pretty),
+                OneOrBatch::One(one) => (forward(one.query)?, one.format, solutions::forward),
+                OneOrBatch::Batch(batch) => return batch.run(out, err, terminal.is_some()),
             },
             Self::Inverse(command) => match *command {
-                OneOrBatch::One(question) => (inverse(question.query)?, pretty || question.pretty),
-                OneOrBatch::Batch(batch) => return batch.run(out, err, pretty),
+                OneOrBatch::One(one) => (inverse(one.query)?, one.format, solutions::inverse),
+                OneOrBatch::Batch(batch) => return batch.run(out, err, terminal.is_some()),
             },
-            Self::Contains(batch) => return batch.run(out, err, pretty),
+            Self::Contains(batch) => return batch.run(out, err, terminal.is_some()),
         };
-        let text = to_json(&answer, pretty)?;
-        writeln!(out, "{text}").map_err(|error| format!("cannot write the answer: {error}"))?;
+        let json = serde_json::to_value(&answer).map_err(|error| error.to_string())?;
+        format.write(&json, words, out, terminal)?;
         Ok(exit_status(!answer.solutions.is_empty()))
     }
 }

@@ -2,6 +2,7 @@
 
 use clap::{ArgMatches, Args, Command, Error, FromArgMatches};
 
+use crate::process::cli::answer_format::AnswerFormat;
 use crate::process::cli::batch::{BatchCommand, BatchQuery};
 
 /// The flag that decides.
@@ -12,9 +13,8 @@ const BATCH: &str = "batch";
 pub(crate) struct OneCommand<Q: Args> {
     #[command(flatten)]
     pub query: Q,
-    /// Print JSON with line breaks. On a terminal verne always does.
-    #[arg(long)]
-    pub pretty: bool,
+    #[command(flatten)]
+    pub format: AnswerFormat,
 }
 
 /// One question or a batch. Arguments that both have are defined by the question.

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::{Args, Command, ValueEnum};
-use clap_complete::aot::{Bash, Fish, Zsh, generate};
+use clap_complete::aot::{Bash, Fish, PowerShell, Zsh, generate};
 use clap_mangen::Man;
 
 /// The shell.
@@ -24,6 +24,9 @@ enum Shell {
     Zsh,
     /// Fish.
     Fish,
+    /// PowerShell.
+    #[value(name = "powershell")]
+    PowerShell,
 }
 
 impl CompletionsCommand {
@@ -35,6 +38,7 @@ impl CompletionsCommand {
             Shell::Bash => generate(Bash, &mut command, "verne", &mut script),
             Shell::Zsh => generate(Zsh, &mut command, "verne", &mut script),
             Shell::Fish => generate(Fish, &mut command, "verne", &mut script),
+            Shell::PowerShell => generate(PowerShell, &mut command, "verne", &mut script),
         }
         out.write_all(&script).map_err(|error| format!("cannot write the completions: {error}"))
     }

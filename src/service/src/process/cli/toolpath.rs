@@ -20,8 +20,10 @@ use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
 use crate::operations::toolpath_report::is_feasible;
 use crate::operations::toolpath_row_text::{RowText, RowWriter};
 use crate::process::cli::answer::{exit_status, flags_of_query, machine};
+use crate::process::cli::answer_format::AnswerFormat;
 use crate::process::cli::files::{is_standard, name_of, refuse_equal_files, remove, source};
 use crate::process::cli::progress::TerminalProgress;
+use crate::process::cli::terminal::Terminal;
 use crate::process::cli::toolpath::output::{OutputFormat, RowsOutput};
 use crate::process::cli::toolpath::summary::Summary;
 use crate::wire::error::OperationError;
@@ -50,9 +52,11 @@ pub(crate) struct ToolpathCommand {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Write the report, which is the JSON that the HTTP service would answer, to this file. Default: standard output,
-    /// unless the rows go there.
+    /// unless the rows go there or it is a terminal.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
+    #[command(flatten)]
+    format: AnswerFormat,
 }
 
 impl ToolpathCommand {
@@ -62,7 +66,7 @@ impl ToolpathCommand {
         self,
         out: &mut impl Write,
         err: &mut impl Write,
-        pretty: bool,
+        terminal: Option<Terminal>,
     ) -> Result<ExitCode, String> {
         let output = self.output.as_deref();
         let rows_take_standard_output = output.is_some_and(is_standard);
@@ -100,8 +104,9 @@ impl ToolpathCommand {
         }
         let report = planned?;
         match self.report.as_deref() {
-            None if rows_take_standard_output => {}
-            path => output::write_report(&report, path, out, pretty)?,
+            // The summary says on a terminal what matters.
+            None if rows_take_standard_output || self.format.words_on(terminal).is_some() => {}
+            path => output::write_report(&report, path, out, self.format.has_line_breaks(terminal))?,
         }
         let summary = Summary::read(&report)?;
         // If standard error is closed, report and exit status still tell the verdict.
@@ -157,7 +162,7 @@ fn plan(
 }
 
 /// Reads the program.
-fn receive(
+pub(crate) fn receive(
     path: &Path,
     reading: &ProgramQuery,
     faults: impl Fn(OperationError) -> String,
@@ -181,7 +186,7 @@ fn receive(
 }
 
 /// An error as a message: faults of the program with the places in the file, invalid fields with their flags.
-fn message(file: &str, error: OperationError) -> String {
+pub(crate) fn message(file: &str, error: OperationError) -> String {
     match error {
         OperationError::ProgramFaults(refused) => {
             let stopped = if refused.complete { "" } else { "\n  the reader stopped here" };

@@ -11,8 +11,11 @@ use crate::operations::mesh_files::{MeshDescription, write_mesh};
 use crate::operations::slice::answer_slice;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
-use crate::process::cli::answer::{machine, to_json, with_flags};
+use crate::process::cli::answer::{machine, with_flags};
+use crate::process::cli::answer_format::AnswerFormat;
 use crate::process::cli::progress::TerminalProgress;
+use crate::process::cli::terminal::Terminal;
+use crate::process::cli::words::workspaces;
 use crate::wire::alphas::Alphas;
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::format::{MeshFormat, SliceFormat};
@@ -26,7 +29,7 @@ pub(crate) struct WorkspaceCommand {
     #[command(flatten)]
     query: WorkspaceQuery,
     /// Write the mesh to this file: .glb, .stl, .ply or .json; with --slice: .json, .svg or .dxf. Without it, verne
-    /// prints the JSON that the HTTP service would answer.
+    /// prints the answer of the HTTP service.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Height of the slice in the frame of the workspace, mm.
@@ -37,6 +40,8 @@ pub(crate) struct WorkspaceCommand {
     #[arg(long, requires = "slice", default_value = "false", value_parser = str::parse::<Alphas>)]
     #[arg(allow_hyphen_values = true)]
     alpha: Alphas,
+    #[command(flatten)]
+    format: AnswerFormat,
 }
 
 /// The format of the file.
@@ -46,10 +51,10 @@ enum OutputFormat {
 }
 
 impl WorkspaceCommand {
-    /// Writes the file, or the answer as JSON to `out`.
-    pub(crate) fn run(self, out: &mut impl Write, pretty: bool) -> Result<(), String> {
+    /// Writes the file, or the answer to `out`.
+    pub(crate) fn run(self, out: &mut impl Write, terminal: Option<Terminal>) -> Result<(), String> {
         // Before the computation: the extension may be unknown.
-        let format = self.output.as_deref().map(|path| self.format(path)).transpose()?;
+        let format = self.output.as_deref().map(|path| self.file_format(path)).transpose()?;
         let machine = machine(&self.query.machine)?;
         let request = WorkspaceRequest { machine, ..self.query.into_request() };
         let progress = TerminalProgress::new();
@@ -74,12 +79,15 @@ impl WorkspaceCommand {
             Some(path) => {
                 std::fs::write(&path, bytes).map_err(|error| format!("{}: {error}", path.display()))
             }
-            None => print(&bytes, out, pretty),
+            None => {
+                let answer: Value = parse_body(&bytes).map_err(with_flags)?;
+                self.format.write(&answer, workspaces::workspace, out, terminal)
+            }
         }
     }
 
     /// The format that the extension of a file names.
-    fn format(&self, path: &Path) -> Result<OutputFormat, String> {
+    fn file_format(&self, path: &Path) -> Result<OutputFormat, String> {
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         let (format, known) = if self.slice.is_some() {
             (SliceFormat::from_str(extension, true).map(OutputFormat::Slice), ".json, .svg or .dxf (a slice)")
@@ -91,12 +99,6 @@ impl WorkspaceCommand {
         };
         format.map_err(|_| format!("--output {} must end in {known}", path.display()))
     }
-}
-
-fn print(json: &[u8], out: &mut impl Write, pretty: bool) -> Result<(), String> {
-    let answer: Value = parse_body(json).map_err(with_flags)?;
-    writeln!(out, "{}", to_json(&answer, pretty)?)
-        .map_err(|error| format!("cannot write the answer: {error}"))
 }
 
 /// Names the height of a slice as the flag does.

@@ -12,7 +12,6 @@ use crate::toolpath::meridian::Span;
 use crate::toolpath::motion::{Curve, Motion, MotionKind, ToolPosition, Turning};
 use crate::toolpath::node::Node;
 use crate::toolpath::path::Path;
-use crate::toolpath::tool_motion::ToolMotion;
 
 /// Least cosine of theta1 with which the base's vertical leads away from the table.
 const LEAST_COSINE: f64 = 0.05;
@@ -120,7 +119,7 @@ impl Rower<'_> {
 }
 
 fn position(rower: &Rower<'_>, node: &Node, tool_length: f64) -> ToolPosition {
-    let [tip, axis] = ToolMotion::at(rower.setting.machine, node, tool_length).position();
+    let [tip, axis] = node.tool(rower.setting.machine, tool_length).position();
     ToolPosition { tip: tip.into(), axis: axis.into() }
 }
 

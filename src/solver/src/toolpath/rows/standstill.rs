@@ -3,7 +3,6 @@
 use super::{RowKind, RowPlace, Rower};
 use crate::toolpath::motion::Motion;
 use crate::toolpath::path::Path;
-use crate::toolpath::tool_motion::ToolMotion;
 
 impl Rower<'_> {
     /// The row where the machine stands before the program.
@@ -23,7 +22,7 @@ impl Rower<'_> {
         let now = self.now.filter(|_| !is_same)?;
         let (_, fraction) = self.meet(index, (&now, length));
         self.margin = Some(fraction);
-        let [tip, _] = ToolMotion::at(self.setting.machine, &now, length).position();
+        let [tip, _] = now.tool(self.setting.machine, length).position();
         Some(path.begun_at(tip.into(), motion))
     }
 }

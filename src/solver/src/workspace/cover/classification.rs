@@ -2,6 +2,7 @@
 
 use super::posture_bounds::PostureBounds;
 use super::rectangle::Rectangle;
+use crate::mechanism::Mechanism;
 use crate::workspace::domain::{Domain, Limit, LimitSet, RodPairs};
 
 /// Allowance for rounding in a bound, in units of the limit.
@@ -75,18 +76,37 @@ fn unit(domain: &Domain<'_>, limit: Limit) -> f64 {
 /// All limits that can be violated. Leg I reaches wherever its rods do not cross. Without a rod radius the distances
 /// between leg I's rods and between different legs cannot be too small.
 pub(super) fn all_limits(domain: &Domain<'_>) -> LimitSet {
-    Limit::set(|limit| match limit {
-        Limit::LegOneReach | Limit::RodDistance(RodPairs::Parallelograms) => false,
+    let possible = Limit::set(|limit| match limit {
+        Limit::LegOneReach => false,
+        Limit::RodDistance(RodPairs::Parallelograms) => domain.machine.mechanism.pair_offset[1] != 0.0,
         Limit::RodDistance(_) => domain.machine.geometry().rod_radius > 0.0,
         Limit::TablePlane => domain.table_bounds_columns(),
         _ => true,
-    })
+    });
+    Limit::of_set(possible)
+        .filter(|(number, _)| !domain.is_implied(*number))
+        .map(|(number, _)| 1 << number)
+        .sum()
 }
 
-/// The region of the legs' reach in which a parallelogram's rods keep their distance. That distance depends on x alone
-/// and falls with |x + e2|.
+/// The region of the legs' reach in which the rods of parallelograms along x keep their distance. That distance depends
+/// on x alone and falls with |x + e2|. For other parallelograms it is the legs' reach.
 pub(super) fn parallelograms_apart(domain: &Domain<'_>) -> Option<Rectangle> {
-    let (g, d) = (domain.machine.geometry(), &domain.machine.mechanism);
+    let d = &domain.machine.mechanism;
+    let [[x0, y0], [x1, y1]] = domain.rectangle();
+    let [second, third] = greatest_along_pairs(d)?;
+    if d.pair_offset[1] != 0.0 {
+        return Some([[x0, y0], [x1, y1]]);
+    }
+    let most = second.min(third);
+    let (x0, x1) = (x0.max(-d.e2 - most), x1.min(most - d.e2));
+    (x0 < x1).then_some([[x0, y0], [x1, y1]])
+}
+
+/// The greatest extent of legs II and III along the widths of their parallelograms at which these are far enough apart;
+/// `None` if they never are.
+pub(super) fn greatest_along_pairs(d: &Mechanism) -> Option<[f64; 2]> {
+    let g = &d.geometry;
     let (width, least) = (2.0 * g.parallelogram_half_width, 2.0 * g.rod_radius);
     if width < least {
         return None;
@@ -96,8 +116,5 @@ pub(super) fn parallelograms_apart(domain: &Domain<'_>) -> Option<Rectangle> {
         let beside = (width * width + length * length - least * least) / (2.0 * width * length);
         length * if aligned * width <= length { aligned } else { beside.min(1.0) }
     };
-    let most = across(g.L2).min(across(g.L3));
-    let [[x0, y0], [x1, y1]] = domain.rectangle();
-    let (x0, x1) = (x0.max(-d.e2 - most), x1.min(most - d.e2));
-    (x0 < x1).then_some([[x0, y0], [x1, y1]])
+    Some([across(g.L2), across(g.L3)])
 }

@@ -10,8 +10,8 @@
 //! d(alpha)/dx = -d(alpha)/dy · X1 u v / (w1 (u² + v²))
 //! ```
 
-use super::interval::Interval;
 use super::rectangle::Rectangle;
+use crate::interval::Interval;
 use crate::inverse::leg_one_cubic::LegOneCubic;
 use crate::workspace::domain::Domain;
 
@@ -48,11 +48,11 @@ impl LegOneBounds {
             return None;
         }
         let far = leg(x.magnitude(), y.magnitude());
-        let far = far.filter(|far| g.R1 * far.c > g.r1);
+        let far = far.filter(|far| g.R1 * far.c - g.r1 + d.crossing_reserve > 0.0);
         let works_everywhere = far.as_ref().is_some_and(|far| room(far.w1, far.s.abs()) > slack);
         let (far_c, far_s) = match &far {
             Some(far) => (far.c, far.s.abs()),
-            None => (g.r1 / g.R1, (1.0 - (g.r1 / g.R1).powi(2)).sqrt()),
+            None => (g.r1 / g.R1, ((g.R1 - g.r1) * (g.R1 + g.r1)).sqrt() / g.R1),
         };
         let far_w = far.as_ref().map_or(0.0, |far| far.w1);
         let far_w = if works_everywhere { far_w } else { far_w.max(margin + g.R1 * near_s) };
@@ -69,11 +69,16 @@ impl LegOneBounds {
     /// d(alpha)/dx and d(alpha)/dy, given sin alpha and X1.
     pub(super) fn angle_rates(&self, domain: &Domain<'_>, s: Interval, x: Interval) -> [Interval; 2] {
         let (g, d) = (domain.machine.geometry(), &domain.machine.mechanism);
+        if d.is_delta() {
+            return [Interval::ZERO; 2];
+        }
         let w = self.w;
-        let u = self.c.times(g.R1).plus(-g.r1).clamp(0.0, f64::INFINITY);
+        // 1 - cos a, from which u and u² + v² follow without cancellation where R1 is nearly r1.
+        let bend = s.square() * self.c.plus(1.0).reciprocal();
+        let u = bend.times(-g.R1).plus(g.R1 - g.r1).clamp(0.0, f64::INFINITY);
         let v = s.times(g.R1);
         let square = v.square();
-        let arms = self.c.times(-d.k).plus(d.c).reciprocal();
+        let arms = bend.times(d.k).plus(d.gap_square).reciprocal();
         let lead =
             Interval::new((w.low - square.high / w.low).max(0.0), (w.high - square.low / w.high).max(0.0));
         let turn = (w + (u * lead).times(g.r1) * arms).reciprocal();

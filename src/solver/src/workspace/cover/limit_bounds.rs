@@ -2,9 +2,10 @@
 
 use std::ops::Neg;
 
-use super::jet::Jet;
+use super::classification::greatest_along_pairs;
 use super::posture_bounds::PostureBounds;
 use super::rod_distance::rod_distance;
+use crate::jet::Jet;
 use crate::parallel_matrix::determinant;
 use crate::workspace::domain::{Limit, RodPairs, SLIDER_PAIRS};
 use crate::workspace::image::Image;
@@ -15,8 +16,7 @@ impl PostureBounds<'_> {
     pub(super) fn limit(&self, limit: Limit) -> (Jet, bool) {
         match limit {
             Limit::RodDistance(RodPairs::LegOne) => (self.leg_one_distance(), false),
-            // The distance of a parallelogram's own rods depends on x alone. The cover excludes the x where it is too
-            // small.
+            Limit::RodDistance(RodPairs::Parallelograms) => self.parallelogram_distance(),
             Limit::RodDistance(_) => rod_distance(self, 2.0 * self.domain.machine.geometry().rod_radius),
             Limit::TablePlane => self.height_over_table(),
             _ => {
@@ -60,6 +60,34 @@ impl PostureBounds<'_> {
         let size = self.y.times(self.side);
         let value = most - self.column.y.abs() + g.R1 * self.column.c - r1;
         (u - size).plus(most).centred_at(value, self.offsets)
+    }
+
+    /// The rods of a parallelogram are far enough apart if the leg's extent along the width is small enough.
+    /// Parallelograms along x have this limit in the bounds of x instead.
+    fn parallelogram_distance(&self) -> (Jet, bool) {
+        let d = &self.domain.machine.mechanism;
+        let Some(most) = greatest_along_pairs(d) else { return (Jet::constant(-1.0), false) };
+        let [c, s] = d.pair_direction;
+        let (mut least, mut kinked): (Option<Jet>, bool) = (None, false);
+        for (leg, side) in [(0, 1.0), (1, -1.0)] {
+            let [x, y, _] = self.vectors[leg + 2];
+            let along = x.times(c) + y.times(side * s);
+            let at = self.rods.vectors[leg + 2];
+            let here = at[0] * c + at[1] * side * s;
+            for sign in [1.0, -1.0] {
+                let room =
+                    along.times(-sign).plus(most[leg]).centred_at(most[leg] - sign * here, self.offsets);
+                least = Some(match least {
+                    None => room,
+                    Some(least) => {
+                        let (greater, either) = (-room).greater(-least);
+                        kinked |= either;
+                        -greater
+                    }
+                });
+            }
+        }
+        (least.unwrap_or(Jet::UNKNOWN), kinked)
     }
 
     /// The squared chord of the half-angle less that of a rod's angle from its axis.

@@ -3,10 +3,10 @@
 //! Leg I determines alpha, see [`LegOneBounds`]. Everything else follows from sums, products and roots of functions
 //! over the box.
 
-use super::interval::Interval;
-use super::jet::Jet;
 use super::leg_one::{FLAT, LegOneBounds};
 use super::rectangle::Rectangle;
+use crate::interval::Interval;
+use crate::jet::Jet;
 use crate::rods::Rods;
 use crate::workspace::column::Column;
 use crate::workspace::domain::Domain;

@@ -4,26 +4,22 @@
 //! same expression at the nearest points, with s and t constant. Over a box it is enclosed with all s and t that may
 //! be nearest there.
 
-use super::interval::Interval;
-use super::jet::Jet;
 use super::posture_bounds::PostureBounds;
-use crate::margins::interference::square_distance;
-use crate::mechanism::Geometry;
+use crate::interval::Interval;
+use crate::jet::Jet;
+use crate::margins::interference::{pairs_between_legs, square_distance};
+use crate::mechanism::Mechanism;
 use crate::rods::FAMILY;
-
-/// Pairs of rods of different legs, as indices of the six. Rods 22 and 32 are at the same distance as 21 and 31.
-const BETWEEN: [[usize; 2]; 11] =
-    [[0, 2], [0, 3], [0, 4], [0, 5], [1, 2], [1, 3], [1, 4], [1, 5], [2, 4], [2, 5], [3, 4]];
 
 type Vector = [Jet; 3];
 
 /// The least distance between legs less a distance, over a box. The bounds are exact where it is zero, and have the
 /// right sign elsewhere. Also whether it may be the distance of several pairs where it is zero.
 pub(super) fn rod_distance(bounds: &PostureBounds<'_>, distance: f64) -> (Jet, bool) {
-    let g = bounds.domain.machine.geometry();
-    let ends = bounds.rods.platform_ends(g);
+    let mechanism = &bounds.domain.machine.mechanism;
+    let ends = bounds.rods.platform_ends(mechanism);
     let (mut least, mut count): (Option<Jet>, usize) = (None, 0);
-    for pair in BETWEEN {
+    for &pair in pairs_between_legs(mechanism) {
         let [i, j] = pair;
         let gap = [0, 1, 2].map(|axis| ends[i][axis] - ends[j][axis]);
         let [a, b] = pair.map(|rod| &bounds.rods.vectors[FAMILY[rod]]);
@@ -48,9 +44,9 @@ fn narrow(jet: Jet, most: f64) -> Jet {
 }
 
 fn of_pair(bounds: &PostureBounds<'_>, pair: [usize; 2], here: f64, enough: f64) -> Jet {
-    let g = bounds.domain.machine.geometry();
+    let mechanism = &bounds.domain.machine.mechanism;
     let [a, b] = pair.map(|rod| &bounds.vectors[FAMILY[rod]]);
-    let (gap, turn) = (gap(g, bounds, pair), difference(bounds, pair));
+    let (gap, turn) = (gap(mechanism, bounds, pair), difference(bounds, pair));
     // No point of a segment moves faster than one of its ends.
     let rates = [0, 1].map(|axis| fastest([&gap, a, b], axis));
     let quick = Jet { value: Interval::new(0.0, f64::INFINITY), slopes: rates.map(Interval::around) };
@@ -75,23 +71,23 @@ fn of_pair(bounds: &PostureBounds<'_>, pair: [usize; 2], here: f64, enough: f64)
 }
 
 /// From rod j's platform end to rod i's.
-fn gap(g: &Geometry, bounds: &PostureBounds<'_>, pair: [usize; 2]) -> Vector {
-    let end = |rod: usize| -> ([f64; 2], f64) {
-        let (half, first, other) = (g.parallelogram_half_width, g.R1, g.R2);
+fn gap(mechanism: &Mechanism, bounds: &PostureBounds<'_>, pair: [usize; 2]) -> Vector {
+    let (g, [along, across]) = (&mechanism.geometry, mechanism.pair_offset);
+    // The middle's x, the offset from the middle, and the arm.
+    let end = |rod: usize| -> (f64, [f64; 2], f64) {
         match rod {
-            0 => ([g.D1, 0.0], first),
-            1 => ([g.D1, 0.0], -first),
-            2 => ([g.D2, half], -other),
-            3 => ([g.D2, -half], -other),
-            4 => ([g.D2, half], other),
-            _ => ([g.D2, -half], other),
+            0 => (g.D1, [0.0; 2], g.R1),
+            1 => (g.D1, [0.0; 2], -g.R1),
+            2 => (g.D2, [along, across], -g.R2),
+            3 => (g.D2, [-along, -across], -g.R2),
+            4 => (g.D2, [along, -across], g.R2),
+            _ => (g.D2, [-along, across], g.R2),
         }
     };
-    let ([(x1, arm1), (x2, arm2)], arm) =
-        (pair.map(end), |arm: f64| [bounds.c.times(arm), bounds.s.times(arm)]);
-    let [y, z] = arm(arm1 - arm2);
-    let x = Jet::constant(x1[0] + x1[1] - x2[0] - x2[1]);
-    [x, y, z]
+    let [(x1, offset1, arm1), (x2, offset2, arm2)] = pair.map(end);
+    let arm = arm1 - arm2;
+    let x = Jet::constant(x1 + offset1[0] - x2 - offset2[0]);
+    [x, bounds.c.times(arm).plus(offset1[1] - offset2[1]), bounds.s.times(arm)]
 }
 
 /// The difference of two rods' vectors, which is small where they are nearly parallel. It does not contain the
@@ -173,7 +169,7 @@ fn of_lines(
 
 /// The distance of two rods' lines along the product of their directions, at one point.
 fn signed_distance(bounds: &PostureBounds<'_>, pair: [usize; 2]) -> f64 {
-    let ends = bounds.rods.platform_ends(bounds.domain.machine.geometry());
+    let ends = bounds.rods.platform_ends(&bounds.domain.machine.mechanism);
     let [a, b] = pair.map(|rod| bounds.rods.vectors[FAMILY[rod]]);
     let product = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
     let normal = [product(1, 2), product(2, 0), product(0, 1)];

@@ -24,7 +24,7 @@ pub struct Crossing {
 
 /// The edges that begin at a node, as steps along the three axes: those of the six tetrahedra
 /// around the cube's diagonal.
-pub(super) const EDGES: [[u32; 3]; 7] =
+pub(crate) const EDGES: [[u32; 3]; 7] =
     [[0, 0, 1], [0, 1, 0], [0, 1, 1], [1, 0, 0], [1, 0, 1], [1, 1, 0], [1, 1, 1]];
 
 /// Halvings of an edge.

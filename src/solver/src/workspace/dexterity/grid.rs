@@ -139,7 +139,7 @@ impl Grid {
     }
 
     /// Whether a node is one of the outermost. They count as outside of both regions.
-    pub(super) fn outermost(&self, number: [u32; 3]) -> bool {
+    pub(crate) fn outermost(&self, number: [u32; 3]) -> bool {
         (0..3).any(|axis| number[axis] == 0 || number[axis] + 1 >= self.counts[axis])
     }
 }

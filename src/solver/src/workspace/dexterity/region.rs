@@ -34,7 +34,7 @@ const PAIRS: [[usize; 4]; 6] =
 
 /// The triangles of a region, given which nodes are inside and where the edges cross its surface,
 /// ascending.
-pub(super) fn triangles(
+pub(crate) fn triangles(
     grid: &Grid,
     inside: &[bool],
     crossings: &[Crossing],

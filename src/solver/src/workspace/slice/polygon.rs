@@ -69,7 +69,7 @@ pub(super) fn ring_area(ring: &[[f64; 2]]) -> f64 {
 }
 
 /// Assigns each clockwise ring to the smallest counter-clockwise ring around it.
-fn nested(rings: Vec<Vec<[f64; 2]>>) -> Vec<Polygon> {
+pub(crate) fn nested(rings: Vec<Vec<[f64; 2]>>) -> Vec<Polygon> {
     let (outers, holes): (Vec<_>, Vec<_>) = rings.into_iter().partition(|ring| ring_area(ring) > 0.0);
     let mut polygons: Vec<Polygon> =
         outers.into_iter().map(|outer| Polygon { outer, holes: Vec::new() }).collect();

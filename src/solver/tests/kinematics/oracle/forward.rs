@@ -58,7 +58,33 @@ pub(crate) fn forward(machine: &Machine, rho: [f64; 3]) -> Answer {
         (slice.lambda(0.0) * slice.d - slice.n).abs() < 1e-5
     };
     answer.touches.extend(grazes.iter().filter(|a| solves(a)).map(|&a| system.pose((a, 0.0))));
+    keep_one_working(&legs, &mut answer.found);
     answer
+}
+
+/// Of several modes with all sliders above and uncrossed rods, those on home's side of the singularity are working, if
+/// there is one.
+fn keep_one_working(legs: &Legs, found: &mut [Found]) {
+    if found.iter().filter(|found| found.working).count() < 2 {
+        return;
+    }
+    let g = &legs.g;
+    let height = |length: f64, x: f64, y: f64| (length * length - x * x - y * y).sqrt();
+    let [e1, e2] = [g.D1 - g.d1, g.D2 - g.d2];
+    let heights =
+        [height(g.L1, e1, g.R1 - g.r1), height(g.L2, e2, g.R2 - g.r4), height(g.L3, e2, g.R2 - g.r4)];
+    let home = legs.rates(&Vector4::zeros(), &heights.map(|height| -height)).determinant();
+    // With nearly equal offsets x = -e separates two mirror images.
+    let nearly_equal = (e1 - e2).abs() < 1e-2 * g.L1.max(g.L2).max(g.L3);
+    let is_home = |found: &Found| {
+        let beside = !nearly_equal || (2.0 * found.q[0] + e1 + e2) * (e1 + e2) > 0.0;
+        found.working && beside && legs.rates(&found.q, &found.rho).determinant() * home > 0.0
+    };
+    if found.iter().any(is_home) {
+        for found in found.iter_mut() {
+            found.working = is_home(found);
+        }
+    }
 }
 
 impl System<'_> {

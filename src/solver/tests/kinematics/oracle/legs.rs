@@ -29,30 +29,35 @@ impl Legs {
 
     /// A rod's joint on its slider in the base frame, the slider at z = 0.
     pub(crate) fn on_slider(&self, rod: u8) -> Vector3<f64> {
-        let (g, w) = (&self.g, self.g.parallelogram_half_width);
-        match rod {
-            11 => Vector3::new(g.d1, g.r1, 0.0),
-            12 => Vector3::new(g.d1, -g.r1, 0.0),
-            21 => Vector3::new(g.d2 + w, -g.r4, 0.0),
-            22 => Vector3::new(g.d2 - w, -g.r4, 0.0),
-            31 => Vector3::new(g.d2 + w, g.r4, 0.0),
-            32 => Vector3::new(g.d2 - w, g.r4, 0.0),
-            _ => panic!("no rod {rod}"),
-        }
+        let g = &self.g;
+        let middle = match rod / 10 {
+            1 => Vector3::new(g.d1, 0.0, 0.0),
+            2 => Vector3::new(g.d2, -g.r4, 0.0),
+            _ => Vector3::new(g.d2, g.r4, 0.0),
+        };
+        middle + self.beside(rod, g.r1)
     }
 
     /// A rod's joint on the platform in the platform frame.
     pub(crate) fn on_platform(&self, rod: u8) -> Vector3<f64> {
-        let (g, w) = (&self.g, self.g.parallelogram_half_width);
-        match rod {
-            11 => Vector3::new(g.D1, g.R1, 0.0),
-            12 => Vector3::new(g.D1, -g.R1, 0.0),
-            21 => Vector3::new(g.D2 + w, -g.R2, 0.0),
-            22 => Vector3::new(g.D2 - w, -g.R2, 0.0),
-            31 => Vector3::new(g.D2 + w, g.R2, 0.0),
-            32 => Vector3::new(g.D2 - w, g.R2, 0.0),
-            _ => panic!("no rod {rod}"),
-        }
+        let g = &self.g;
+        let middle = match rod / 10 {
+            1 => Vector3::new(g.D1, 0.0, 0.0),
+            2 => Vector3::new(g.D2, -g.R2, 0.0),
+            _ => Vector3::new(g.D2, g.R2, 0.0),
+        };
+        middle + self.beside(rod, g.R1)
+    }
+
+    /// A rod's joint from the middle of its leg's two: along y for leg I, along its own direction for a parallelogram.
+    fn beside(&self, rod: u8, half_width_of_leg_one: f64) -> Vector3<f64> {
+        let (g, w) = (self.g.parallelogram_direction, self.g.parallelogram_half_width);
+        let towards_first = match rod / 10 {
+            1 => Vector3::new(0.0, half_width_of_leg_one, 0.0),
+            2 => Vector3::new(w * g.cos(), w * g.sin(), 0.0),
+            _ => Vector3::new(w * g.cos(), -w * g.sin(), 0.0),
+        };
+        if rod % 10 == 1 { towards_first } else { -towards_first }
     }
 
     /// A rod's nominal length.

@@ -1,0 +1,221 @@
+//! Computes the region of origins of a program: its parts, and their merging to summary and mesh.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use verne_mesh::{Mesh, Swatch};
+use verne_program::Program;
+use verne_solver::toolpath::{
+    OriginRegion, OriginRequest, OriginSlab, OriginSurvey, merge_origins, origin_slab, origin_volume,
+    slice_origins,
+};
+use verne_solver::workspace::dexterity::Crossing;
+use verne_solver::workspace::{Observer, Slice};
+
+use crate::operations::drawing;
+use crate::operations::observers::section;
+use crate::operations::origins_question::OriginsQuestion;
+use crate::operations::program_motions::adjustable::AdjustableMotions;
+use crate::operations::solver_errors::{MAX_GRID_POINTS, too_many_grid_points, workspace_error};
+use crate::wire::dexterity::GridObject;
+use crate::wire::error::OperationError;
+use crate::wire::field_errors::FieldErrors;
+use crate::wire::format::SliceFormat;
+use crate::wire::json::write_json;
+use crate::wire::limit::Unchecked;
+use crate::wire::origins::{OriginsLinks, OriginsSummary};
+use crate::wire::result_id::ResultId;
+use crate::wire::slice::SliceObject;
+use crate::wire::toolpath::ToolLengths;
+use crate::wire::workspace_summary::BoundsObject;
+
+/// About how far the boundary is off because the program is examined at places, mm.
+const PLACE_TOLERANCE: f64 = 0.02;
+
+/// Fraction of a part's work that finding the limiting places takes.
+const SURVEY: f64 = 0.2;
+
+/// About the bytes of a summary, and of a slice.
+const SUMMARY_BYTES: usize = 2048;
+const SLICE_BYTES: usize = 16 * 1024;
+
+/// Parts of the region that are computed by themselves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum OriginsPart {
+    /// One of `count` slabs of the grid.
+    Slab {
+        /// The slab's number, from 0.
+        number: u32,
+        /// How many slabs the grid has.
+        count: u32,
+    },
+    /// The whole grid with twice the step, for the volume.
+    Coarse,
+}
+
+/// A part as it is stored.
+#[derive(Serialize, Deserialize)]
+struct StoredPart {
+    layers: [u32; 2],
+    inside: Vec<bool>,
+    crossings: Vec<(u64, [f64; 3])>,
+}
+
+/// A computed region.
+pub(crate) struct OriginsMap {
+    /// The summary, as it is sent.
+    pub summary: Vec<u8>,
+    /// The surface.
+    pub mesh: Mesh,
+}
+
+fn survey(
+    question: &OriginsQuestion,
+    program: &Arc<Program>,
+    observer: &dyn Observer,
+) -> Result<OriginSurvey, OperationError> {
+    let toolpath = &question.toolpath;
+    let motions = toolpath.motions(program).map_err(OperationError::ProgramFaults)?;
+    let tool_length = match toolpath.request.tool_length {
+        Some(ToolLengths::One(length)) => Some(length),
+        _ => None,
+    };
+    let motions = AdjustableMotions::new(motions, toolpath.request.setup, tool_length);
+    let request = OriginRequest { cell: question.cell, tolerance: PLACE_TOLERANCE };
+    let options = toolpath.plan_options();
+    let survey =
+        OriginSurvey::new(&toolpath.machine, &motions, motions.set_up(), &request, &options, observer)
+            .map_err(workspace_error)?;
+    if survey.grid.nodes() > MAX_GRID_POINTS {
+        return Err(too_many_grid_points(survey.grid.nodes()));
+    }
+    Ok(survey)
+}
+
+/// Computes a part of a region.
+pub(crate) fn compute_part(
+    question: &OriginsQuestion,
+    program: &Arc<Program>,
+    part: OriginsPart,
+    observer: &dyn Observer,
+) -> Result<Vec<u8>, OperationError> {
+    let mut survey = survey(question, program, &section(observer, 0.0, SURVEY))?;
+    let layers = match part {
+        OriginsPart::Slab { number, count } => {
+            let first_layer = |number: u32| {
+                let layers = u64::from(survey.grid.counts[0]) * u64::from(number) / u64::from(count.max(1));
+                u32::try_from(layers).unwrap_or(u32::MAX)
+            };
+            first_layer(number)..first_layer(number + 1)
+        }
+        OriginsPart::Coarse => {
+            survey = survey.with_cell(2.0 * question.cell).map_err(workspace_error)?;
+            0..survey.grid.counts[0]
+        }
+    };
+    let rest = section(observer, SURVEY, 1.0);
+    let slab = origin_slab(&question.toolpath.machine, &survey, layers, &rest).map_err(workspace_error)?;
+    let crossings = slab.crossings.into_iter().map(|crossing| (crossing.edge, crossing.at)).collect();
+    let stored = StoredPart { layers: [slab.layers.start, slab.layers.end], inside: slab.inside, crossings };
+    postcard::to_stdvec(&stored).map_err(|_| OperationError::Internal)
+}
+
+fn read_part(bytes: &[u8]) -> Result<OriginSlab, OperationError> {
+    let StoredPart { layers: [start, end], inside, crossings } =
+        postcard::from_bytes(bytes).map_err(|_| OperationError::Internal)?;
+    let crossings = crossings.into_iter().map(|(edge, at)| Crossing { edge, at }).collect();
+    Ok(OriginSlab { layers: start..end, inside, crossings })
+}
+
+/// Merges a region from its slabs, in any order, and the coarse grid. Call it on the compute pool.
+pub(crate) fn merge_parts(
+    question: &OriginsQuestion,
+    program: &Arc<Program>,
+    slabs: &[impl AsRef<[u8]>],
+    coarse: &[u8],
+    observer: &dyn Observer,
+) -> Result<OriginsMap, OperationError> {
+    let survey = survey(question, program, observer)?;
+    let slabs = slabs.iter().map(|slab| read_part(slab.as_ref())).collect::<Result<_, _>>()?;
+    let region = merge_origins(&survey.grid, slabs, observer).map_err(workspace_error)?;
+    let twice = survey.with_cell(2.0 * question.cell).map_err(workspace_error)?;
+    let coarse = merge_origins(&twice.grid, vec![read_part(coarse)?], observer).map_err(workspace_error)?;
+    let mesh = mesh(&region)?;
+    let summary = write_json(&summary(question, &survey, [&region, &coarse], &mesh), SUMMARY_BYTES)?;
+    Ok(OriginsMap { summary, mesh })
+}
+
+/// Computes a region, without a store for the results of its parts.
+pub(crate) fn compute_origins(
+    question: &OriginsQuestion,
+    program: &Arc<Program>,
+    observer: &dyn Observer,
+) -> Result<OriginsMap, OperationError> {
+    let whole = OriginsPart::Slab { number: 0, count: 1 };
+    let slab = compute_part(question, program, whole, &section(observer, 0.0, 0.8))?;
+    let coarse = compute_part(question, program, OriginsPart::Coarse, &section(observer, 0.8, 1.0))?;
+    merge_parts(question, program, &[slab], &coarse, &section(observer, 1.0, 1.0))
+}
+
+fn mesh(region: &OriginRegion) -> Result<Mesh, OperationError> {
+    let palette = vec![Swatch { name: "origins".to_owned(), rgb: [0, 158, 115] }];
+    let palette = if region.triangles.is_empty() { Vec::new() } else { palette };
+    let tags = vec![0; region.triangles.len()];
+    Mesh::new(region.positions.clone(), region.triangles.clone(), tags, palette)
+        .map_err(|_| OperationError::Internal)
+}
+
+fn summary(
+    question: &OriginsQuestion,
+    survey: &OriginSurvey,
+    [region, coarse]: [&OriginRegion; 2],
+    mesh: &Mesh,
+) -> OriginsSummary {
+    let path = question.id.toolpath();
+    let [volume, volume_error] = origin_volume(region, coarse);
+    let [places, limiting_places] = survey.place_counts();
+    OriginsSummary {
+        id: question.id,
+        machine: question.toolpath.machine.id.clone(),
+        program: question.toolpath.request.program,
+        request: question.request(),
+        volume,
+        volume_error,
+        bounds: mesh.bounds().map(BoundsObject::from),
+        vertices: mesh.positions().len(),
+        triangles: mesh.triangles().len(),
+        grid: GridObject::from(&survey.grid),
+        places,
+        limiting_places,
+        place_tolerance: PLACE_TOLERANCE,
+        not_checked: Unchecked::beside(question.toolpath.request.table_clearance.is_some()),
+        links: OriginsLinks { mesh: format!("{path}/mesh"), slice: format!("{path}/slice"), itself: path },
+    }
+}
+
+/// Cuts a region at a height. Call it on the compute pool.
+pub(crate) fn slice_of_origins(
+    id: ResultId,
+    cell: f64,
+    mesh: &Mesh,
+    z: f64,
+    format: SliceFormat,
+) -> Result<Vec<u8>, OperationError> {
+    let mut faults = FieldErrors::default();
+    faults.length("/z", z);
+    faults.into_result()?;
+    let z = z + 0.0;
+    let polygons = slice_origins(mesh.positions(), mesh.triangles(), z);
+    let cut = SliceObject::of_origins(id, cell, z, Slice { polygons, contours: Vec::new() });
+    let title = format!("region of origins at z = {z} mm");
+    match format {
+        SliceFormat::Json => write_json(&cut, SLICE_BYTES),
+        SliceFormat::Svg => Ok(drawing::svg::write(&cut, &title).into_bytes()),
+        SliceFormat::Dxf => Ok(drawing::dxf::write(&cut, &title).into_bytes()),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::panic, clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests;

@@ -1,0 +1,71 @@
+//! Examined values of the parameter, closer where the verdict may change between them.
+
+use rayon::prelude::*;
+
+use super::sample::{Found, Sample};
+use crate::toolpath::PlanError;
+use crate::workspace::Observer;
+
+/// Factor by which the worst margin may change faster than between the values around.
+const SAFETY: f64 = 2.0;
+/// Number of rounds after which the progress is that of the whole scan.
+const ROUNDS: f64 = 14.0;
+
+/// How closely a range is examined.
+pub(super) struct ScanSettings {
+    /// Number of equal intervals at the beginning.
+    pub(super) intervals: u32,
+    /// Width of an interval that is not divided, as a fraction of the range.
+    pub(super) least: f64,
+    /// Greatest number of values.
+    pub(super) most: usize,
+}
+
+/// Examines values of a range.
+pub(super) fn scan(
+    [from, to]: [f64; 2],
+    settings: &ScanSettings,
+    observer: &dyn Observer,
+    examine: impl Fn(f64) -> Result<Sample, PlanError> + Sync,
+) -> Result<Found, PlanError> {
+    let all = |values: &[f64]| values.par_iter().map(|value| examine(*value)).collect::<Result<Vec<_>, _>>();
+    let count = settings.intervals;
+    let begin: Vec<_> = (0..=count)
+        .map(|i| if i == count { to } else { from + (to - from) * f64::from(i) / f64::from(count) })
+        .collect();
+    let mut samples = all(&begin)?;
+    let least = settings.least * (to - from);
+    let mut round = 1.0;
+    loop {
+        observer.progress((round / ROUNDS).min(1.0));
+        let open = open_intervals(&samples);
+        let widths = open.iter().map(|[a, b]| b - a);
+        let middles = open.iter().filter(|[a, b]| b - a > least).map(|[a, b]| 0.5 * (a + b));
+        // An interval of neighbouring numbers has no middle.
+        let middles: Vec<_> =
+            middles.filter(|middle| samples.iter().all(|sample| sample.value != *middle)).collect();
+        if middles.is_empty() || samples.len() + middles.len() > settings.most {
+            let resolution = widths.fold(least, f64::max);
+            return Ok(Found { samples, resolution });
+        }
+        samples.extend(all(&middles)?);
+        samples.sort_by(|a, b| a.value.total_cmp(&b.value));
+        round += 1.0;
+    }
+}
+
+/// The intervals between neighbouring values in which the verdict may change, and change back.
+fn open_intervals(samples: &[Sample]) -> Vec<[f64; 2]> {
+    let slopes: Vec<_> = samples
+        .windows(2)
+        .map(|pair| (pair[1].fraction - pair[0].fraction).abs() / (pair[1].value - pair[0].value))
+        .collect();
+    let pairs = samples.windows(2).enumerate();
+    let open = pairs.filter(|(i, pair)| {
+        let around = &slopes[i.saturating_sub(1)..(i + 2).min(slopes.len())];
+        let slope = SAFETY * around.iter().copied().fold(0.0, f64::max);
+        let [a, b] = [&pair[0], &pair[1]];
+        a.is_feasible != b.is_feasible || a.fraction.abs() + b.fraction.abs() < slope * (b.value - a.value)
+    });
+    open.map(|(_, pair)| [pair[0].value, pair[1].value]).collect()
+}

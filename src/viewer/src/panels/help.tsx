@@ -1,0 +1,72 @@
+/** The symbols, the frames, the words for solutions, and what hands and keys do. */
+
+import frames from "../../../../docs/frames.svg";
+import { MODES, SYMBOLS } from "../words/symbols";
+import { Modal } from "./modal";
+
+const HANDS = [
+  ["Drag the arrows at the tip", "moves the tool; “Dragging keeps” says what stays"],
+  ["Drag the knobs φ₁, φ₂", "inclines and turns the tool on the part"],
+  ["Drag beside, wheel, right button", "turns, zooms and shifts the view"],
+  ["Arrow keys in the scene", "shift the view; with Shift they turn it"],
+  ["Arrow keys on the time of a program", "move the machine by one row; Space plays and pauses"],
+  ["Arrow keys in the text of a program", "lead to the next line that moves the machine"],
+  ["Arrow keys on a slider", "move the joint by the chosen step; Page Up and Page Down by ten steps"],
+  ["Ctrl+Z, Ctrl+Shift+Z", "undo and redo"],
+  ["Drop a file", "opens a program, or takes a machine from its JSON file"],
+] as const;
+
+export function Help() {
+  return (
+    <Modal name="Help" title="Symbols, frames and controls">
+      <div class="help">
+        <section aria-labelledby="symbols">
+          <h3 id="symbols">Symbols</h3>
+          <table>
+            <tbody>
+              {SYMBOLS.map(({ symbol, name, meaning }) => (
+                <tr key={symbol}>
+                  <th scope="row">{symbol}</th>
+                  <td>
+                    {name}: {meaning}
+                  </td>
+                </tr>
+              ))}
+            </tbody>
+          </table>
+        </section>
+        <section aria-labelledby="frames">
+          <h3 id="frames">Frames</h3>
+          <img
+            src={frames}
+            width="480"
+            height="445"
+            alt="Three vertical guideways with sliders carry the platform by six rods. The base frame’s z points down. The table below tilts about an axis parallel to x and turns; it carries the part frame, whose Z points up."
+          />
+        </section>
+        <section aria-labelledby="modes">
+          <h3 id="modes">Words for solutions</h3>
+          <dl>
+            {MODES.map(({ symbol, meaning }) => (
+              <div key={symbol}>
+                <dt>{symbol}</dt>
+                <dd>{meaning}</dd>
+              </div>
+            ))}
+          </dl>
+        </section>
+        <section aria-labelledby="hands">
+          <h3 id="hands">Hands and keys</h3>
+          <dl>
+            {HANDS.map(([action, effect]) => (
+              <div key={action}>
+                <dt>{action}</dt>
+                <dd>{effect}</dd>
+              </div>
+            ))}
+          </dl>
+        </section>
+      </div>
+    </Modal>
+  );
+}

@@ -1,0 +1,25 @@
+/** What the page loads when a program is opened. */
+
+import { effect, type ReadonlySignal } from "@preact/signals";
+import type { Stage } from "../scene/stage";
+import { keepPlan } from "./planning";
+import { keepPlaying } from "./player";
+import { keepProgramInView } from "./program_view";
+import { PathLines } from "./path_lines";
+import "../style/program.css";
+
+export { Dock } from "./dock";
+export { openProgram } from "./open_program";
+export { ProgramPanel } from "./program_panel";
+export { ReadingDialog } from "./reading_dialog";
+
+/** Follows the signals from now on. */
+export function begin(stage: ReadonlySignal<Stage | null>): void {
+  keepPlan();
+  keepPlaying();
+  keepProgramInView();
+  effect(() => {
+    const scene = stage.value;
+    if (scene) new PathLines(scene);
+  });
+}
