@@ -136,9 +136,19 @@ def test_a_table_with_other_columns_is_refused(client: verne.Client, names: list
     assert f"/columns/{wrong}" in [error.pointer for error in caught.value.errors]
 
 
-def test_a_column_cannot_have_a_name_of_the_answer(client: verne.Client) -> None:
-    with pytest.raises(ValueError, match="inside"):
-        client.contains({"x": [0.0], "y": [0.0], "z": [1300.0], "inside": [True]})
+def test_a_column_of_the_answer_replaces_one_of_its_name(client: verne.Client) -> None:
+    answer = client.contains({"x": [0.0], "y": [0.0], "z": [1300.0], "inside": ["unknown"]}).to_pandas()
+    assert list(answer["inside"]) == [True]
+
+
+def test_a_batch_takes_a_machine(client: verne.Client) -> None:
+    machine = client.machine("verne")
+    for leg in ("L1", "L2", "L3"):
+        machine["geometry"][leg] += 50
+    batch = client.ik_batch([[0, 0, 1300]], frame="platform", machine=machine)
+    single = client.ik(0, 0, 1300, frame="platform", machine=machine).solutions[0].joints
+    assert single is not None
+    np.testing.assert_allclose(batch.joints[0], single.rho, atol=1e-9)
 
 
 def test_columns_of_any_type_are_kept(client: verne.Client) -> None:

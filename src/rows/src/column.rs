@@ -8,6 +8,7 @@ use arrow_array::types::{Float64Type, Int8Type};
 use arrow_array::{
     Array, ArrayRef, BooleanArray, DictionaryArray, Float64Array, Int8Array, StringArray, UInt32Array,
 };
+use arrow_buffer::NullBuffer;
 use arrow_schema::{Field, FieldRef};
 
 use crate::error::WriteError;
@@ -60,6 +61,23 @@ impl Column {
         Self::new(name, Arc::new(values.into_iter().collect::<Float64Array>()))
     }
 
+    /// Numbers in double precision. A row has none where `has_number` is false.
+    ///
+    /// ```
+    /// let column = verne_rows::Column::numbers_where("x", vec![1.0, 0.0], &[true, false])?;
+    /// let numbers = column.as_numbers().ok_or("no numbers")?;
+    /// assert_eq!((numbers.get(0), numbers.get(1)), (Some(1.0), None));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// The lengths differ.
+    pub fn numbers_where(name: &str, numbers: Vec<f64>, has_number: &[bool]) -> Result<Self, WriteError> {
+        let values = Float64Array::try_new(numbers.into(), nulls(has_number.iter().copied()))?;
+        Ok(Self::new(name, Arc::new(values)))
+    }
+
     /// Whole numbers.
     pub fn whole_numbers(name: &str, values: impl IntoIterator<Item = Option<u32>>) -> Self {
         Self::new(name, Arc::new(values.into_iter().collect::<UInt32Array>()))
@@ -88,6 +106,32 @@ impl Column {
         let keys = values.into_iter().collect::<Int8Array>();
         let values = DictionaryArray::<Int8Type>::try_new(keys, Arc::clone(&names.0))?;
         Ok(Self::new(name, Arc::new(values)))
+    }
+
+    /// The same from the index of each row; a row with a negative index has no name.
+    ///
+    /// # Errors
+    ///
+    /// An index has no name.
+    pub fn names_by_code(name: &str, names: &Names, codes: Vec<i8>) -> Result<Self, WriteError> {
+        let nulls = nulls(codes.iter().map(|code| *code >= 0));
+        let keys = Int8Array::try_new(codes.into(), nulls)?;
+        let values = DictionaryArray::<Int8Type>::try_new(keys, Arc::clone(&names.0))?;
+        Ok(Self::new(name, Arc::new(values)))
+    }
+
+    /// Texts of a few rows, each with its row, in ascending order; the other rows have none.
+    ///
+    /// ```
+    /// let column = verne_rows::Column::few_texts("detail", 3, &[(1, "late")]);
+    /// assert_eq!(column.as_texts(), Some(vec![None, Some("late"), None]));
+    /// ```
+    pub fn few_texts<T: AsRef<str>>(name: &str, rows: usize, texts: &[(usize, T)]) -> Self {
+        if texts.is_empty() {
+            return Self::new(name, Arc::new(StringArray::new_null(rows)));
+        }
+        let mut texts = texts.iter().peekable();
+        Self::texts(name, (0..rows).map(|row| texts.next_if(|(at, _)| *at == row).map(|(_, text)| text)))
     }
 
     /// Values of JSON, each as its text.
@@ -154,6 +198,11 @@ impl Column {
             is_json: self.is_json,
         }
     }
+}
+
+/// Which rows have no value; `None` if all have one.
+fn nulls(has_value: impl ExactSizeIterator<Item = bool>) -> Option<NullBuffer> {
+    Some(NullBuffer::new(has_value.collect())).filter(|nulls| nulls.null_count() > 0)
 }
 
 /// The text of a value of JSON.

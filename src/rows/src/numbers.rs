@@ -20,8 +20,23 @@ impl Numbers<'_> {
     /// # Panics
     ///
     /// The column has fewer rows.
+    #[inline]
     pub fn get(&self, row: usize) -> Option<f64> {
         self.0.is_valid(row).then(|| self.0.value(row))
+    }
+
+    /// The numbers of all rows, if every row has one; each may be a NaN.
+    ///
+    /// ```
+    /// use verne_rows::Column;
+    ///
+    /// let complete = Column::numbers("x", [Some(1.0), Some(2.0)]);
+    /// assert_eq!(complete.as_numbers().and_then(|numbers| numbers.all()), Some(&[1.0, 2.0][..]));
+    /// let incomplete = Column::numbers("x", [Some(1.0), None]);
+    /// assert_eq!(incomplete.as_numbers().and_then(|numbers| numbers.all()), None);
+    /// ```
+    pub fn all(&self) -> Option<&[f64]> {
+        (self.0.null_count() == 0).then(|| &self.0.values()[..])
     }
 }
 

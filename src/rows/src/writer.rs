@@ -31,7 +31,12 @@ const TEXT_BYTES: usize = 64 << 20;
 pub struct Writer(Form);
 
 enum Form {
-    Arrow(Box<StreamWriter<Vec<u8>>>, SchemaRef),
+    Arrow {
+        writer: Box<StreamWriter<Vec<u8>>>,
+        schema: SchemaRef,
+        /// About the bytes of the next rows: those of the rows before.
+        bytes: usize,
+    },
     Text {
         style: Style,
         /// The names of the columns, as they stand before the values of JSON.
@@ -44,7 +49,7 @@ enum Form {
 impl fmt::Debug for Writer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let format = match &self.0 {
-            Form::Arrow(..) => Format::Arrow,
+            Form::Arrow { .. } => Format::Arrow,
             Form::Text { style: Style::Csv, .. } => Format::Csv,
             Form::Text { style: Style::Json, .. } => Format::Ndjson,
         };
@@ -68,7 +73,8 @@ impl Writer {
             Format::Arrow => {
                 let fields: Vec<_> = columns.iter().map(|column| Arc::clone(&column.field)).collect();
                 let schema = Arc::new(Schema::new(fields));
-                Form::Arrow(Box::new(StreamWriter::try_new(Vec::new(), &schema)?), schema)
+                let writer = Box::new(StreamWriter::try_new(Vec::new(), &schema)?);
+                Form::Arrow { writer, schema, bytes: 0 }
             }
             Format::Csv => Form::text(Style::Csv, columns)?,
             Format::Ndjson => Form::text(Style::Json, columns)?,
@@ -83,10 +89,13 @@ impl Writer {
     /// The columns are not those of [`new`](Self::new), or they have different lengths.
     pub fn write(&mut self, columns: &[Column]) -> Result<Vec<u8>, WriteError> {
         match &mut self.0 {
-            Form::Arrow(writer, schema) => {
+            Form::Arrow { writer, schema, bytes } => {
                 let values = columns.iter().map(Column::plain_values).collect();
+                writer.get_mut().reserve(*bytes);
                 writer.write(&RecordBatch::try_new(Arc::clone(schema), values)?)?;
-                Ok(std::mem::take(writer.get_mut()))
+                let written = std::mem::take(writer.get_mut());
+                *bytes = written.len();
+                Ok(written)
             }
             Form::Text { style, names, head } => {
                 let mut text = std::mem::take(head);
@@ -103,7 +112,7 @@ impl Writer {
     /// A defect.
     pub fn finish(self) -> Result<Vec<u8>, WriteError> {
         match self.0 {
-            Form::Arrow(writer, _) => Ok(writer.into_inner()?),
+            Form::Arrow { writer, .. } => Ok(writer.into_inner()?),
             Form::Text { head, .. } => Ok(head),
         }
     }

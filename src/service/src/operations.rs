@@ -16,6 +16,7 @@
 //! A new constraint of the solver needs a name and a unit in [`crate::wire::constraint`] and a colour in
 //! [`workspace_colours`].
 
+pub(crate) mod answer_columns;
 pub(crate) mod batch_rows;
 pub(crate) mod blocking_results;
 pub(crate) mod column_rows;

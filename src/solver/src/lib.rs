@@ -56,9 +56,9 @@ pub use inverse::{
 };
 pub use limit::{Constraint, Element, Margin};
 pub use machine::{Machine, MachineData, MachineError};
-pub use margins::{Margins, margin_rows};
+pub use margins::{MarginBlock, Margins, PostureColumns, margin_rows, worst_margin_rows};
 pub use pose::{PartPose, PlatformPose, Point, TableAngles};
 pub use posture::{MAX_POSTURES, Mode, Posture, Postures, Side};
-pub use registers::Registers;
+pub use registers::{BLOCK_ROWS, Registers};
 pub use request_range::{MAX_INPUT, MAX_LENGTH_RATIO};
 pub use table::{SplitAngle, Winding, part_pose, rotary_windings, table_angles, table_windings, tool_point};

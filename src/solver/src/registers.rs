@@ -10,8 +10,11 @@ use multiversion::multiversion;
 
 use crate::machine::Machine;
 
+/// Number of rows that the functions of many rows compute together.
+pub const BLOCK_ROWS: usize = 32;
+
 /// Number of rows that a kernel computes together.
-pub(crate) const ROWS: usize = 32;
+pub(crate) const ROWS: usize = BLOCK_ROWS;
 
 /// A computation for [`ROWS`] rows. It is compiled into the functions below: it and all that it calls is
 /// `inline(always)`.

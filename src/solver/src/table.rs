@@ -137,6 +137,7 @@ pub struct Winding {
 /// assert_eq!(theta2.turns, -1.0, "1 - 2π is nearer to -5 and within ±2π");
 /// assert_eq!(theta2.value, 1.0 - TAU);
 /// ```
+#[inline]
 pub fn table_windings(machine: &Machine, given: [SplitAngle; 2], near: [Option<f64>; 2]) -> [Winding; 2] {
     let limits = machine.limits();
     let rotary = limits.rotary.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
@@ -189,7 +190,17 @@ fn admissible_turns([low, high]: [f64; 2], angle: f64) -> (f64, f64) {
     (((low - ROUNDING - angle) / TAU).ceil(), ((high + ROUNDING - angle) / TAU).floor())
 }
 
-fn winding(
+#[inline]
+fn winding(range: [f64; 2], given: SplitAngle, near: Option<f64>) -> Winding {
+    let SplitAngle { remainder: angle, turns } = given;
+    // Nearly always the given value is in the range.
+    if near.is_none() && turns == 0.0 && angle >= range[0] && angle <= range[1] {
+        return Winding { turns, value: angle + TAU * turns };
+    }
+    nearest_winding(range, given, near)
+}
+
+fn nearest_winding(
     range: [f64; 2],
     SplitAngle { remainder: angle, turns }: SplitAngle,
     near: Option<f64>,

@@ -11,6 +11,9 @@ const METADATA_BYTES: usize = 1 << 20;
 /// Stands before the length of the metadata.
 const CONTINUATION: [u8; 4] = [0xFF; 4];
 
+/// Arrays of an Arrow stream begin at multiples of eight bytes from the beginning of their message.
+const ALIGNMENT: usize = 8;
+
 /// Splits bytes into messages.
 #[derive(Debug)]
 pub(crate) struct Messages {
@@ -59,7 +62,11 @@ impl Messages {
             return Err(self.too_large(body));
         }
         check_buffers(&message)?;
-        let Some(whole) = rest.get(..body_start + body) else { return incomplete() };
+        let Some(whole) = rest.get(..body_start + body) else {
+            let missing = body_start + body - rest.len();
+            self.bytes.reserve_exact(missing);
+            return incomplete();
+        };
         if message.header_type() == MessageHeader::DictionaryBatch {
             self.dictionaries += body;
             if self.dictionaries > self.limit {
@@ -67,9 +74,17 @@ impl Messages {
                 return Err(malformed(&format!("its dictionaries have more than {limit} bytes together")));
             }
         }
+        let end = self.at + whole.len();
+        if self.at.is_multiple_of(ALIGNMENT) && whole.len() > self.bytes.len() / 2 {
+            // The arrays keep the bytes in which the message has arrived, and what follows is copied.
+            let rest = self.bytes.split_off(end);
+            let start = std::mem::take(&mut self.at);
+            let message = Buffer::from_vec(std::mem::replace(&mut self.bytes, rest));
+            return Ok(Some(message.slice(start)));
+        }
         // A copy, so that the arrays of the message are aligned and keep no other message.
         let message = Buffer::from(whole);
-        self.at += message.len();
+        self.at = end;
         Ok(Some(message))
     }
 

@@ -4,7 +4,7 @@
 //! is read would wait for each other; up to the limit of memory the service therefore reads on.
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use axum::body::{Body, Bytes};
 use futures_util::FutureExt;
@@ -21,6 +21,25 @@ const UNIT: usize = 1024;
 
 /// How long the client may send nothing.
 const LONGEST_PAUSE: Duration = Duration::from_mins(1);
+
+/// Least bytes that the client sends in this time, on average: some 200 rows.
+const LEAST_BYTES: u32 = 16 * 1024;
+
+/// The time for which the service still waits for a client. Bytes add to it, so that a client that sends single bytes
+/// does not occupy a place for ever.
+#[derive(Debug)]
+struct Patience(Duration);
+
+impl Patience {
+    fn waited(&mut self, time: Duration) {
+        self.0 = self.0.saturating_sub(time);
+    }
+
+    fn received(&mut self, bytes: usize) {
+        let bytes = u32::try_from(bytes).unwrap_or(u32::MAX).min(LEAST_BYTES);
+        self.0 = LONGEST_PAUSE.min(self.0 + LONGEST_PAUSE * bytes / LEAST_BYTES);
+    }
+}
 
 /// Bytes of the body, with their part of the memory.
 type Held = (Bytes, OwnedSemaphorePermit);
@@ -64,9 +83,15 @@ async fn read(
 ) -> Result<(), HttpError> {
     let units = (bytes / UNIT).clamp(1, Semaphore::MAX_PERMITS.min(u32::MAX as usize));
     let memory = Arc::new(Semaphore::new(units));
-    while let Some(frame) = timeout(LONGEST_PAUSE, body.frame()).await.map_err(|_| paused())? {
+    let mut patience = Patience(LONGEST_PAUSE);
+    loop {
+        let began = Instant::now();
+        let frame = timeout(patience.0, body.frame()).await.map_err(|_| slow())?;
+        patience.waited(began.elapsed());
+        let Some(frame) = frame else { break };
         let frame = frame.map_err(|error| RequestError::UnreadableBody(error.to_string()))?;
         let Ok(data) = frame.into_data() else { continue };
+        patience.received(data.len());
         let wanted = u32::try_from(data.len().div_ceil(UNIT).clamp(1, units)).unwrap_or(u32::MAX);
         let permit = Arc::clone(&memory).acquire_many_owned(wanted).await;
         let permit = permit.map_err(|_| LimitError::Overloaded)?;
@@ -77,8 +102,9 @@ async fn read(
     Ok(())
 }
 
-fn paused() -> RequestError {
-    RequestError::UnreadableBody(format!("no bytes arrived for {} s", LONGEST_PAUSE.as_secs()))
+fn slow() -> RequestError {
+    let (bytes, seconds) = (LEAST_BYTES, LONGEST_PAUSE.as_secs());
+    RequestError::UnreadableBody(format!("it arrives too slowly: fewer than {bytes} bytes in {seconds} s"))
 }
 
 #[cfg(test)]
@@ -90,7 +116,7 @@ mod tests {
     use axum::body::{Body, Bytes};
     use futures_util::{StreamExt, stream};
 
-    use super::{ReadAhead, UNIT};
+    use super::{LEAST_BYTES, LONGEST_PAUSE, Patience, ReadAhead, UNIT};
     use crate::http::client::Client;
     use crate::wire::role::Role;
 
@@ -114,6 +140,29 @@ mod tests {
             // One frame more waits for memory.
             assert!(produced.load(Ordering::Relaxed) <= taken + 9);
         }
+    }
+
+    #[test]
+    fn single_bytes_do_not_keep_a_place() {
+        let mut patience = Patience(LONGEST_PAUSE);
+        for _ in 0..100 {
+            patience.waited(LONGEST_PAUSE / 50);
+            patience.received(1);
+        }
+        assert!(patience.0 < LONGEST_PAUSE / 1000, "{patience:?}");
+    }
+
+    #[test]
+    fn a_steady_client_is_waited_for() {
+        let mut patience = Patience(LONGEST_PAUSE);
+        for _ in 0..100 {
+            patience.waited(LONGEST_PAUSE / 2);
+            patience.received(LEAST_BYTES as usize);
+            assert_eq!(patience.0, LONGEST_PAUSE);
+        }
+        patience.received(usize::MAX);
+        patience.waited(LONGEST_PAUSE);
+        assert!(patience.0.is_zero());
     }
 
     #[tokio::test]

@@ -1,23 +1,27 @@
 //! A batch with rows in columns: its answer is sent while further rows arrive.
 
-use std::io::{self, Write};
+mod worker;
+
+use std::io;
 
 use axum::body::{Body, Bytes};
 use axum::extract::Request;
 use axum::http::header::CONTENT_TYPE;
 use axum::http::{HeaderMap, HeaderName, HeaderValue};
 use axum::response::{IntoResponse, Response};
-use futures_util::{StreamExt, stream};
+use futures_util::{Stream, StreamExt, stream};
 use serde_json::json;
+use tokio::sync::mpsc;
 use verne_rows::Format;
 
 use crate::http::client::Client;
-use crate::http::content_coding::{Coding, Decoder};
-use crate::http::error::{HttpError, RequestError};
+use crate::http::content_coding::Coding;
+use crate::http::error::HttpError;
 use crate::http::extractors::is_json;
 use crate::http::negotiation::Accept;
 use crate::http::problem::Problem;
 use crate::http::read_ahead::ReadAhead;
+use crate::http::row_stream::worker::{PIECE_BYTES, Worker};
 use crate::http::state::SharedState;
 use crate::limits::client_quota::QuotaPermit;
 use crate::limits::rate::RowCharge;
@@ -26,12 +30,6 @@ use crate::operations::compute_pool::run_on_pool;
 use crate::operations::row_stream::{RowAnswer, RowStream};
 use crate::wire::error::OperationError;
 use crate::wire::row_format::RowFormat;
-
-/// Bytes of the body that are decoded at once, at most.
-const PIECE_BYTES: usize = 256 * 1024;
-
-/// Bytes that are decompressed at once: at best a thousand times as many result.
-const COMPRESSED_BYTES: usize = 4 * 1024;
 
 /// About the memory of an answer: a chunk of rows as columns and as text.
 const ANSWER_BYTES: u64 = 8 * 1024 * 1024;
@@ -98,26 +96,12 @@ pub(crate) async fn answer_rows(
     let memory = state.limits.body_bytes;
     let permits = state.admission.table(client.quota(), memory)?;
     let hash = HeaderValue::from_str(&answer.machine().id.hash).map_err(|_| OperationError::Internal)?;
-    let worker = Worker {
-        stream: RowStream::new(answer, from, to, memory),
-        decoder: Some(Decoder::new(coding, Decoded { bytes: Vec::new(), limit: memory })),
-        encoded: Vec::new(),
-        at: 0,
-        step: if coding.is_some() { COMPRESSED_BYTES } else { PIECE_BYTES },
-        ended: false,
-    };
+    let worker = Worker::new(RowStream::new(answer, from, to, memory), coding, memory);
     let charge = RowCharge::new(client.bucket.clone(), state.limits.rows);
     let body = ReadAhead::new(request.into_body(), client, memory);
-    let mut answering = Answering { body, worker: Some(worker), format: to, charge, _permits: permits };
+    let mut answering = Answering { body, worker: Some(worker), format: to, charge };
     let first = answering.next_piece().await?;
-    let rest = stream::unfold(Some(answering), |answering| async move {
-        let mut answering = answering?;
-        match answering.next_piece().await {
-            Ok(piece) => piece.map(|piece| (Ok(piece), Some(answering))),
-            Err(error) => Some((answering.report(error), None)),
-        }
-    });
-    let pieces = stream::iter(first.map(Ok)).chain(rest);
+    let pieces = stream::iter(first.map(Ok)).chain(answering.rest(permits));
     let headers = [(CONTENT_TYPE, HeaderValue::from_static(to.media())), (MACHINE_HASH, hash)];
     let mut response = (headers, Body::from_stream(pieces)).into_response();
     response.extensions_mut().insert(UnsharedBytes(ANSWER_BYTES));
@@ -131,8 +115,10 @@ struct Answering {
     worker: Option<Worker>,
     format: Format,
     charge: RowCharge,
-    _permits: [QuotaPermit; 2],
 }
+
+/// What the task that answers hands over: bytes, the last bytes or an error, or the end.
+type Piece = Option<io::Result<Bytes>>;
 
 impl Answering {
     /// The next bytes of the answer; `None` at its end.
@@ -156,13 +142,50 @@ impl Answering {
                 worker.ended = true;
                 continue;
             };
-            worker.encoded.extend_from_slice(&bytes?);
-            while worker.encoded.len() < PIECE_BYTES
+            worker.take(bytes?);
+            while worker.arrived_bytes() < PIECE_BYTES
                 && let Some(bytes) = self.body.next_arrived()
             {
-                worker.encoded.extend_from_slice(&bytes?);
+                worker.take(bytes?);
             }
         }
+    }
+
+    /// The bytes of the answer after the first ones. While the client takes a piece, a task answers the next one. The
+    /// permits end with the answer, or when the client gives up.
+    fn rest(mut self, permits: [QuotaPermit; 2]) -> impl Stream<Item = io::Result<Bytes>> {
+        let (sender, receiver) = mpsc::channel(1);
+        drop(tokio::spawn(async move {
+            loop {
+                let piece = tokio::select! {
+                    piece = self.next_piece() => piece,
+                    () = sender.closed() => return,
+                };
+                let (piece, is_last): (Piece, bool) = match piece {
+                    Ok(piece) => {
+                        let is_last = piece.is_none();
+                        (piece.map(Ok), is_last)
+                    }
+                    Err(error) => (Some(self.report(error)), true),
+                };
+                let sent = sender.send(piece).await;
+                if is_last {
+                    drop(sender.send(None).await);
+                }
+                if is_last || sent.is_err() {
+                    return;
+                }
+            }
+        }));
+        stream::unfold(Some((receiver, permits)), |state| async move {
+            let (mut receiver, permits): (mpsc::Receiver<Piece>, _) = state?;
+            match receiver.recv().await {
+                Some(Some(piece)) => Some((piece, Some((receiver, permits)))),
+                Some(None) => None,
+                // The task has ended before the answer: nobody may take it for complete.
+                None => Some((Err(io::Error::other(HttpError::from(OperationError::Internal))), None)),
+            }
+        })
     }
 
     /// Reports an error after the first rows as far as the format has a place for it: in NDJSON as the last line.
@@ -173,72 +196,6 @@ impl Answering {
             Format::Ndjson => Ok(format!("{}\n", json!({"error": Problem::from(error)})).into()),
             Format::Arrow | Format::Csv => Err(io::Error::other(error)),
         }
-    }
-}
-
-/// The part of a batch that the compute pool works on.
-struct Worker {
-    stream: RowStream,
-    /// `None` after the last byte.
-    decoder: Option<Decoder<Decoded>>,
-    /// The bytes that have arrived.
-    encoded: Vec<u8>,
-    /// How many of them are decoded.
-    at: usize,
-    /// How many are decoded at once.
-    step: usize,
-    /// Whether no bytes follow.
-    ended: bool,
-}
-
-impl Worker {
-    /// What `next` returns for the bytes that have arrived; `None` if it needs more, or at the end.
-    fn next(
-        &mut self,
-        mut next: impl FnMut(&mut RowStream) -> Result<Option<Vec<u8>>, OperationError>,
-    ) -> Result<Option<Vec<u8>>, HttpError> {
-        loop {
-            if let Some(piece) = next(&mut self.stream)? {
-                return Ok(Some(piece));
-            }
-            if let Some(decoder) = self.decoder.as_mut().filter(|_| self.at < self.encoded.len()) {
-                let end = self.encoded.len().min(self.at + self.step);
-                decoder.push(&self.encoded[self.at..end])?;
-                self.at = end;
-                let decoded = std::mem::take(&mut decoder.sink_mut().bytes);
-                self.stream.push(&decoded);
-                continue;
-            }
-            self.encoded.clear();
-            self.at = 0;
-            match self.decoder.take_if(|_| self.ended) {
-                Some(decoder) => {
-                    self.stream.push(&decoder.finish()?.bytes);
-                    self.stream.end();
-                }
-                None => return Ok(None),
-            }
-        }
-    }
-}
-
-/// Decoded bytes, until they are taken.
-struct Decoded {
-    bytes: Vec<u8>,
-    limit: usize,
-}
-
-impl Write for Decoded {
-    fn write(&mut self, decoded: &[u8]) -> io::Result<usize> {
-        if self.bytes.len() + decoded.len() > self.limit {
-            return Err(io::Error::other(HttpError::from(RequestError::BodyTooLarge(self.limit))));
-        }
-        self.bytes.extend_from_slice(decoded);
-        Ok(decoded.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }
 

@@ -16,6 +16,9 @@ use crate::wire::tool::Tool;
 /// that the solver computes at once.
 pub(crate) const MIN_CHUNK: usize = 64;
 
+/// Rows of one task that answers them by column.
+pub(crate) const BLOCK_OF_COLUMNS: usize = 512;
+
 /// About the bytes of an answered row.
 pub(crate) const ROW_BYTES: usize = 208;
 
@@ -39,6 +42,11 @@ pub(crate) enum RowOutcome {
 }
 
 impl RowOutcome {
+    /// The outcome of a row with a solution, from its worst margin.
+    pub(crate) fn of_worst(worst: Margin, feasible: bool) -> Self {
+        if feasible { Self::Ok(worst) } else { Self::Infeasible(worst) }
+    }
+
     /// The status.
     pub(crate) fn status(&self) -> Status {
         match self {
@@ -152,13 +160,8 @@ pub(crate) fn outcome_of_solution(
     table: Option<TableAngles>,
     clearance: Option<&Clearance>,
 ) -> RowOutcome {
-    outcome_of_margins(machine, &Margins::above_table(machine, posture, table, clearance))
-}
-
-/// The outcome of a row with a solution that has these margins.
-pub(crate) fn outcome_of_margins(machine: &Machine, margins: &Margins) -> RowOutcome {
-    let worst = margins.worst(machine);
-    if margins.feasible() { RowOutcome::Ok(worst) } else { RowOutcome::Infeasible(worst) }
+    let margins = Margins::above_table(machine, posture, table, clearance);
+    RowOutcome::of_worst(margins.worst(machine), margins.feasible())
 }
 
 /// The outcome of a row without a solution.

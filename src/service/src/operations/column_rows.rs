@@ -6,6 +6,7 @@ use verne_rows::{Chunk, Column, Numbers, RowFault};
 use crate::operations::batch_rows::{BatchRow, ROW_WITH_AXIS, RowFormat, fault_of};
 use crate::wire::batch::Row;
 use crate::wire::error::{FieldError, OperationError};
+use crate::wire::field_errors::{is_angle, is_length};
 
 /// The names of the columns that make a row.
 pub(crate) type RowNames = Vec<&'static str>;
@@ -86,6 +87,30 @@ pub(crate) struct ColumnRow<'a> {
 
 impl BatchRow for ColumnRow<'_> {
     fn numbers(&self, _: RowFormat) -> Result<Row, String> {
+        self.usual().map_or_else(|| self.examined(), Ok)
+    }
+}
+
+impl ColumnRow<'_> {
+    /// The numbers of a row without a fault. `None` for other rows.
+    fn usual(&self) -> Option<Row> {
+        let RowColumns { names, numbers, faults, .. } = self.columns;
+        if !faults.is_empty() || names.len() == ROW_WITH_AXIS {
+            return None;
+        }
+        let mut row = Row::new();
+        for (i, numbers) in numbers.iter().enumerate() {
+            let number = numbers.get(self.row)?;
+            if !(if i < 3 { is_length(number) } else { is_angle(number) }) {
+                return None;
+            }
+            row.push(number);
+        }
+        Some(row)
+    }
+
+    /// The numbers, or why they cannot be used.
+    fn examined(&self) -> Result<Row, String> {
         let RowColumns { names, numbers, faults, .. } = self.columns;
         if let Ok(fault) = faults.binary_search_by_key(&self.row, |fault| fault.row) {
             return Err(faults[fault].detail.clone());

@@ -69,7 +69,7 @@ impl RowAnswer for ContainsColumns {
         let units = margins.iter().map(|margin| i8::try_from(Limit::from((*margin)?).unit as usize).ok());
         let mut columns =
             vec![Column::flags("inside", memberships.iter().map(|point| Some((*point)?.inside)))];
-        columns.extend(self.limits.of(&margins)?);
+        columns.extend(self.limits.of(margins.iter().copied())?);
         columns.push(Column::names("unit", &self.units, units).map_err(defect)?);
         columns.push(Column::texts("detail", answered.iter().map(|point| point.as_ref().err())));
         Ok(columns)

@@ -5,6 +5,7 @@
 //! number of threads. The choice is greedy: it does not look ahead, as the planner of tool paths does.
 
 use rayon::prelude::*;
+use verne_solver::{PostureColumns, Registers, worst_margin_rows};
 
 use crate::operations::batch_rows::{BatchRow, MIN_CHUNK, RowFormat, RowOutcome, outcome_of_solution};
 use crate::operations::continuation::{Chosen, Setting, Standing};
@@ -47,8 +48,8 @@ pub(crate) fn answer_continuous<R: BatchRow>(
     for block in rows.chunks(BLOCK) {
         let solved = block.par_iter().with_min_len(MIN_CHUNK);
         let solved = solved.map(|row| setting.solved(format, row)).collect();
-        let chosen = walk.through(solved).into_par_iter().with_min_len(MIN_CHUNK);
-        answered.par_extend(chosen.map(|row| setting.answered(row)));
+        let chosen = walk.through(solved).into_par_iter().chunks(MIN_CHUNK);
+        answered.par_extend(chosen.flat_map_iter(|rows| setting.all_answered(rows)));
     }
     answered
 }
@@ -64,18 +65,46 @@ impl Setting<'_> {
         row.candidates(self.machine, self.tool_length, theta2)
     }
 
+    /// The answers of rows with their solutions.
+    fn all_answered(&self, rows: Vec<Result<Chosen, RowOutcome>>) -> Vec<AnsweredPose> {
+        let mut postures = PostureColumns::new();
+        for chosen in rows.iter().flatten() {
+            postures.push(&chosen.posture, Some(chosen.table.angles()));
+        }
+        let mut outcomes = Vec::with_capacity(postures.len());
+        worst_margin_rows(
+            self.machine,
+            &postures,
+            self.clearance,
+            Registers::Widest,
+            |_, worst, feasible| {
+                outcomes.push(RowOutcome::of_worst(worst, feasible));
+            },
+        );
+        let mut outcomes = outcomes.into_iter();
+        let answered = rows.into_iter().map(|row| match row {
+            Ok(chosen) => Some(self.pose(&chosen, outcomes.next()?)),
+            Err(outcome) => Some(AnsweredPose::without_solution(outcome)),
+        });
+        answered.flatten().collect()
+    }
+
     /// The answer of a row with its solution.
     pub(crate) fn answered(&self, row: Result<Chosen, RowOutcome>) -> AnsweredPose {
         let chosen = match row {
             Ok(chosen) => chosen,
             Err(outcome) => return AnsweredPose::without_solution(outcome),
         };
-        let Chosen { posture, jump, .. } = chosen;
+        let angles = chosen.table.angles();
+        let outcome = outcome_of_solution(self.machine, &chosen.posture, Some(angles), self.clearance);
+        self.pose(&chosen, outcome)
+    }
+
+    fn pose(&self, chosen: &Chosen, outcome: RowOutcome) -> AnsweredPose {
         let table = TablePosition::from(chosen.table);
-        let joints = Some(posture.rho.into_iter().chain(table.degrees).collect());
-        let outcome = outcome_of_solution(self.machine, &posture, Some(table.angles), self.clearance);
-        let jacobian = self.jacobian(&posture, table.angles);
-        AnsweredPose { joints, outcome, jump: Some(jump), jacobian }
+        let joints = Some(chosen.posture.rho.into_iter().chain(table.degrees).collect());
+        let jacobian = self.jacobian(&chosen.posture, table.angles);
+        AnsweredPose { joints, outcome, jump: Some(chosen.jump), jacobian }
     }
 }
 

@@ -6,13 +6,12 @@ use rayon::prelude::*;
 use serde_json::value::RawValue;
 use verne_solver::axis::tool_axis;
 use verne_solver::{
-    Clearance, Machine, PartPose, PlatformPose, Registers, TableAngles, forward_working_rows, margin_rows,
-    part_pose,
+    Clearance, Machine, PartPose, PlatformPose, PostureColumns, Registers, TableAngles, forward_working_rows,
+    part_pose, worst_margin_rows,
 };
 
 use crate::operations::batch_rows::{
-    BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_margins,
-    outcome_of_refusal, row_report,
+    BatchRow, MIN_CHUNK, ROW_BYTES, RowFormat, RowOutcome, check_batch, outcome_of_refusal, row_report,
 };
 use crate::operations::jacobians::{RowJacobian, RowJacobians};
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
@@ -137,11 +136,16 @@ impl JointBatch {
         let sliders: Vec<_> = joints().map(|(rho, _)| *rho).collect();
         let mut solved = Vec::with_capacity(sliders.len());
         forward_working_rows(machine, &sliders, Registers::Widest, |_, answer| solved.push(answer));
-        let postures: Vec<_> =
-            joints().zip(&solved).filter_map(|((_, table), answer)| Some((answer.ok()?, *table))).collect();
+        let mut postures = PostureColumns::new();
+        for ((_, table), answer) in joints().zip(&solved) {
+            if let Ok(posture) = answer {
+                postures.push(posture, *table);
+            }
+        }
         let mut outcomes = Vec::with_capacity(postures.len());
-        margin_rows(machine, &postures, self.clearance.as_ref(), Registers::Widest, |_, margins| {
-            outcomes.push(outcome_of_margins(machine, &margins));
+        let clearance = self.clearance.as_ref();
+        worst_margin_rows(machine, &postures, clearance, Registers::Widest, |_, worst, feasible| {
+            outcomes.push(RowOutcome::of_worst(worst, feasible));
         });
         let (mut solved, mut outcomes) = (solved.into_iter(), outcomes.into_iter());
         let answered = read.into_iter().map(|row| {

@@ -69,7 +69,7 @@ impl RowAnswer for ForwardColumns {
             let found: Vec<_> = answered.iter().map(|row| row.jacobian.as_deref()).collect();
             columns.extend(jacobians.columns_of(&found));
         }
-        let outcomes: Vec<_> = answered.iter().map(|row| &row.outcome).collect();
+        let outcomes: Vec<_> = answered.into_iter().map(|row| row.outcome).collect();
         columns.extend(self.outcomes.of(chunk, &outcomes)?);
         Ok(columns)
     }

@@ -6,10 +6,11 @@ use rayon::prelude::*;
 use serde_json::value::RawValue;
 use verne_solver::{Clearance, forward_working};
 
-use crate::operations::batch_rows::{BatchRow, MIN_CHUNK, ROW_BYTES, RowOutcome, check_batch, row_report};
+use crate::operations::answer_columns::AnswerColumns;
+use crate::operations::batch_rows::{BLOCK_OF_COLUMNS, BatchRow, ROW_BYTES, check_batch, row_report};
 use crate::operations::continuation::{Setting, Standing};
-use crate::operations::continuous_rows::{AnsweredPose, answer_continuous};
-use crate::operations::inverse_rows::{PART_POSE, answer_rows};
+use crate::operations::continuous_rows::answer_continuous;
+use crate::operations::inverse_rows::{PART_POSE, answer_rows, numbers_of_answer};
 use crate::operations::jacobians::RowJacobians;
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
 use crate::operations::table_angles::TablePosition;
@@ -40,7 +41,7 @@ fn answer<R: BatchRow>(
     max_rows: usize,
 ) -> Result<Vec<u8>, OperationError> {
     let mut batch = PoseBatch::new(request, machines, max_rows)?;
-    let rows = batch.answer(request.poses.items());
+    let AnsweredPoses { columns, jumps } = batch.answer(request.poses.items());
     let mut answer = IkBatchAnswer {
         machine: batch.machine.id.clone(),
         joints: Vec::new(),
@@ -49,17 +50,21 @@ fn answer<R: BatchRow>(
         jacobian: None,
         report: RowReport::default(),
     };
-    answer.jacobian =
-        batch.jacobians.map(|jacobians| jacobians.lists(&rows.iter().map(|row| row.jacobian.as_deref())));
-    if batch.continuous {
-        let jumps: Vec<_> = rows.iter().map(|row| row.jump).collect();
-        answer.jumps = Some(jumps.iter().filter(|jump| **jump == Some(true)).count());
-        answer.jump = Some(jumps);
-    }
-    let outcomes: Vec<RowOutcome>;
-    (answer.joints, outcomes) = rows.into_iter().map(|row| (row.joints, row.outcome)).unzip();
+    answer.jacobian = batch.jacobians.map(|jacobians| jacobians.lists(columns.jacobians()));
+    answer.jumps = jumps.as_ref().map(|jumps| jumps.iter().filter(|jump| **jump == Some(true)).count());
+    answer.jump = jumps;
+    let outcomes;
+    (answer.joints, outcomes) = columns.into_rows();
     answer.report = row_report(outcomes.into_iter(), batch.clearance.is_some());
     write_json(&answer, ROW_BYTES * answer.joints.len())
+}
+
+/// The answers of poses.
+pub(crate) struct AnsweredPoses {
+    /// The joints, and the outcomes.
+    pub(crate) columns: AnswerColumns,
+    /// `jump` of each row; `None` if the batch is not continuous.
+    pub(crate) jumps: Option<Vec<Option<bool>>>,
 }
 
 /// What all rows of a batch share, and where the machine stands after those that are answered.
@@ -69,7 +74,7 @@ pub(crate) struct PoseBatch {
     tool_length: f64,
     clearance: Option<Clearance>,
     pub(crate) jacobians: Option<RowJacobians>,
-    pub(crate) continuous: bool,
+    continuous: bool,
     standing: Option<Standing>,
 }
 
@@ -104,15 +109,20 @@ impl PoseBatch {
     }
 
     /// Answers the next rows.
-    pub(crate) fn answer<R: BatchRow>(&mut self, rows: &[R]) -> Vec<AnsweredPose> {
+    pub(crate) fn answer<R: BatchRow>(&mut self, rows: &[R]) -> AnsweredPoses {
+        let mut columns = AnswerColumns::with_capacity(numbers_of_answer(self.frame), rows.len());
         if self.continuous {
             let mut standing = self.standing.take();
             let answered = answer_continuous(self.setting(), PART_POSE, rows, &mut standing);
             self.standing = standing;
-            return answered;
+            let jumps = answered.iter().map(|row| row.jump).collect();
+            answered.into_iter().for_each(|row| columns.push_pose(row));
+            return AnsweredPoses { columns, jumps: Some(jumps) };
         }
         let (setting, frame) = (self.setting(), self.frame);
-        rows.par_chunks(MIN_CHUNK).flat_map_iter(|rows| answer_rows(setting, frame, rows)).collect()
+        let parts = rows.par_chunks(BLOCK_OF_COLUMNS).map(|rows| answer_rows(setting, frame, rows));
+        parts.collect::<Vec<_>>().into_iter().for_each(|part| columns.append(part));
+        AnsweredPoses { columns, jumps: None }
     }
 }
 

@@ -4,9 +4,9 @@ use verne_rows::{Chunk, Column};
 use verne_solver::workspace::Observer;
 
 use crate::operations::column_rows::{Group, RowColumns, RowNames, refuse, row_names};
-use crate::operations::inverse_batch::PoseBatch;
+use crate::operations::inverse_batch::{AnsweredPoses, PoseBatch};
 use crate::operations::machine_registry::{IdentifiedMachine, MachineRegistry};
-use crate::operations::outcome_columns::{OutcomeColumns, number_columns};
+use crate::operations::outcome_columns::{OutcomeColumns, defect};
 use crate::operations::row_stream::RowAnswer;
 use crate::operations::row_tally::RowTally;
 use crate::wire::batch::IkBatchNumbers;
@@ -56,22 +56,15 @@ impl RowAnswer for InverseColumns {
 
     fn answer(&mut self, chunk: &Chunk, _: &dyn Observer) -> Result<Vec<Column>, OperationError> {
         let rows = RowColumns::of(chunk, &self.names)?;
-        let answered = self.batch.answer(&rows.rows());
-        let joints: Vec<_> = answered.iter().map(|row| row.joints.as_ref()).collect();
-        let outcomes: Vec<_> = answered.iter().map(|row| &row.outcome).collect();
-        let names = if self.batch.frame == Frame::Part { JOINTS } else { &JOINTS[..3] };
-        let (mut columns, outcomes) = rayon::join(
-            || number_columns(names, &joints).collect::<Vec<_>>(),
-            || self.outcomes.of(chunk, &outcomes),
-        );
-        if let Some(jacobians) = self.batch.jacobians {
-            let found: Vec<_> = answered.iter().map(|row| row.jacobian.as_deref()).collect();
-            columns.extend(jacobians.columns_of(&found));
-        }
-        if self.batch.continuous {
-            columns.push(Column::flags("jump", answered.iter().map(|row| row.jump)));
-        }
-        columns.extend(outcomes?);
+        let AnsweredPoses { columns: answered, jumps } = self.batch.answer(&rows.rows());
+        let jacobians = self.batch.jacobians.map(|jacobians| {
+            let found: Vec<_> = answered.jacobians().collect();
+            jacobians.columns_of(&found)
+        });
+        let (mut columns, outcomes) = answered.into_columns(JOINTS).map_err(defect)?;
+        columns.extend(jacobians.into_iter().flatten());
+        columns.extend(jumps.map(|jumps| Column::flags("jump", jumps)));
+        columns.extend(self.outcomes.of(chunk, &outcomes)?);
         Ok(columns)
     }
 

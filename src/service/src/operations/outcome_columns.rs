@@ -5,7 +5,7 @@ use verne_solver::Margin;
 
 use crate::operations::batch_rows::RowOutcome;
 use crate::operations::column_rows::pointer;
-use crate::operations::row_tally::{Reason, RowTally};
+use crate::operations::row_tally::RowTally;
 use crate::wire::batch::{Row, Status};
 use crate::wire::constraint::{ConstraintName, ElementName};
 use crate::wire::error::{FieldError, OperationError};
@@ -43,15 +43,15 @@ impl OutcomeColumns {
     pub(crate) fn of(
         &mut self,
         chunk: &Chunk,
-        outcomes: &[&RowOutcome],
+        outcomes: &[RowOutcome],
     ) -> Result<Vec<Column>, OperationError> {
-        let counted = outcomes.iter().map(|outcome| (outcome.status() as usize, Reason::of(outcome)));
-        self.tally.add(chunk, counted);
-        let status = outcomes.iter().map(|outcome| code(outcome.status() as usize));
-        let mut columns = vec![Column::names("status", &self.statuses, status).map_err(defect)?];
-        let margins: Vec<_> = outcomes.iter().map(|outcome| outcome.margin()).collect();
-        columns.extend(self.limits.of(&margins)?);
-        columns.push(Column::texts("detail", outcomes.iter().map(|outcome| outcome.detail())));
+        self.tally.add_outcomes(chunk, outcomes);
+        let status = outcomes.iter().map(|outcome| code(Some(outcome.status() as usize))).collect();
+        let mut columns = vec![Column::names_by_code("status", &self.statuses, status).map_err(defect)?];
+        columns.extend(self.limits.of(outcomes.iter().map(RowOutcome::margin))?);
+        let details = outcomes.iter().enumerate();
+        let details: Vec<_> = details.filter_map(|(i, outcome)| Some((i, outcome.detail()?))).collect();
+        columns.push(Column::few_texts("detail", outcomes.len(), &details));
         Ok(columns)
     }
 
@@ -70,20 +70,32 @@ impl LimitColumns {
     }
 
     /// The columns `constraint`, `margin` and `element`.
-    pub(crate) fn of(&self, margins: &[Option<Margin>]) -> Result<[Column; 3], OperationError> {
-        let limits = margins.iter().map(|margin| margin.map(Limit::from));
-        let limits = limits.map(|limit| limit.map(|limit| (limit.constraint, limit.value, limit.element)));
-        self.of_limits(&limits.collect::<Vec<_>>())
+    pub(crate) fn of(
+        &self,
+        margins: impl ExactSizeIterator<Item = Option<Margin>>,
+    ) -> Result<[Column; 3], OperationError> {
+        let limits = margins.map(|margin| margin.map(Limit::from));
+        self.of_limits(limits.map(|limit| limit.map(|limit| (limit.constraint, limit.value, limit.element))))
     }
 
     /// The same for limits as they are sent.
-    pub(crate) fn of_limits(&self, limits: &[Option<SentLimit>]) -> Result<[Column; 3], OperationError> {
-        let constraints = limits.iter().map(|limit| code((*limit)?.0.code()));
-        let elements = limits.iter().map(|limit| code((*limit)?.2.code()?));
+    pub(crate) fn of_limits(
+        &self,
+        limits: impl ExactSizeIterator<Item = Option<SentLimit>>,
+    ) -> Result<[Column; 3], OperationError> {
+        let rows = limits.len();
+        let (mut constraints, mut elements) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
+        let (mut margins, mut has_margin) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
+        for limit in limits {
+            constraints.push(code(limit.map(|limit| limit.0.code())));
+            elements.push(code(limit.and_then(|limit| limit.2.code())));
+            margins.push(limit.map_or(0.0, |limit| limit.1));
+            has_margin.push(limit.is_some());
+        }
         Ok([
-            Column::names("constraint", &self.constraints, constraints).map_err(defect)?,
-            Column::numbers("margin", limits.iter().map(|limit| Some((*limit)?.1))),
-            Column::names("element", &self.elements, elements).map_err(defect)?,
+            Column::names_by_code("constraint", &self.constraints, constraints).map_err(defect)?,
+            Column::numbers_where("margin", margins, &has_margin).map_err(defect)?,
+            Column::names_by_code("element", &self.elements, elements).map_err(defect)?,
         ])
     }
 }
@@ -99,8 +111,9 @@ pub(crate) fn number_columns<'a>(
     names.iter().enumerate().map(column)
 }
 
-fn code(code: usize) -> Option<i8> {
-    i8::try_from(code).ok()
+/// The code of a name in a column; negative for no name.
+fn code(code: Option<usize>) -> i8 {
+    code.and_then(|code| i8::try_from(code).ok()).unwrap_or(-1)
 }
 
 /// Why the columns of a request cannot be passed on.
@@ -110,12 +123,8 @@ pub(crate) fn write_error(error: WriteError) -> OperationError {
             let detail = format!("has the type {kind}: only an answer in Arrow can have it");
             OperationError::Fields(vec![FieldError::new(pointer(&name), detail)])
         }
-        WriteError::Twice(name) => {
-            let detail = "is the name of a column of the answer: rename the column, or leave it out";
-            OperationError::Fields(vec![FieldError::new(pointer(&name), detail)])
-        }
         WriteError::TooLong(_) => OperationError::Rows(error.to_string()),
-        WriteError::Columns(_) => defect(error),
+        WriteError::Twice(_) | WriteError::Columns(_) => defect(error),
     }
 }
 

@@ -102,12 +102,16 @@ impl RowStream {
         self.answer.tally()
     }
 
-    /// The columns that the answer passes on, and those of the answer.
+    /// The columns that the answer passes on, and those of the answer. A column of the answer replaces an equal-named
+    /// one: the answer of one batch can be the body of another.
     fn answered(&mut self, chunk: &Chunk, observer: &dyn Observer) -> Result<Vec<Column>, OperationError> {
         let numbers = self.answer.numbers();
-        let extra = chunk.columns().iter().filter(|column| !numbers.contains(&column.name()));
-        let mut columns: Vec<_> = extra.cloned().collect();
-        columns.extend(self.answer.answer(chunk, observer)?);
+        let answered = self.answer.answer(chunk, observer)?;
+        let is_replaced = |name: &str| answered.iter().any(|column| column.name() == name);
+        let extra = chunk.columns().iter().map(|column| (column.name(), column));
+        let extra = extra.filter(|(name, _)| !numbers.contains(name) && !is_replaced(name));
+        let mut columns: Vec<_> = extra.map(|(_, column)| column.clone()).collect();
+        columns.extend(answered);
         Ok(columns)
     }
 }

@@ -63,15 +63,38 @@ impl RowTally {
         outcomes: impl IntoIterator<Item = (usize, Option<Reason<'a>>)>,
     ) {
         for (i, (outcome, reason)) in outcomes.into_iter().enumerate() {
-            self.rows += 1;
-            if let Some((_, count)) = self.counts.get_mut(outcome) {
-                *count += 1;
+            self.add_row(outcome);
+            if let Some(reason) = reason {
+                self.unanswered += 1;
+                self.keep(chunk, i, || Some(reason));
             }
-            let Some(reason) = reason else { continue };
-            self.unanswered += 1;
-            if self.first.len() < MOST_KEPT {
-                let place = chunk.line(i).map_or(RowPlace::Row(self.rows), RowPlace::Line);
-                self.first.push(Unanswered { place, reason: reason.into_owned() });
+        }
+    }
+
+    fn add_row(&mut self, outcome: usize) {
+        self.rows += 1;
+        if let Some((_, count)) = self.counts.get_mut(outcome) {
+            *count += 1;
+        }
+    }
+
+    /// Keeps the reason of the row that was added last, if it is one of the first.
+    fn keep<'a>(&mut self, chunk: &Chunk, i: usize, reason: impl FnOnce() -> Option<Reason<'a>>) {
+        if self.first.len() < MOST_KEPT
+            && let Some(reason) = reason()
+        {
+            let place = chunk.line(i).map_or(RowPlace::Row(self.rows), RowPlace::Line);
+            self.first.push(Unanswered { place, reason: reason.into_owned() });
+        }
+    }
+
+    /// Adds the rows of a chunk of poses or joints.
+    pub(crate) fn add_outcomes(&mut self, chunk: &Chunk, outcomes: &[RowOutcome]) {
+        for (i, outcome) in outcomes.iter().enumerate() {
+            self.add_row(outcome.status() as usize);
+            if !matches!(outcome, RowOutcome::Ok(_)) {
+                self.unanswered += 1;
+                self.keep(chunk, i, || Reason::of(outcome));
             }
         }
     }

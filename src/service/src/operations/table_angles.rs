@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use verne_solver::axis::tool_axis;
 use verne_solver::{Machine, PartPose, SplitAngle, TableAngles, Winding, rotary_windings, table_windings};
 
-use crate::wire::degrees::{from_degrees, from_degrees_of_turn, to_degrees, whole_turns};
+use crate::wire::degrees::{from_degrees, to_degrees, whole_turns};
 use crate::wire::request::Near;
 use crate::wire::windings::Windings;
 
@@ -118,5 +118,6 @@ impl From<WoundTable> for TablePosition {
 }
 
 fn winding(degrees: f64) -> SplitAngle {
-    SplitAngle { remainder: from_degrees_of_turn(degrees), turns: whole_turns(degrees) }
+    let turns = whole_turns(degrees);
+    SplitAngle { remainder: from_degrees(degrees - 360.0 * turns), turns }
 }

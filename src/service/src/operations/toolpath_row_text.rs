@@ -106,7 +106,7 @@ impl RowColumns {
         }
         columns.push(Column::numbers("duration", rows.iter().map(|row| row.duration)));
         let limits = rows.iter().map(|row| Some((row.constraint, row.margin, row.element)));
-        let [constraint, margin, element] = self.limits.of_limits(&limits.collect::<Vec<_>>())?;
+        let [constraint, margin, element] = self.limits.of_limits(limits.collect::<Vec<_>>().into_iter())?;
         columns.extend([margin, constraint, element]);
         Ok(columns)
     }

@@ -5,9 +5,24 @@ pub(crate) fn from_degrees(degrees: f64) -> f64 {
     degrees.to_radians()
 }
 
+/// A constant that, added to a number below 2^51, leaves the nearest integer in the last bits. Rounding by the standard
+/// library is a call of a function.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+/// 2^51.
+const MOST_ROUNDED: f64 = 2_251_799_813_685_248.0;
+
+/// The nearest integer; of two the even one.
+fn nearest_integer(number: f64) -> f64 {
+    if number.abs() < MOST_ROUNDED {
+        ((number + ROUND) - ROUND).copysign(number)
+    } else {
+        number.round_ties_even()
+    }
+}
+
 /// Whole turns in an angle in degrees. The rest is at most half a turn, and exact.
 pub(crate) fn whole_turns(degrees: f64) -> f64 {
-    (degrees / 360.0).round_ties_even()
+    nearest_integer(degrees / 360.0)
 }
 
 /// The same direction within half a turn of zero, in radians.
@@ -15,8 +30,8 @@ pub(crate) fn from_degrees_of_turn(degrees: f64) -> f64 {
     from_degrees(degrees - 360.0 * whole_turns(degrees))
 }
 
-/// How many neighbouring doubles [`to_degrees`] tries on each side: π/180 stretches the spacing by less than this.
-const NEIGHBOURS: usize = 4;
+/// How many neighbouring doubles [`to_degrees`] tries: π/180 stretches the spacing by less than this.
+const NEIGHBOURS: usize = 3;
 
 /// Radians to degrees, never -0.
 ///
@@ -25,11 +40,34 @@ const NEIGHBOURS: usize = 4;
 /// the same machine when a client sends it.
 pub(crate) fn to_degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
-    let short = (degrees * 1e9).round() / 1e9;
-    let above = std::iter::successors(Some(degrees), |above| Some(above.next_up())).take(NEIGHBOURS);
-    let below = std::iter::successors(Some(degrees), |below| Some(below.next_down())).take(NEIGHBOURS);
-    let exact = std::iter::once(short).chain(above).chain(below).find(|near| from_degrees(*near) == radians);
-    exact.unwrap_or(degrees) + 0.0
+    let scaled = degrees * 1e9;
+    let rounded = nearest_integer(scaled);
+    // Other roundings change the radians. The division takes more time than all that follows.
+    if (scaled - rounded).abs() <= 8.0 * f64::EPSILON * scaled.abs() {
+        let short = rounded / 1e9;
+        if from_degrees(short) == radians {
+            return short + 0.0;
+        }
+    }
+    nearest_with_radians(degrees, radians).unwrap_or(degrees) + 0.0
+}
+
+/// The number next to `degrees` that [`from_degrees`] maps to exactly these radians, if there is one.
+fn nearest_with_radians(degrees: f64, radians: f64) -> Option<f64> {
+    let is_less = from_degrees(degrees) < radians;
+    let mut near = degrees;
+    for _ in 0..=NEIGHBOURS {
+        let mapped = from_degrees(near);
+        if mapped == radians {
+            return Some(near);
+        }
+        // The map is monotonic: no number beyond has these radians.
+        if (mapped < radians) != is_less {
+            return None;
+        }
+        near = if is_less { near.next_up() } else { near.next_down() };
+    }
+    None
 }
 
 #[cfg(test)]
@@ -50,6 +88,30 @@ mod tests {
             let written = f64::from(i) * 0.017_234_567_890_123_4;
             let radians = from_degrees(written);
             assert_eq!(from_degrees(to_degrees(radians)).to_bits(), radians.to_bits(), "{written}");
+        }
+    }
+
+    #[test]
+    fn an_integer_is_the_nearest_one() {
+        for number in [0.0, -0.0, 0.5, -0.5, 1.5, 2.5, -2.5, 0.3, -0.3, 1e15 + 0.5, 1e300, f64::INFINITY] {
+            assert_eq!(nearest_integer(number).to_bits(), number.round_ties_even().to_bits(), "{number}");
+        }
+    }
+
+    #[test]
+    fn the_first_of_all_neighbours_is_found() {
+        let by_search = |radians: f64| {
+            let degrees = radians.to_degrees();
+            let short = (degrees * 1e9).round() / 1e9;
+            let above = std::iter::successors(Some(degrees), |near| Some(near.next_up())).take(5);
+            let below = std::iter::successors(Some(degrees), |near| Some(near.next_down())).take(5);
+            let mut all = std::iter::once(short).chain(above).chain(below);
+            all.find(|near| from_degrees(*near) == radians).unwrap_or(degrees) + 0.0
+        };
+        for i in 0..100_000 {
+            let spread = (f64::from(i) * 0.618_033_988_749_895).fract() - 0.5;
+            let radians = spread * 10.0_f64.powi(i % 20 - 16);
+            assert_eq!(to_degrees(radians).to_bits(), by_search(radians).to_bits(), "{radians}");
         }
     }
 

@@ -7,7 +7,9 @@ use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use utoipa::ToSchema;
 
+use crate::wire::error::{FieldError, OperationError};
 use crate::wire::machine::MachineObject;
+use crate::wire::parse::parse_body;
 
 /// Name of the built-in reference machine: the default machine of every request.
 pub(crate) const REFERENCE: &str = "verne";
@@ -25,6 +27,32 @@ pub(crate) enum MachineRef {
     Name(String),
     /// A custom machine.
     Object(Box<MachineObject>),
+}
+
+impl MachineRef {
+    /// The machine of a query parameter: a name, or a machine object as JSON.
+    ///
+    /// # Errors
+    ///
+    /// The JSON is no machine object. The pointer of an error begins with `/machine`.
+    pub(crate) fn of_parameter(text: &str) -> Result<Self, OperationError> {
+        if !text.trim_start().starts_with('{') {
+            return Ok(Self::Name(text.to_owned()));
+        }
+        let object = parse_body::<MachineObject>(text.as_bytes()).map_err(|error| match error {
+            OperationError::Fields(faults) => {
+                let faults = faults.into_iter();
+                let moved =
+                    faults.map(|fault| FieldError::new(format!("/machine{}", fault.pointer), fault.detail));
+                OperationError::Fields(moved.collect())
+            }
+            OperationError::Syntax(reason) => {
+                OperationError::Fields(vec![FieldError::new("/machine", format!("is no JSON: {reason}"))])
+            }
+            other => other,
+        })?;
+        Ok(Self::Object(Box::new(object)))
+    }
 }
 
 impl Default for MachineRef {

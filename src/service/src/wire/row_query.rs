@@ -28,7 +28,8 @@ pub(crate) struct IkRowsQuery {
     #[arg(skip)]
     #[param(inline, nullable = false)]
     pub format: Option<RowFormat>,
-    /// Name of the machine. On the command line it may also be the path of a machine file.
+    /// Name of the machine, or in a query a machine object as JSON. On the command line it may also be the path of a
+    /// machine file.
     #[serde(default = "reference_name")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
@@ -104,7 +105,8 @@ pub(crate) struct FkRowsQuery {
     #[arg(skip)]
     #[param(inline, nullable = false)]
     pub format: Option<RowFormat>,
-    /// Name of the machine. On the command line it may also be the path of a machine file.
+    /// Name of the machine, or in a query a machine object as JSON. On the command line it may also be the path of a
+    /// machine file.
     #[serde(default = "reference_name")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
@@ -167,7 +169,8 @@ pub(crate) struct ContainsRowsQuery {
     #[arg(skip)]
     #[param(inline, nullable = false)]
     pub format: Option<RowFormat>,
-    /// Name of the machine. On the command line it may also be the path of a machine file.
+    /// Name of the machine, or in a query a machine object as JSON. On the command line it may also be the path of a
+    /// machine file.
     #[serde(default = "reference_name")]
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]

@@ -3,9 +3,9 @@
 use std::hint::black_box;
 
 use verne_solver::{
-    Machine, Margins, PartPose, Point, Posture, Registers, TableAngles, forward_working,
+    Machine, Margins, PartPose, Point, Posture, PostureColumns, Registers, TableAngles, forward_working,
     forward_working_rows, margin_rows, part_working, part_working_rows, platform_working,
-    platform_working_rows, tool_working, tool_working_rows,
+    platform_working_rows, tool_working, tool_working_rows, worst_margin_rows,
 };
 
 use crate::harness::{Candidate, measure};
@@ -49,9 +49,19 @@ pub(crate) fn print(machine: &Machine, inputs: &Inputs, rounds: usize) {
             black_box(&answer);
         });
     };
-    let margins = |rows: &[(Posture, Option<TableAngles>)], registers| {
-        margin_rows(machine, rows, None, registers, |_, margins| {
-            black_box(&margins);
+    let mut columns = PostureColumns::new();
+    rows.iter().for_each(|(posture, table)| columns.push(posture, *table));
+    // The postures lie by coordinate, as the kernels of solutions leave them.
+    let margins = |_: &[(Posture, Option<TableAngles>)], registers| {
+        margin_rows(machine, black_box(&columns), None, registers, |_, margins| {
+            black_box(margins);
+        });
+    };
+    let worst = |rows: &[(Posture, Option<TableAngles>)], registers| {
+        let mut columns = PostureColumns::new();
+        rows.iter().for_each(|(posture, table)| columns.push(posture, *table));
+        worst_margin_rows(machine, &columns, None, registers, |_, margin, feasible| {
+            black_box((&margin, feasible));
         });
     };
     let mut comparisons = [
@@ -83,6 +93,16 @@ pub(crate) fn print(machine: &Machine, inputs: &Inputs, rounds: usize) {
             &rows,
             |(row, table)| Margins::of(machine, row, *table),
             &margins,
+        ),
+        compare(
+            "the worst margin and feasibility",
+            None,
+            &rows,
+            |(row, table)| {
+                let margins = Margins::of(machine, row, *table);
+                (margins.worst(machine), margins.feasible())
+            },
+            &worst,
         ),
     ];
     for comparison in &mut comparisons {

@@ -8,6 +8,10 @@ use crate::rods::{FAMILY, RODS, Rods};
 /// Square of the difference of two rods' directions below which they count as parallel. Any point of the one then
 /// serves as the start: the distance does not depend on it.
 const PARALLEL: f64 = 1e-14;
+/// Square of the sine of the angle between two lines below which their distance loses digits.
+const NEARLY_PARALLEL: f64 = 1e-6;
+/// Allowance for rounding in the square of the distance of two lines, as a factor.
+const LINE_ROUNDING: f64 = 1.0 + 1e-9;
 /// Allowance for rounding in the square of a distance, as a factor.
 const ROUNDING: f64 = 1.0 + 1e-12;
 
@@ -168,8 +172,7 @@ fn others_are_farther(nearest: f64, d: &Mechanism, ends: &[[f64; 3]; 6], rods: &
     let extent = |gap: &[f64; 3], [x, y]: [f64; 2]| (gap[0] * x + gap[1] * y).abs();
     let from_leg_one = |i: usize, j: usize| {
         let offset = if j == 2 { second } else { third };
-        let gap = to_middle(ends, i, j, offset);
-        is_farther(nearest, &gap, rods, [i, j], extent(&gap, offset))
+        lines_are_farther(nearest, &to_middle(ends, i, j, offset), rods, [i, j], offset)
     };
     // From the middle of the one to the middle of the other.
     let [x, y, z] = difference(ends[2], ends[4]);
@@ -208,6 +211,24 @@ fn is_farther(nearest: f64, gap: &[f64; 3], rods: &Rods, [i, j]: [usize; 2], ext
     let square_gap = dot(gap, gap);
     let apart = square_gap - greater(dot(a, gap), 0.0) + lesser(dot(b, gap), 0.0) - extent;
     (apart > 0.0) & (apart * apart >= nearest * square_gap)
+}
+
+/// Whether the lines on which two rods lie, and so the rods, are certainly at least as far apart as the nearest pair,
+/// whose distance's square is given, if one of them is shifted by up to `offset` along x and y
+/// either way. Rods of leg I cross
+/// the others at a large angle and at a distance: nearly always this decides.
+#[inline(always)]
+fn lines_are_farther(
+    nearest: f64,
+    gap: &[f64; 3],
+    rods: &Rods,
+    [i, j]: [usize; 2],
+    offset: [f64; 2],
+) -> bool {
+    let normal = cross(&rods.directions[FAMILY[i]], &rods.directions[FAMILY[j]]);
+    let square = dot(&normal, &normal);
+    let apart = dot(gap, &normal).abs() - (normal[0] * offset[0] + normal[1] * offset[1]).abs();
+    (square > NEARLY_PARALLEL) & (apart > 0.0) & (apart * apart >= LINE_ROUNDING * nearest * square)
 }
 
 #[inline(always)]
@@ -261,6 +282,11 @@ fn to_middle(ends: &[[f64; 3]; 6], i: usize, j: usize, offset: [f64; 2]) -> [f64
 #[inline(always)]
 fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline(always)]
+fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline(always)]

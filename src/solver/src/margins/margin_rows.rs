@@ -1,124 +1,109 @@
 //! All margins of many postures.
 
 use super::interference::{least_distance, nearest_within_legs, rods_of_leg};
-use super::posture_margins::{Margins, limited_crossing, range_margins};
+use super::margin_block::MarginBlock;
+use super::posture_columns::{PostureBlock, PostureColumns};
+use super::posture_margins::Margins;
+use super::worst_rows::WorstBlock;
 use crate::clearance::Clearance;
 use crate::fast_math::{MAX_ANGLE, sin_cos_of_turn};
+use crate::limit::Margin;
 use crate::machine::Machine;
-use crate::pose::{PlatformPose, TableAngles};
-use crate::posture::Posture;
-use crate::registers::{Kernel, ROWS, Registers, set_columns};
+use crate::registers::{Kernel, ROWS, Registers};
 use crate::rods::Rods;
 
-/// A posture, and the table's angles if the table takes part.
-type Row = (Posture, Option<TableAngles>);
-
-/// Postures and their margins by coordinate.
+/// Postures and their margins.
 struct MarginRows {
-    /// x, y, z, alpha, rho1, rho2, rho3.
-    postures: [[f64; ROWS]; 7],
-    leg_length: [[f64; ROWS]; 3],
-    serial_singularity: [[f64; ROWS]; 4],
-    parallel_singularity: [f64; ROWS],
-    slider_joint: [[f64; ROWS]; 4],
-    platform_joint: [[f64; ROWS]; 4],
-    rod_crossing: [f64; ROWS],
-    rod_interference: [f64; ROWS],
-    /// 0, 1 or 2 for the leg whose two rods are the nearest.
-    nearest_leg: [u64; ROWS],
-    /// 1 for a row whose nearest rods are certainly those of one leg.
-    others_are_farther: [u64; ROWS],
+    postures: PostureBlock,
+    margins: MarginBlock,
+    /// 1 for a row whose margins the kernel computes completely.
+    usual: [u64; ROWS],
 }
 
+/// The same, and the worst margins.
+struct WorstRows {
+    all: MarginRows,
+    worst: WorstBlock,
+}
+
+/// Computes the margins, except that of the height over the table's plane.
 impl Kernel for MarginRows {
     #[inline(always)]
     fn run(&mut self, machine: &Machine) {
+        // Without a range the margin means nothing. A branch in the loop would end its vectorisation.
+        let ranges = [machine.limits().tilt, machine.limits().rotary.unwrap_or([0.0; 2])];
+        let is_delta = machine.mechanism.is_delta();
         for i in 0..ROWS {
-            let [x, y, z, alpha, rho1, rho2, rho3] = self.postures.each_ref().map(|row| row[i]);
-            let (pose, rho) = (PlatformPose { x, y, z, alpha }, [rho1, rho2, rho3]);
-            let rods = Rods::with_angle(&machine.mechanism, &pose, rho, sin_cos_of_turn(alpha));
+            let (pose, rho) = (self.postures.pose(i), self.postures.rho(i));
+            let rods = Rods::with_angle(&machine.mechanism, &pose, rho, sin_cos_of_turn(pose.alpha));
             let nearest = nearest_within_legs(&machine.mechanism, &rods);
-            let margins =
+            let of_module =
                 Margins::of_parallel_module(machine, &pose, rho, &rods, (nearest.distance, rods_of_leg(0)));
-            self.set(i, &margins);
-            self.nearest_leg[i] = nearest.leg;
-            self.others_are_farther[i] = u64::from(nearest.others_are_farther);
+            self.margins.set_parallel_module(i, &of_module, nearest.leg);
+            self.margins.set_crossing_limit(i, !is_delta | (pose.alpha != 0.0));
+            self.margins.set_table(i, &ranges, self.postures.angles(i));
+            self.usual[i] = u64::from(nearest.others_are_farther & (pose.alpha.abs() < MAX_ANGLE));
+        }
+    }
+}
+
+/// Finds the worst of all margins.
+impl Kernel for WorstRows {
+    #[inline(always)]
+    fn run(&mut self, machine: &Machine) {
+        let Self { all, worst } = self;
+        for i in 0..ROWS {
+            worst.set(i, machine, &all.margins);
         }
     }
 }
 
 impl MarginRows {
-    #[inline(always)]
-    fn set(&mut self, i: usize, margins: &Margins) {
-        set(&mut self.leg_length, i, margins.leg_length);
-        set(&mut self.serial_singularity, i, margins.serial_singularity);
-        set(&mut self.slider_joint, i, margins.slider_joint);
-        set(&mut self.platform_joint, i, margins.platform_joint);
-        self.parallel_singularity[i] = margins.parallel_singularity;
-        self.rod_crossing[i] = margins.rod_crossing.unwrap_or(0.0);
-        self.rod_interference[i] = margins.rod_interference;
+    fn new() -> Self {
+        Self { postures: PostureBlock::new(), margins: MarginBlock::new(), usual: [0; ROWS] }
     }
 
-    /// Computes the margins of at most [`ROWS`] postures.
-    fn solve(&mut self, machine: &Machine, rows: &[Row], registers: Registers) {
-        let numbers = |(posture, _): &Row| {
-            let (PlatformPose { x, y, z, alpha }, [rho1, rho2, rho3]) = (posture.pose, posture.rho);
-            [x, y, z, alpha, rho1, rho2, rho3]
-        };
-        set_columns(&mut self.postures, rows.iter().map(numbers));
+    /// Computes the margins of a block.
+    fn solve(
+        &mut self,
+        machine: &Machine,
+        (rows, postures): (usize, &PostureBlock),
+        clearance: Option<&Clearance>,
+        registers: Registers,
+    ) {
+        self.postures.clone_from(postures);
         registers.run(self, machine);
-    }
-
-    /// The margins of a row, as [`Margins::above_table`] computes them. All fields are written once, for moving them
-    /// takes time.
-    #[inline]
-    fn margins(&self, i: usize, machine: &Machine, row: &Row, clearance: Option<&Clearance>) -> Margins {
-        let (posture, table) = row;
-        if posture.pose.alpha.abs() >= MAX_ANGLE {
-            return Margins::above_table(machine, posture, *table, clearance);
+        self.margins.begin(rows, machine, &postures.has_table);
+        for i in 0..rows {
+            if self.usual[i] == 0 {
+                self.complete(i, machine);
+            }
         }
-        let (rod_interference, nearest_rods) = if self.others_are_farther[i] == 1 {
-            (self.rod_interference[i], rods_of_leg(self.nearest_leg[i]))
-        } else {
-            interference_of(machine, posture)
-        };
-        let limits = machine.limits();
-        let above = table.zip(clearance);
-        Margins {
-            stroke: Margins::of_strokes(machine, posture.rho),
-            leg_length: self.leg_length.each_ref().map(|row| row[i]),
-            serial_singularity: self.serial_singularity.each_ref().map(|row| row[i]),
-            parallel_singularity: self.parallel_singularity[i],
-            slider_joint: self.slider_joint.each_ref().map(|row| row[i]),
-            platform_joint: self.platform_joint.each_ref().map(|row| row[i]),
-            rod_crossing: limited_crossing(machine, posture.pose.alpha, self.rod_crossing[i]),
-            rod_interference,
-            nearest_rods,
-            tilt: table.map(|table| range_margins(limits.tilt, table.theta1)),
-            rotary: table.zip(limits.rotary).map(|(table, range)| range_margins(range, table.theta2)),
-            table_clearance: above.map(|(table, clearance)| clearance.margin(machine, &posture.pose, table)),
+        let Some(clearance) = clearance else { return };
+        for i in 0..rows {
+            if let Some(table) = postures.table(i) {
+                self.margins.set_clearance(i, clearance.margin(machine, &postures.pose(i), table));
+            }
         }
     }
-}
 
-/// The margin of rod interference and the nearest rods of a posture, of which rods of different legs may be nearest.
-fn interference_of(machine: &Machine, posture: &Posture) -> (f64, [u8; 2]) {
-    let g = machine.geometry();
-    let rods = Rods::of(&machine.mechanism, &posture.pose, posture.rho);
-    let (distance, nearest_rods) = least_distance(&machine.mechanism, &rods);
-    (distance - 2.0 * g.rod_radius, nearest_rods)
-}
-
-/// Writes a row.
-#[inline(always)]
-fn set<const N: usize>(columns: &mut [[f64; ROWS]; N], i: usize, row: [f64; N]) {
-    for (column, number) in columns.iter_mut().zip(row) {
-        column[i] = number;
+    /// Computes the margins of an unusual row: its angle has many turns, or rods of different legs may be the nearest.
+    #[cold]
+    fn complete(&mut self, i: usize, machine: &Machine) {
+        let (pose, rho) = (self.postures.pose(i), self.postures.rho(i));
+        let g = machine.geometry();
+        let rods = Rods::of(&machine.mechanism, &pose, rho);
+        let nearest = least_distance(&machine.mechanism, &rods);
+        if pose.alpha.abs() >= MAX_ANGLE {
+            let of_module = Margins::of_parallel_module(machine, &pose, rho, &rods, nearest);
+            self.margins.set_parallel_module(i, &of_module, 0);
+        }
+        self.margins.set_interference(i, nearest.0 - 2.0 * g.rod_radius, nearest.1);
     }
 }
 
-/// Calls `found` for each posture in turn with its index and the answer of [`Margins::above_table`], the same to the
-/// last bit.
+/// Calls `found` for each block of the postures in turn with the index of its first posture and its margins. Those of
+/// each posture are the answer of [`Margins::above_table`], the same to the last bit.
 ///
 /// # Units
 ///
@@ -131,43 +116,73 @@ fn set<const N: usize>(columns: &mut [[f64; ROWS]; N], i: usize, row: [f64; N]) 
 /// # Examples
 ///
 /// ```
-/// use verne_solver::{KinematicsError, Machine, Margins, Registers, margin_rows, platform_working};
+/// use verne_solver::{KinematicsError, Machine, Margins, PostureColumns, Registers, margin_rows, platform_working};
 ///
 /// let machine = Machine::verne();
-/// let rows = [(platform_working(&machine, [0.0, 0.0, 1200.0])?, None)];
-/// let mut all = Vec::new();
-/// margin_rows(&machine, &rows, None, Registers::Widest, |_, margins| all.push(margins));
-/// assert_eq!(all, [Margins::of(&machine, &rows[0].0, None)]);
+/// let posture = platform_working(&machine, [0.0, 0.0, 1200.0])?;
+/// let mut postures = PostureColumns::new();
+/// postures.push(&posture, None);
+/// margin_rows(&machine, &postures, None, Registers::Widest, |first, margins| {
+///     assert_eq!((first, margins.len()), (0, 1));
+///     assert_eq!(margins.row(0), Margins::of(&machine, &posture, None));
+/// });
 /// # Ok::<(), KinematicsError>(())
 /// ```
 pub fn margin_rows(
     machine: &Machine,
-    rows: &[(Posture, Option<TableAngles>)],
+    postures: &PostureColumns,
     clearance: Option<&Clearance>,
     registers: Registers,
-    mut found: impl FnMut(usize, Margins),
+    mut found: impl FnMut(usize, &MarginBlock),
 ) {
-    let mut kernel = new();
-    for (first, block) in (0..).step_by(ROWS).zip(rows.chunks(ROWS)) {
-        kernel.solve(machine, block, registers);
-        for (i, row) in (0..ROWS).zip(block) {
-            found(first + i, kernel.margins(i, machine, row, clearance));
-        }
+    let mut kernel = MarginRows::new();
+    for (first, rows, block) in postures.blocks() {
+        kernel.solve(machine, (rows, block), clearance, registers);
+        found(first, &kernel.margins);
     }
 }
 
-fn new() -> MarginRows {
-    let zero = [0.0; ROWS];
-    MarginRows {
-        postures: [zero; 7],
-        leg_length: [zero; 3],
-        serial_singularity: [zero; 4],
-        parallel_singularity: zero,
-        slider_joint: [zero; 4],
-        platform_joint: [zero; 4],
-        rod_crossing: zero,
-        rod_interference: zero,
-        nearest_leg: [0; ROWS],
-        others_are_farther: [0; ROWS],
+/// Calls `found` for each posture in turn with its index, the answer of [`Margins::worst`], and that of
+/// [`Margins::feasible`].
+///
+/// # Units
+///
+/// The margin has the unit of its constraint: mm, rad, or none.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): section IV.A; the comparison is
+/// ours.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::{Constraint, KinematicsError, Machine, PostureColumns, Registers};
+/// use verne_solver::{platform_working, worst_margin_rows};
+///
+/// let machine = Machine::verne();
+/// let mut postures = PostureColumns::new();
+/// postures.push(&platform_working(&machine, [0.0, 0.0, 600.0])?, None);
+/// worst_margin_rows(&machine, &postures, None, Registers::Widest, |_, worst, feasible| {
+///     assert_eq!(worst.constraint, Constraint::Stroke);
+///     assert!(worst.value < 0.0 && !feasible);
+/// });
+/// # Ok::<(), KinematicsError>(())
+/// ```
+pub fn worst_margin_rows(
+    machine: &Machine,
+    postures: &PostureColumns,
+    clearance: Option<&Clearance>,
+    registers: Registers,
+    mut found: impl FnMut(usize, Margin, bool),
+) {
+    let mut kernel = WorstRows { all: MarginRows::new(), worst: WorstBlock::new() };
+    for (first, rows, block) in postures.blocks() {
+        kernel.all.solve(machine, (rows, block), clearance, registers);
+        registers.run(&mut kernel, machine);
+        for i in 0..rows {
+            let (worst, feasible) = kernel.worst.of(i, &kernel.all.margins);
+            found(first + i, worst, feasible);
+        }
     }
 }

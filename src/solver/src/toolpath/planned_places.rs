@@ -18,9 +18,8 @@ use crate::error::KinematicsError;
 use crate::fast_math::sin_cos;
 use crate::inverse::part_working_rows;
 use crate::machine::Machine;
-use crate::margins::{Margins, margin_rows};
+use crate::margins::{Margins, PostureColumns, margin_rows};
 use crate::pose::{PartPose, Point, TableAngles};
-use crate::posture::Posture;
 use crate::registers::Registers;
 
 /// Most places that are computed together.
@@ -186,12 +185,11 @@ impl PlannedPlaces {
         (set_up, other): (&SetUp, bool),
         mut found: impl FnMut(usize, Result<&Margins, KinematicsError>),
     ) {
-        let (mut targets, mut rows): (Vec<PartPose>, Vec<(Posture, Option<TableAngles>)>) =
-            Default::default();
+        let (mut targets, mut postures) = (Vec::<PartPose>::new(), PostureColumns::new());
         let (mut errors, mut all, mut first) = (Vec::new(), Vec::new(), 0);
         while first < places.len() {
             targets.clear();
-            rows.clear();
+            postures.clear();
             errors.clear();
             let mut length = 0.0;
             for (number, place) in places[first..].iter().take(BLOCK).enumerate() {
@@ -206,15 +204,15 @@ impl PlannedPlaces {
             part_working_rows(machine, &targets, length, Registers::Widest, |i, posture| match posture {
                 Ok(posture) => {
                     let theta1 = posture.pose.alpha - targets[i].phi1;
-                    rows.push((posture, Some(TableAngles { theta1, theta2: -targets[i].phi2 })));
+                    postures.push(&posture, Some(TableAngles { theta1, theta2: -targets[i].phi2 }));
                     errors.push(None);
                 }
                 Err(error) => errors.push(Some(error)),
             });
             let clearance = Clearance::of(machine, self.table_clearance, length, self.tool_radius);
             all.clear();
-            margin_rows(machine, &rows, clearance.as_ref(), Registers::Widest, |_, margins| {
-                all.push(margins);
+            margin_rows(machine, &postures, clearance.as_ref(), Registers::Widest, |_, margins| {
+                all.extend((0..margins.len()).map(|i| margins.row(i)));
             });
             let mut next = all.iter();
             for (i, error) in errors.iter().enumerate() {

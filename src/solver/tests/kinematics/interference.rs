@@ -1,7 +1,7 @@
 //! The least distance between the rods, against a minimisation of the distance itself.
 
 use nalgebra::{Vector3, Vector4};
-use verne_solver::{Machine, Margins, Registers, margin_rows, platform_working};
+use verne_solver::{Machine, Margins, PostureColumns, Registers, margin_rows, platform_working};
 
 use crate::lengths::scale;
 use crate::oracle::constructed_postures::{hung, postures, upright};
@@ -86,8 +86,9 @@ fn rod_distances_of_parallelograms_in_any_direction_are_minimal() {
         let q = Vector4::new(p[0], p[1], p[2], posture.pose.alpha);
         check(&machine, &Found::new(&legs, q, posture.rho, 1.0));
         let margins = Margins::of(&machine, &posture, None);
-        let rows = [(posture, None)];
-        margin_rows(&machine, &rows, None, Registers::Widest, |_, row| assert_eq!(row, margins));
+        let mut rows = PostureColumns::new();
+        rows.push(&posture, None);
+        margin_rows(&machine, &rows, None, Registers::Widest, |_, block| assert_eq!(block.row(0), margins));
         let [first, second] = margins.nearest_rods;
         between_legs += u32::from(first / 10 != second / 10);
         count += 1;

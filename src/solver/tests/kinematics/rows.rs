@@ -3,9 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use verne_solver::{
-    Clearance, KinematicsError, Machine, Margins, PartPose, Point, Posture, Registers, TableAngles,
-    forward_working, forward_working_rows, margin_rows, part_working, part_working_rows, platform_working,
-    platform_working_rows, table_angles, tool_working, tool_working_rows,
+    Clearance, KinematicsError, Machine, Margins, PartPose, Point, Posture, PostureColumns, Registers,
+    TableAngles, forward_working, forward_working_rows, margin_rows, part_working, part_working_rows,
+    platform_working, platform_working_rows, table_angles, tool_working, tool_working_rows,
+    worst_margin_rows,
 };
 
 use crate::random::Random;
@@ -76,12 +77,34 @@ fn compare_sliders(machine: &Machine, rows: &[[f64; 3]]) {
 }
 
 fn compare_margins(machine: &Machine, rows: &[(Posture, Option<TableAngles>)]) {
-    compare(
-        machine,
-        rows,
-        |(posture, table)| Margins::above_table(machine, posture, *table, Some(&CLEARANCE)),
-        |registers, found| margin_rows(machine, rows, Some(&CLEARANCE), registers, found),
-    );
+    let mut columns = PostureColumns::new();
+    rows.iter().for_each(|(posture, table)| columns.push(posture, *table));
+    for clearance in [None, Some(&CLEARANCE)] {
+        let margins = |posture, table| Margins::above_table(machine, posture, table, clearance);
+        compare(
+            machine,
+            rows,
+            |(posture, table)| margins(posture, *table),
+            |registers, found| {
+                margin_rows(machine, &columns, clearance, registers, |first, block| {
+                    (0..block.len()).for_each(|i| found(first + i, block.row(i)));
+                });
+            },
+        );
+        compare(
+            machine,
+            rows,
+            |(posture, table)| {
+                let margins = margins(posture, *table);
+                (margins.worst(machine), margins.feasible())
+            },
+            |registers, found| {
+                worst_margin_rows(machine, &columns, clearance, registers, |i, worst, feasible| {
+                    found(i, (worst, feasible));
+                });
+            },
+        );
+    }
 }
 
 /// A length: of the machine's order, zero, on one of its own, or far outside.
@@ -201,8 +224,10 @@ fn rows_of_an_unlimited_rotary_table_have_no_margin_of_its_range() {
     let rows: Vec<_> =
         postures(&mut Random::new(0x0005_EED9), &machine, 40).into_iter().map(|row| (row, table)).collect();
     compare_margins(&machine, &rows);
-    margin_rows(&machine, &rows, None, Registers::Widest, |_, margins| {
-        assert!(margins.tilt.is_some() && margins.rotary.is_none());
+    let mut columns = PostureColumns::new();
+    rows.iter().for_each(|(posture, table)| columns.push(posture, *table));
+    margin_rows(&machine, &columns, None, Registers::Widest, |_, block| {
+        assert!(block.row(0).tilt.is_some() && block.row(0).rotary.is_none());
     });
 }
 

@@ -7,6 +7,7 @@ from typing import Any, Literal, TypeVar
 
 import pyarrow
 
+from verne.answers.machine import Machine
 from verne.arrow_stream import MEDIA_TYPE, read_stream, write_stream
 from verne.batch import JOINTS, JointBatch, Membership, PoseBatch
 from verne.operations.kinematics import Frame
@@ -43,7 +44,7 @@ def ik_batch(
     start: Start | None = None,
     jacobian: JacobianColumns | None = None,
     characteristic_length: float | None = None,
-    machine: str = "verne",
+    machine: str | Machine = "verne",
 ) -> Operation[JointBatch]:
     """Solves the inverse problem for many poses: one solution in the working mode for each.
 
@@ -62,10 +63,10 @@ def ik_batch(
             if the machine has drives), or ``matrix`` (j11 to j55, too). Only frame ``part`` has it.
         characteristic_length: Length by which the Jacobian's lengths are divided before its condition number is
             computed, mm. By default it is R1 of the machine.
-        machine: Name of a published machine.
+        machine: Name of a published machine, or a machine.
 
     Raises:
-        ValueError: An array does not have these columns, or another column has a name of the answer's.
+        ValueError: An array does not have these columns.
         Problem: The service refused the request or a column. An invalid row is no problem: ``detail`` says what is
             wrong with it.
     """
@@ -78,7 +79,7 @@ def ik_batch(
         start=None if start is None else json.dumps(joints_of(start)),
         jacobian=jacobian,
         characteristic_length=characteristic_length,
-        machine=machine,
+        machine=machine if isinstance(machine, str) else json.dumps(machine),
     )
     layouts = (POSE, POSE_WITH_AXIS) if frame == "part" else (POSITION,)
     is_divisible = not continuous
@@ -94,7 +95,7 @@ def fk_batch(
     tool_radius: float = 0.0,
     jacobian: JacobianColumns | None = None,
     characteristic_length: float | None = None,
-    machine: str = "verne",
+    machine: str | Machine = "verne",
 ) -> Operation[PoseBatch]:
     """Solves the forward problem for many joints: one solution in the working mode for each row.
 
@@ -108,10 +109,10 @@ def fk_batch(
             if the machine has drives), or ``matrix`` (j11 to j55, too). It needs theta1 and theta2.
         characteristic_length: Length by which the Jacobian's lengths are divided before its condition number is
             computed, mm. By default it is R1 of the machine.
-        machine: Name of a published machine.
+        machine: Name of a published machine, or a machine.
 
     Raises:
-        ValueError: An array does not have these columns, or another column has a name of the answer's.
+        ValueError: An array does not have these columns.
         Problem: The service refused the request or a column. An invalid row is no problem: ``detail`` says what is
             wrong with it.
     """
@@ -121,7 +122,7 @@ def fk_batch(
         tool_radius=tool_radius,
         jacobian=jacobian,
         characteristic_length=characteristic_length,
-        machine=machine,
+        machine=machine if isinstance(machine, str) else json.dumps(machine),
     )
     return (yield from _batch(session, "fk/batch", joints, (JOINTS, JOINTS[:3]), options, PoseBatch))
 
@@ -136,7 +137,7 @@ def contains(
     phi2: float = 0.0,
     table_clearance: float | None = None,
     tool_radius: float = 0.0,
-    machine: str = "verne",
+    machine: str | Machine = "verne",
 ) -> Operation[Membership]:
     """Tests which points are inside a workspace, without computing it.
 
@@ -149,10 +150,10 @@ def contains(
         phi2: Azimuth of the tool in the part frame, degrees. Only kind ``part`` uses it.
         table_clearance: Least height over the table, mm. By default it is the machine's limit, if it has one.
         tool_radius: Radius of the tool's end circle, mm. Only ``table_clearance`` uses it.
-        machine: Name of a published machine.
+        machine: Name of a published machine, or a machine.
 
     Raises:
-        ValueError: An array does not have these columns, or another column has a name of the answer's.
+        ValueError: An array does not have these columns.
         Problem: The service refused the request.
     """
     options = given(
@@ -162,7 +163,7 @@ def contains(
         phi2=phi2,
         table_clearance=table_clearance,
         tool_radius=tool_radius,
-        machine=machine,
+        machine=machine if isinstance(machine, str) else json.dumps(machine),
     )
     return (yield from _batch(session, "workspace/contains", points, (POSITION,), options, Membership))
 
@@ -189,8 +190,8 @@ def _batch(
         parts.append(read_stream(response.content))
     answer = pyarrow.concat_tables(parts).unify_dictionaries()
     for name in reversed(others):
-        if name in answer.column_names:
-            raise ValueError(f"{name} is a column of the answer, too: rename it, or leave it out")
-        answer = answer.add_column(0, table.schema.field(name), table.column(name))
+        # A column of the answer replaces one of its name, as in the service.
+        if name not in answer.column_names:
+            answer = answer.add_column(0, table.schema.field(name), table.column(name))
     # The metadata contains the index of a data frame of pandas.
     return kind(answer.replace_schema_metadata(table.schema.metadata))

@@ -22,8 +22,10 @@ use crate::operations::inverse_columns::InverseColumns;
 use crate::wire::batch::{FkBatchAnswer, FkBatchNumbers, IkBatchAnswer, IkBatchNumbers};
 use crate::wire::contains::{ContainsAnswer, ContainsRequest};
 use crate::wire::error::OperationError;
+use crate::wire::machine_ref::MachineRef;
 use crate::wire::query::point_into_query;
 use crate::wire::row_query::{ContainsRowsQuery, FkRowsQuery, IkRowsQuery};
+use crate::wire::workspace::WorkspaceRequest;
 
 fn json(body: Bytes) -> Response {
     ([(CONTENT_TYPE, "application/json")], body).into_response()
@@ -47,7 +49,8 @@ fn in_query(error: OperationError) -> HttpError {
 ///
 /// Instead of JSON the body may be a stream of Apache Arrow, CSV or NDJSON, with the columns rho1, rho2, rho3 and
 /// perhaps theta1 and theta2 in any order; the query then has what is not a row. The service answers rows while later
-/// rows arrive, and any number of them. Other columns are passed on.
+/// rows arrive, and any number of them. Other columns are passed on; a column of the answer
+/// replaces one of its name.
 #[utoipa::path(
     post, path = "/fk/batch", operation_id = "post_fk_batch", tag = "kinematics", params(FkRowsQuery),
     request_body(description = "The rows of joints.", content(
@@ -67,7 +70,9 @@ pub(crate) async fn fk_batch(
     request: Request,
 ) -> Result<Response, HttpError> {
     if let Some(formats) = formats(request.headers(), query.format, &accept)? {
-        let answer = ForwardColumns::new(&query.into(), &state.machines).map_err(in_query)?;
+        let machine = MachineRef::of_parameter(&query.machine).map_err(in_query)?;
+        let rowless = FkBatchNumbers { machine, ..query.into() };
+        let answer = ForwardColumns::new(&rowless, &state.machines).map_err(in_query)?;
         return answer_rows(&state, client, request, formats, Box::new(answer)).await;
     }
     let batch = document(request, &state).await?;
@@ -85,7 +90,8 @@ pub(crate) async fn fk_batch(
 ///
 /// Instead of JSON the body may be a stream of Apache Arrow, CSV or NDJSON, with the columns x, y, z and phi1, phi2 or
 /// i, j, k in any order; the query then has what is not a row. The service answers rows while later rows arrive, and
-/// any number of them. Other columns are passed on.
+/// any number of them. Other columns are passed on; a column of the answer
+/// replaces one of its name.
 #[utoipa::path(
     post, path = "/ik/batch", operation_id = "post_ik_batch", tag = "kinematics", params(IkRowsQuery),
     request_body(description = "The rows of poses.", content(
@@ -105,7 +111,9 @@ pub(crate) async fn ik_batch(
     request: Request,
 ) -> Result<Response, HttpError> {
     if let Some(formats) = formats(request.headers(), query.format, &accept)? {
-        let answer = InverseColumns::new(&query.into(), &state.machines).map_err(in_query)?;
+        let machine = MachineRef::of_parameter(&query.machine).map_err(in_query)?;
+        let rowless = IkBatchNumbers { machine, ..query.into() };
+        let answer = InverseColumns::new(&rowless, &state.machines).map_err(in_query)?;
         return answer_rows(&state, client, request, formats, Box::new(answer)).await;
     }
     let batch = document(request, &state).await?;
@@ -121,7 +129,8 @@ pub(crate) async fn ik_batch(
 ///
 /// Instead of JSON the body may be a stream of Apache Arrow, CSV or NDJSON, with the columns x, y and z in any order;
 /// the query then has what is not a point. The service answers points while later points arrive, and any number of
-/// them. Other columns are passed on.
+/// them. Other columns are passed on; a column of the answer
+/// replaces one of its name.
 #[utoipa::path(
     post, path = "/workspace/contains", operation_id = "post_workspace_contains", tag = "workspace",
     params(ContainsRowsQuery),
@@ -142,7 +151,9 @@ pub(crate) async fn workspace_contains(
     request: Request,
 ) -> Result<Response, HttpError> {
     if let Some(formats) = formats(request.headers(), query.format, &accept)? {
-        let answer = ContainsColumns::new(&query.into(), &state.machines).map_err(in_query)?;
+        let machine = MachineRef::of_parameter(&query.machine).map_err(in_query)?;
+        let rowless = WorkspaceRequest { machine, ..query.into() };
+        let answer = ContainsColumns::new(&rowless, &state.machines).map_err(in_query)?;
         return answer_rows(&state, client, request, formats, Box::new(answer)).await;
     }
     let batch = document(request, &state).await?;

@@ -36,7 +36,8 @@ const MESSAGE_BYTES: usize = 256 * 1024 * 1024;
 #[derive(Debug, Args)]
 pub(crate) struct BatchCommand<Q: Args> {
     /// Answer each row of this file, which is a table with named columns: .csv, .ndjson, .jsonl or .arrow (the
-    /// streaming format); `-` is standard input. Other columns are passed on.
+    /// streaming format); `-` is standard input. Other columns are passed on, except those with the
+    /// name of a column of the answer.
     #[arg(long, value_name = "FILE")]
     batch: PathBuf,
     /// Write the answers to this file, in the format of its extension. Default: standard output.
