@@ -50,7 +50,7 @@ fn answer<R: BatchRow>(
         jacobian: None,
         report: RowReport::default(),
     };
-    answer.jacobian = batch.jacobians.map(|jacobians| jacobians.lists(columns.jacobians()));
+    answer.jacobian = batch.jacobians.map(|jacobians| jacobians.lists(&columns.jacobians()));
     answer.jumps = jumps.as_ref().map(|jumps| jumps.iter().filter(|jump| **jump == Some(true)).count());
     answer.jump = jumps;
     let outcomes;
