@@ -99,6 +99,14 @@ test("a failing line of the dome is found in the list, and the proposed change h
   await expect(verdict(page)).toContainText("The machine can run the program.");
 });
 
+test("where the table cannot turn on, the tool retracts", async ({ page }) => {
+  const turns = Array.from({ length: 109 }, (_, i) => `[${60 * Math.cos(i / 6)},${60 * Math.sin(i / 6)},300,20,${(i / 6 / Math.PI) * 180}]`);
+  await program(page, "turns.ndjson", turns.join("\n"));
+  await expect(page.getByRole("button", { name: /the table would turn .*° too far$/ }).first()).toBeVisible();
+  await page.getByRole("button", { name: "retract there and turn the table back" }).first().click();
+  await expect(verdict(page)).toContainText("The machine can run the program.");
+});
+
 test("text and plots can be put away, and the program closed", async ({ page }) => {
   await program(page, "helix.ngc", HELIX);
   const text = page.getByRole("listbox", { name: "Program text" });

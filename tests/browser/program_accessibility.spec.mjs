@@ -39,6 +39,14 @@ for (const colorScheme of ["light", "dark"]) {
           const wider = (element) => element.scrollWidth - element.clientWidth;
           expect(await page.locator(part).evaluate(wider), part).toBeLessThanOrEqual(0);
         }
+        // The scene covers nothing of the motion.
+        await page.locator("main").evaluate((main) => main.scrollTo(0, 0));
+        const [scene, dock] = [await page.locator(".scene").boundingBox(), await page.locator(".dock").boundingBox()];
+        const beside = scene.x + scene.width <= dock.x + 1 || scene.y + scene.height <= dock.y + 1;
+        expect(beside, JSON.stringify([scene, dock])).toBe(true);
+        const panel = await page.locator(".panel.right").boundingBox();
+        const apart = panel.y + panel.height <= dock.y + 1 || dock.y + dock.height <= panel.y + 1;
+        expect(apart, JSON.stringify([panel, dock])).toBe(true);
         await drop(page, "part.ngc", "G1 X1 A5\n");
         await expect(page.getByRole("dialog", { name: "The service cannot read part.ngc" })).toBeVisible();
         expect(await violations(page)).toEqual([]);

@@ -59,7 +59,7 @@ impl Scripts {
             let name = format!("inline-{}.js", self.names.len());
             let name = self.names.entry(script.to_owned()).or_insert(name);
             write(&self.out.join(&*name), script)?;
-            written += &format!("<script src=\"{}{name}\"></script>{rest}", "../".repeat(depth));
+            written.extend(["<script src=\"", &"../".repeat(depth), name, "\"></script>", rest]);
         }
         write(page, &written)
     }

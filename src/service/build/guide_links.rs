@@ -116,7 +116,8 @@ fn included(paragraph: &str, folder: &Path) -> Option<PathBuf> {
     let link = paragraph.trim().strip_prefix('[')?.strip_suffix(')')?;
     let (_, target) = link.split_once("](")?;
     let file = normal(&folder.join(target));
-    let whole = !target.contains([' ', '(', ')']) && target.ends_with(".md") && !file.starts_with(DOCS);
+    let is_markdown = file.extension().is_some_and(|extension| extension == "md");
+    let whole = !target.contains([' ', '(', ')']) && is_markdown && !file.starts_with(DOCS);
     whole.then_some(file)
 }
 

@@ -178,7 +178,7 @@ fn kind(schema: &Value) -> String {
         kind = format!("{kind} of {}", self::kind(&schema["items"]));
     }
     if !schema["default"].is_null() {
-        kind += &format!(", default `{}`", schema["default"].to_string().trim_matches('"'));
+        let _ = write!(kind, ", default `{}`", schema["default"].to_string().trim_matches('"'));
     }
     if kind.is_empty() { "any".to_owned() } else { kind }
 }

@@ -26,7 +26,7 @@ async fn verdict(parameter: &str, value: f64) -> Value {
 
 #[tokio::test]
 async fn the_ends_are_those_of_the_verdict() {
-    for (parameter, from, to) in [("tool_length", 0, 1000), ("setup.x", -600, 600), ("setup.a", -60, 60)] {
+    for (parameter, from, to) in [("tool_length", 0, 1000), ("setup.x", -600, 600), ("setup.a", -120, 120)] {
         let asked = with(line(), json!({"parameter": parameter, "from": from, "to": to}));
         let answer = post("/toolpath/window", asked).await;
         assert_eq!(answer.status, 200, "{}", answer.json);

@@ -50,12 +50,11 @@ impl Surface {
     /// The surface of a result that a request means by `set`.
     pub(crate) fn of(id: ResultId, kind: QuestionKind, set: Option<SetName>) -> Result<Self, HttpError> {
         let blob = match (kind, set) {
-            (QuestionKind::Workspace, None) => MESH,
+            (QuestionKind::Workspace, None) | (QuestionKind::Origins, _) => MESH,
             (QuestionKind::Workspace, Some(_)) => {
                 let detail = "is allowed only for dexterity maps: a workspace has one mesh";
                 return Err(HttpError::field("/query/set", detail));
             }
-            (QuestionKind::Origins, _) => MESH,
             (QuestionKind::Toolpath | QuestionKind::Window | QuestionKind::Placement, _) => {
                 return Err(LookupError::Result(id.to_string()).into());
             }

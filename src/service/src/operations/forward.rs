@@ -2,6 +2,7 @@
 
 use verne_solver::{forward, forward_working};
 
+use crate::operations::jacobians::characteristic_length;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::nearest::check_near;
 use crate::operations::solutions::{AnswerBuilder, SolutionSet, SolvedPosture};
@@ -39,7 +40,7 @@ pub(crate) fn answer_fk(request: &FkRequest, machines: &MachineRegistry) -> Resu
         near: request.near,
         free: false,
         joints: false,
-        jacobian: request.jacobian.then_some(request.characteristic_length),
+        jacobian: request.jacobian.then(|| characteristic_length(&machine, request.characteristic_length)),
     };
     builder.answer(set)
 }

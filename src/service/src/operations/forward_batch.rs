@@ -76,7 +76,7 @@ fn answer<R: BatchRow>(
     let batch = JointBatch::new(request, machines, max_rows)?;
     let rows = batch.answer(request.joints.items());
     let jacobian =
-        batch.jacobians.map(|jacobians| jacobians.lists(rows.iter().map(|row| row.jacobian.as_deref())));
+        batch.jacobians.map(|jacobians| jacobians.lists(&rows.iter().map(|row| row.jacobian.as_deref())));
     let (mut poses, mut parts) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
     let mut outcomes = Vec::with_capacity(rows.len());
     let mut table_checked = batch.clearance.is_some();

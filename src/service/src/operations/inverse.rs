@@ -4,6 +4,7 @@ use verne_solver::{
     Machine, Point, Posture, part, part_every_working, platform, platform_working, tool, tool_every_working,
 };
 
+use crate::operations::jacobians::characteristic_length;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::nearest::check_near;
 use crate::operations::requested_orientation::{
@@ -36,7 +37,7 @@ pub(crate) fn answer_ik(request: &IkRequest, machines: &MachineRegistry) -> Resu
         near: request.near,
         free: orientations.free,
         joints: true,
-        jacobian: request.jacobian.then_some(request.characteristic_length),
+        jacobian: request.jacobian.then(|| characteristic_length(&machine, request.characteristic_length)),
     };
     builder.answer(set)
 }

@@ -50,7 +50,7 @@ fn answer<R: BatchRow>(
         report: RowReport::default(),
     };
     answer.jacobian =
-        batch.jacobians.map(|jacobians| jacobians.lists(rows.iter().map(|row| row.jacobian.as_deref())));
+        batch.jacobians.map(|jacobians| jacobians.lists(&rows.iter().map(|row| row.jacobian.as_deref())));
     if batch.continuous {
         let jumps: Vec<_> = rows.iter().map(|row| row.jump).collect();
         answer.jumps = Some(jumps.iter().filter(|jump| **jump == Some(true)).count());

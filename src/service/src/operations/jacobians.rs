@@ -20,9 +20,8 @@ pub(crate) fn jacobian_object(
     machine: &Machine,
     (posture, table): (&Posture, TableAngles),
     tool_length: f64,
-    characteristic_length: Option<f64>,
+    length: f64,
 ) -> JacobianObject {
-    let length = characteristic_length.unwrap_or(machine.data().geometry.R1);
     let found = ToolJacobian::of(machine, posture, table, tool_length);
     let singularities =
         found.as_ref().map_or_else(|| vec![Singularity::Parallel], ToolJacobian::singularities);
@@ -40,6 +39,11 @@ pub(crate) fn jacobian_object(
             .map(|drives| found.as_ref().and_then(|found| found.greatest_speeds(&drives)).map(Into::into)),
         error_amplification: found.as_ref().map(error_amplification),
     }
+}
+
+/// The length of the request, or R1, mm.
+pub(crate) fn characteristic_length(machine: &Machine, requested: Option<f64>) -> f64 {
+    requested.unwrap_or(machine.data().geometry.R1)
 }
 
 fn matrix_object(found: &ToolJacobian) -> MatrixObject {
@@ -76,7 +80,7 @@ impl RowJacobians {
         columns: Option<JacobianColumns>,
         characteristic_length: Option<f64>,
     ) -> Option<Self> {
-        let characteristic_length = characteristic_length.unwrap_or(machine.data().geometry.R1);
+        let characteristic_length = self::characteristic_length(machine, characteristic_length);
         let has_drives = machine.data().drives.is_some();
         columns.map(|columns| Self { columns, characteristic_length, has_drives })
     }
@@ -104,7 +108,7 @@ impl RowJacobians {
     /// The Jacobians of all rows.
     pub(crate) fn lists<'a>(
         &self,
-        rows: impl Iterator<Item = Option<&'a RowJacobian>> + Clone,
+        rows: &(impl Iterator<Item = Option<&'a RowJacobian>> + Clone),
     ) -> JacobianLists {
         let has_matrix = self.columns == JacobianColumns::Matrix;
         let speeds =

@@ -22,8 +22,8 @@ use crate::wire::window::CanonicalWindow;
 use crate::wire::workspace::CanonicalWorkspace;
 
 /// The kind of a result: `workspace`; `family`, a table of workspaces; `dexterity`, a map; `toolpath`; `window` of a
-/// parameter of a program; `placement` of a program; `origins`, a region of origins; `subtask`, a part of a family, of a
-/// map or of a region.
+/// parameter of a program; `placement` of a program; `origins`, the region of its origins; `subtask`, a part of a
+/// family, of a map or of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum QuestionKind {

@@ -70,7 +70,7 @@ pub(crate) struct AnswerBuilder<'a> {
     /// Whether the solutions have joints, as in answers of /ik.
     pub(crate) joints: bool,
     /// The characteristic length of the request, if the solutions have their Jacobians.
-    pub(crate) jacobian: Option<Option<f64>>,
+    pub(crate) jacobian: Option<f64>,
 }
 
 impl AnswerBuilder<'_> {

@@ -138,13 +138,14 @@ impl Subtask {
     /// Estimated work, seconds of one core, of one of `count` subtasks of a question whose work is `total`.
     pub(crate) fn cost(&self, total: f64, count: u32) -> f64 {
         match self.request {
-            SubtaskRequest::Member(_) => total / f64::from(count.max(1)),
+            SubtaskRequest::Member(_) | SubtaskRequest::Origins { part: OriginsPart::Slab { .. }, .. } => {
+                total / f64::from(count.max(1))
+            }
             SubtaskRequest::Slab { number, count, .. } => {
                 let [from, to] = [number, number + 1].map(|cut| f64::from(cut) / f64::from(count));
                 total * (1.0 - VOLUMES_FRACTION) * (work_below(to) - work_below(from))
             }
             SubtaskRequest::Volumes(_) => total * VOLUMES_FRACTION,
-            SubtaskRequest::Origins { part: OriginsPart::Slab { .. }, .. } => total / f64::from(count.max(1)),
             SubtaskRequest::Origins { part: OriginsPart::Coarse, .. } => total * COARSE_FRACTION,
         }
     }

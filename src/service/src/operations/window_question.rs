@@ -149,3 +149,32 @@ fn check_range(
         faults.add("/to", "must be greater than from");
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use serde_json::json;
+
+    use super::CheckedWindow;
+    use crate::operations::machine_registry::MachineRegistry;
+    use crate::operations::question::Question;
+    use crate::operations::toolpath_request::read_fields;
+    use crate::wire::parse::parse_body;
+    use crate::wire::window::WindowBody;
+
+    #[test]
+    fn a_worker_reads_the_same_question_from_its_text() {
+        let body =
+            json!({"program": {"points": [[0, 0, 300], [10, 0, 300]]}, "parameter": "setup.x", "from": 0.1,
+                          "to": 20, "setup": {"x": 5, "y": 1}})
+            .to_string();
+        let request: WindowBody = parse_body(body.as_bytes()).unwrap();
+        let (mut checked, source) = read_fields(&request.toolpath, &MachineRegistry::default()).unwrap();
+        let fields = CheckedWindow::new(&request.more, &mut checked).unwrap();
+        let question = Question::Window(Box::new(fields.question(checked.question(source.id()))));
+        let read = Question::from_text(&question.to_text(None).unwrap(), question.id()).unwrap();
+        assert_eq!(read.id(), question.id());
+        let Question::Window(read) = read else { unreachable!("the kind is in the text") };
+        assert_eq!((read.range, read.toolpath.request.setup.x), ([0.1, 20.0], 0.1));
+    }
+}

@@ -50,6 +50,7 @@ pub(crate) struct JacobianObject {
     /// drives has them.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<GreatestSpeedsObject>)]
+    #[expect(clippy::option_option, reason = "absent without drives, null at a singularity")]
     pub greatest_speeds: Option<Option<GreatestSpeedsObject>>,
     /// Error of the tool end for a small error of each joint; null at a parallel singularity.
     pub error_amplification: Option<ErrorAmplification>,

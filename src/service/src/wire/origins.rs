@@ -20,7 +20,7 @@ pub(crate) type OriginsBody = ToolpathWith<OriginsFields>;
 #[derive(Clone, Debug, Default, ToSchema)]
 pub(crate) struct OriginsFields {
     /// Step of the grid from which the surface is made, mm. The default is 20.
-    #[schema(minimum = 1, maximum = 1000)]
+    #[schema(minimum = 1, maximum = 1000, nullable = false)]
     pub cell: Option<f64>,
 }
 

@@ -52,27 +52,27 @@ impl MoreFields for PlacementFields {
 
 /// The free parameters of a placement, each with `[least, greatest]`; the others keep the value of the request.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct FreeParameters {
     /// x of the program's frame, mm.
-    #[serde(rename = "setup.x", skip_serializing_if = "Option::is_none")]
-    #[schema(inline, nullable = false)]
+    #[serde(default, rename = "setup.x", skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Vec<f64>, min_items = 2, max_items = 2)]
     pub x: Option<Pair>,
     /// y, mm.
-    #[serde(rename = "setup.y", skip_serializing_if = "Option::is_none")]
-    #[schema(inline, nullable = false)]
+    #[serde(default, rename = "setup.y", skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Vec<f64>, min_items = 2, max_items = 2)]
     pub y: Option<Pair>,
     /// z, mm.
-    #[serde(rename = "setup.z", skip_serializing_if = "Option::is_none")]
-    #[schema(inline, nullable = false)]
+    #[serde(default, rename = "setup.z", skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Vec<f64>, min_items = 2, max_items = 2)]
     pub z: Option<Pair>,
     /// Rotation of the program's frame about z, degrees.
-    #[serde(rename = "setup.c", skip_serializing_if = "Option::is_none")]
-    #[schema(inline, nullable = false)]
+    #[serde(default, rename = "setup.c", skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Vec<f64>, min_items = 2, max_items = 2)]
     pub c: Option<Pair>,
     /// The length of the tool, mm. The request must state one number for every tool.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(inline, nullable = false)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Vec<f64>, min_items = 2, max_items = 2)]
     pub tool_length: Option<Pair>,
 }
 
@@ -89,50 +89,50 @@ impl FreeParameters {
 /// The distances to keep, in the units of the margins: mm, degrees, or none. Constraints that are not listed must only
 /// hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct Reserve {
     /// From the ends of the sliders' strokes, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub stroke: Option<f64>,
     /// Height that the length of each leg leaves, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub leg_length: Option<f64>,
     /// From serial singularities, a cosine.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub serial_singularity: Option<f64>,
     /// From parallel singularities, a pure number.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub parallel_singularity: Option<f64>,
     /// From the cones of the joints at the sliders, degrees.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub slider_joint: Option<f64>,
     /// From the cones of the joints at the platform, degrees.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub platform_joint: Option<f64>,
     /// From crossed rods of leg I, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub rod_crossing: Option<f64>,
     /// Between rods, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub rod_interference: Option<f64>,
     /// From the ends of the range of theta1, degrees.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub tilt: Option<f64>,
     /// From the ends of the range of theta2, degrees.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub rotary: Option<f64>,
     /// From the least height over the table, mm. Only where the table is checked.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false, exclusive_minimum = 0)]
     pub table_clearance: Option<f64>,
 }

@@ -214,7 +214,7 @@ impl PlannedPlaces {
             let clearance = Clearance::of(machine, self.table_clearance, length, self.tool_radius);
             all.clear();
             margin_rows(machine, &rows, clearance.as_ref(), Registers::Widest, |_, margins| {
-                all.push(margins)
+                all.push(margins);
             });
             let mut next = all.iter();
             for (i, error) in errors.iter().enumerate() {

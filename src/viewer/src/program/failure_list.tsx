@@ -3,8 +3,8 @@
 import { useState } from "preact/hooks";
 import type { ToolpathReport } from "verne-client";
 import { changeWords, count, failureSentence } from "./failure_words";
-import { goToFailure, heal } from "./failures";
-import { activity } from "./program_state";
+import { goToFailure, heal, rewind } from "./failures";
+import { activity, settings } from "./program_state";
 
 const FEW = 5;
 
@@ -26,6 +26,11 @@ export function FailureList({ report }: { report: ToolpathReport }) {
               {failureSentence(failure)}
             </button>
             {failure.text && <code title={failure.text}>{failure.text}</code>}
+            {failure.constraint === "rotary" && settings.value.onLimit === "fail" && (
+              <button type="button" class="small" disabled={busy} onClick={rewind}>
+                retract there and turn the table back
+              </button>
+            )}
             {failure.change && (
               <button type="button" class="small" disabled={busy} onClick={() => heal(failure)}>
                 {changeWords(failure.change)}

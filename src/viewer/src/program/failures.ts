@@ -39,6 +39,11 @@ export function heal({ change: proposed, at }: Failure): void {
   if (proposed) settings.value = changed(settings.peek(), proposed, at.tool_length);
 }
 
+/** Lets the tool leave the part where the table is at the end of its range. */
+export function rewind(): void {
+  settings.value = { ...settings.peek(), onLimit: "retract" };
+}
+
 function nearestRow({ count, line, tip }: RowColumns, at: Failure["at"]): number {
   let [best, least] = [0, Infinity];
   for (let row = 0; row < count; row += 1) {

@@ -64,7 +64,11 @@ export function planAgain(): void {
 export async function cancelPlanning(): Promise<void> {
   const id = job;
   stop.abort();
-  if (id) await verne.cancel(id);
+  try {
+    if (id) await verne.cancel(id);
+  } catch (thrown) {
+    trouble.value = inWords(thrown);
+  }
 }
 
 export function forgetPlan(): void {

@@ -35,9 +35,9 @@ class GivenSetup:
 class PlacementGuarantee:
     """How sure it is that no other set-up within the bounds is better."""
 
-    kind: str
+    kind: str = "best_of_starts"
     """``best_of_starts``: the best that searches from many set-ups found."""
-    starts: int
+    starts: int | None = None
     """Number of searches."""
 
 

@@ -103,7 +103,7 @@ def origins(
     format: ProgramFormat | None = None,
     **options: Unpack[ToolpathOptions],
 ) -> Operation[Submission[OriginsSummary]]:
-    """Submits the computation of the region of origins: all x, y, z of ``setup`` at which the machine follows a program.
+    """Submits the computation of all origins of ``setup`` at which the machine can follow a program: their region.
 
     Args:
         source: A program as for ``toolpath``.

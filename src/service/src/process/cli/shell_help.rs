@@ -26,7 +26,7 @@ enum Shell {
     Fish,
     /// PowerShell.
     #[value(name = "powershell")]
-    PowerShell,
+    Power,
 }
 
 impl CompletionsCommand {
@@ -38,7 +38,7 @@ impl CompletionsCommand {
             Shell::Bash => generate(Bash, &mut command, "verne", &mut script),
             Shell::Zsh => generate(Zsh, &mut command, "verne", &mut script),
             Shell::Fish => generate(Fish, &mut command, "verne", &mut script),
-            Shell::PowerShell => generate(PowerShell, &mut command, "verne", &mut script),
+            Shell::Power => generate(PowerShell, &mut command, "verne", &mut script),
         }
         out.write_all(&script).map_err(|error| format!("cannot write the completions: {error}"))
     }

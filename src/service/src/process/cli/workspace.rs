@@ -75,15 +75,11 @@ impl WorkspaceCommand {
             None => workspace.summary,
         };
         drop(progress);
-        match self.output {
-            Some(path) => {
-                std::fs::write(&path, bytes).map_err(|error| format!("{}: {error}", path.display()))
-            }
-            None => {
-                let answer: Value = parse_body(&bytes).map_err(with_flags)?;
-                self.format.write(&answer, workspaces::workspace, out, terminal)
-            }
+        if let Some(path) = self.output {
+            return std::fs::write(&path, bytes).map_err(|error| format!("{}: {error}", path.display()));
         }
+        let answer: Value = parse_body(&bytes).map_err(with_flags)?;
+        self.format.write(&answer, workspaces::workspace, out, terminal)
     }
 
     /// The format that the extension of a file names.

@@ -57,7 +57,7 @@ impl<'a> Membership<'a> {
     /// Whether every cut keeps the limits on one of its preimages. `hint` is the block of places that is examined
     /// first: the one that has excluded an origin nearby.
     pub(super) fn contains(&self, origin: Point, hint: &mut usize) -> bool {
-        if self.admitted.iter().any(|admitted| *admitted == [false; 2]) {
+        if self.admitted.contains(&[false; 2]) {
             return false;
         }
         let set_up = SetUp { origin, ..self.places.set_up };

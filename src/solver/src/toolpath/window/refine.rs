@@ -43,9 +43,9 @@ pub(super) fn refined(
         let sample = examine(value)?;
         count += 1;
         if sample.is_feasible == a.is_feasible {
-            a = sample
+            a = sample;
         } else {
-            b = sample
+            b = sample;
         }
         reach *= 0.5;
     }

@@ -1,5 +1,7 @@
 //! Examined values of the parameter, closer where the verdict may change between them.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use rayon::prelude::*;
 
 use super::sample::{Found, Sample};
@@ -8,8 +10,8 @@ use crate::workspace::Observer;
 
 /// Factor by which the worst margin may change faster than between the values around.
 const SAFETY: f64 = 2.0;
-/// Number of rounds after which the progress is that of the whole scan.
-const ROUNDS: f64 = 14.0;
+/// Number of rounds after which the progress is a half.
+const ROUNDS: f64 = 4.0;
 
 /// How closely a range is examined.
 pub(super) struct ScanSettings {
@@ -28,16 +30,26 @@ pub(super) fn scan(
     observer: &dyn Observer,
     examine: impl Fn(f64) -> Result<Sample, PlanError> + Sync,
 ) -> Result<Found, PlanError> {
-    let all = |values: &[f64]| values.par_iter().map(|value| examine(*value)).collect::<Result<Vec<_>, _>>();
+    let all = |values: &[f64], round: f64| {
+        let done = AtomicU32::new(0);
+        let examined = values.par_iter().map(|value| {
+            let sample = examine(*value)?;
+            let done = f64::from(done.fetch_add(1, Ordering::Relaxed) + 1);
+            #[allow(clippy::cast_precision_loss, reason = "progress")]
+            let rounds = round + done / values.len() as f64;
+            observer.progress(rounds / (rounds + ROUNDS));
+            Ok(sample)
+        });
+        examined.collect::<Result<Vec<Sample>, PlanError>>()
+    };
     let count = settings.intervals;
     let begin: Vec<_> = (0..=count)
         .map(|i| if i == count { to } else { from + (to - from) * f64::from(i) / f64::from(count) })
         .collect();
-    let mut samples = all(&begin)?;
+    let mut samples = all(&begin, 0.0)?;
     let least = settings.least * (to - from);
     let mut round = 1.0;
     loop {
-        observer.progress((round / ROUNDS).min(1.0));
         let open = open_intervals(&samples);
         let widths = open.iter().map(|[a, b]| b - a);
         let middles = open.iter().filter(|[a, b]| b - a > least).map(|[a, b]| 0.5 * (a + b));
@@ -48,7 +60,7 @@ pub(super) fn scan(
             let resolution = widths.fold(least, f64::max);
             return Ok(Found { samples, resolution });
         }
-        samples.extend(all(&middles)?);
+        samples.extend(all(&middles, round)?);
         samples.sort_by(|a, b| a.value.total_cmp(&b.value));
         round += 1.0;
     }

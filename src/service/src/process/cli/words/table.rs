@@ -27,18 +27,18 @@ impl Table {
         cells: impl IntoIterator<Item = impl AsRef<str>>,
     ) -> Self {
         let cells = cells.into_iter().map(|cell| printable(cell.as_ref())).collect();
-        self.column(name.into(), Alignment::Left, cells)
+        self.column(&name.into(), Alignment::Left, cells)
     }
 
     /// Adds a column of numbers, aligned at the decimal point.
     pub(crate) fn numbers(self, name: &str, cells: impl IntoIterator<Item = Option<f64>>) -> Self {
         let cells = cells.into_iter().map(|cell| cell.map(decimal).unwrap_or_default()).collect();
-        self.column(name.to_owned(), Alignment::Right, cells)
+        self.column(name, Alignment::Right, cells)
     }
 
-    fn column(mut self, name: String, alignment: Alignment, cells: Vec<String>) -> Self {
+    fn column(mut self, name: &str, alignment: Alignment, cells: Vec<String>) -> Self {
         if cells.iter().any(|cell| !cell.is_empty()) {
-            self.0.push(Column { name: printable(&name), alignment, cells });
+            self.0.push(Column { name: printable(name), alignment, cells });
         }
         self
     }
@@ -96,7 +96,7 @@ impl Column {
 /// A line without spaces at its end.
 fn joined(cells: impl Iterator<Item = String>) -> String {
     let gap = " ".repeat(GAP);
-    let line: String = cells.map(|cell| format!("{gap}{cell}")).collect();
+    let line = cells.fold(String::new(), |line, cell| line + &gap + &cell);
     format!("{}\n", line.trim_end())
 }
 
