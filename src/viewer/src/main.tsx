@@ -18,9 +18,10 @@ async function start(): Promise<void> {
   if (root) render(<Page />, root);
   const first = saidByAddress().then(follow);
   void listMachines().catch(() => undefined);
-  await first;
+  // The workspace does not wait for the position: at home it is asked for as soon as the machine is known.
   keepWorkspace();
   keepJointWays();
+  await first;
   keepHistory();
   keepAddress();
   onNewAddress((said) => void follow(said));

@@ -27,7 +27,7 @@ const KINDS = [
 export function WorkspacePanel() {
   const asked = wanted.value;
   const found = workspace.value;
-  const { phi1, phi2 } = workspaceAngles.value;
+  const { phi1, phi2 } = workspaceAngles.value ?? asked;
   const pin = (angles: { phi1?: number; phi2?: number }) =>
     changeWorkspace({ phi1, phi2, ...angles, follows: false });
   return (

@@ -36,7 +36,10 @@ export const question = computed(() => {
   const { kind, tolerance } = wanted.value;
   const request: WorkspaceRequest = { machine: known.ref, kind, tolerance };
   if (kind !== "platform") request.tool_length = tool.value;
-  if (kind === "part") Object.assign(request, { ...workspaceAngles.value, ...overTable.value });
+  if (kind === "part") {
+    if (!workspaceAngles.value) return null;
+    Object.assign(request, { ...workspaceAngles.value, ...overTable.value });
+  }
   return JSON.stringify(request);
 });
 

@@ -76,11 +76,14 @@ export const wantedJoints = computed(() => {
   return position.value?.joints ?? machine.value?.home.joints ?? null;
 });
 
-/** The tool's angles on the part for which a workspace is wanted, degrees. */
+/** The tool's angles on the part for which a workspace is wanted, degrees; null while it is not known where it stands. */
 export const workspaceAngles = computed(() => {
-  const { follows, phi1, phi2 } = view.value.workspace;
+  const { joints, workspace } = view.value;
+  const { follows, phi1, phi2 } = workspace;
   if (!follows) return { phi1, phi2 };
   const part = position.value?.solution.part;
+  // At home, without joints of a link, both are zero: nobody waits for the answer.
+  if (!part && joints) return null;
   return { phi1: thousandth(part?.phi1 ?? 0), phi2: thousandth(part?.phi2 ?? 0) };
 });
 
