@@ -80,7 +80,9 @@ fn compare_margins(machine: &Machine, rows: &[(Posture, Option<TableAngles>)]) {
     let mut columns = PostureColumns::new();
     rows.iter().for_each(|(posture, table)| columns.push(posture, *table));
     for clearance in [None, Some(&CLEARANCE)] {
-        let margins = |posture, table| Margins::above_table(machine, posture, table, clearance);
+        let margins = |posture: &Posture, table: Option<TableAngles>| {
+            Margins::above_table(machine, posture, table, clearance)
+        };
         compare(
             machine,
             rows,
