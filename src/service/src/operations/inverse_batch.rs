@@ -116,7 +116,9 @@ impl PoseBatch {
             let answered = answer_continuous(self.setting(), PART_POSE, rows, &mut standing);
             self.standing = standing;
             let jumps = answered.iter().map(|row| row.jump).collect();
-            answered.into_iter().for_each(|row| columns.push_pose(row));
+            for row in answered {
+                columns.push_pose(row);
+            }
             return AnsweredPoses { columns, jumps: Some(jumps) };
         }
         let (setting, frame) = (self.setting(), self.frame);

@@ -50,7 +50,9 @@ pub(crate) fn print(machine: &Machine, inputs: &Inputs, rounds: usize) {
         });
     };
     let mut columns = PostureColumns::new();
-    rows.iter().for_each(|(posture, table)| columns.push(posture, *table));
+    for (posture, table) in rows {
+        columns.push(posture, *table);
+    }
     // The postures lie by coordinate, as the kernels of solutions leave them.
     let margins = |_: &[(Posture, Option<TableAngles>)], registers| {
         margin_rows(machine, black_box(&columns), None, registers, |_, margins| {
@@ -59,7 +61,9 @@ pub(crate) fn print(machine: &Machine, inputs: &Inputs, rounds: usize) {
     };
     let worst = |rows: &[(Posture, Option<TableAngles>)], registers| {
         let mut columns = PostureColumns::new();
-        rows.iter().for_each(|(posture, table)| columns.push(posture, *table));
+        for (posture, table) in rows {
+            columns.push(posture, *table);
+        }
         worst_margin_rows(machine, &columns, None, registers, |_, margin, feasible| {
             black_box((&margin, feasible));
         });
