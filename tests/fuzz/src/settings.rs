@@ -38,7 +38,7 @@ fn read(path: &Path, command: &str) -> Result<String, String> {
     Cli::read(words.map(OsString::from)).map_err(|error| error.to_string())?.run(
         &mut out,
         &mut std::io::sink(),
-        false,
+        None,
     )?;
     Ok(String::from_utf8(out).unwrap())
 }

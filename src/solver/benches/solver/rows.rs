@@ -50,7 +50,7 @@ pub(crate) fn print(machine: &Machine, inputs: &Inputs, rounds: usize) {
         });
     };
     let mut columns = PostureColumns::new();
-    for (posture, table) in rows {
+    for (posture, table) in &rows {
         columns.push(posture, *table);
     }
     // The postures lie by coordinate, as the kernels of solutions leave them.

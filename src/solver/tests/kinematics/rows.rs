@@ -78,7 +78,9 @@ fn compare_sliders(machine: &Machine, rows: &[[f64; 3]]) {
 
 fn compare_margins(machine: &Machine, rows: &[(Posture, Option<TableAngles>)]) {
     let mut columns = PostureColumns::new();
-    rows.iter().for_each(|(posture, table)| columns.push(posture, *table));
+    for (posture, table) in &rows {
+        columns.push(posture, *table);
+    }
     for clearance in [None, Some(&CLEARANCE)] {
         let margins = |posture: &Posture, table: Option<TableAngles>| {
             Margins::above_table(machine, posture, table, clearance)
@@ -227,7 +229,9 @@ fn rows_of_an_unlimited_rotary_table_have_no_margin_of_its_range() {
         postures(&mut Random::new(0x0005_EED9), &machine, 40).into_iter().map(|row| (row, table)).collect();
     compare_margins(&machine, &rows);
     let mut columns = PostureColumns::new();
-    rows.iter().for_each(|(posture, table)| columns.push(posture, *table));
+    for (posture, table) in &rows {
+        columns.push(posture, *table);
+    }
     margin_rows(&machine, &columns, None, Registers::Widest, |_, block| {
         assert!(block.row(0).tilt.is_some() && block.row(0).rotary.is_none());
     });

@@ -108,11 +108,13 @@ pub(crate) fn contour() -> Clamped {
 
 const GIVEN: SetUp = SetUp { origin: [20.0, -30.0, 280.0], turn: 0.0, tool_length: 100.0 };
 
+/// Free parameters with their bounds, and reserves.
+type Case<'a> = (&'a [(usize, [f64; 2])], &'a [(Constraint, f64)]);
+
 #[test]
 fn small_programs_have_the_reserve_that_a_refined_grid_finds() {
     let machine = Machine::verne();
     let degrees = f64::to_radians;
-    type Case<'a> = (&'a [(usize, [f64; 2])], &'a [(Constraint, f64)]);
     let cases: [Case<'_>; 5] = [
         (&[(2, [0.0, 800.0])], &[(Constraint::Stroke, 20.0)]),
         (
