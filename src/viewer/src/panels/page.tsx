@@ -17,6 +17,7 @@ import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
 import { MeasurementCaption } from "./measurement_caption";
 import { Notices } from "./notices";
+import { FamilySection } from "../families/entry";
 import { openProgramFile, ProgramDialogs, ProgramDock, ProgramSection, showPathIn } from "../program/entry";
 import { PositionsPanel } from "./positions";
 import { SceneTools } from "./scene_tools";
@@ -62,6 +63,7 @@ export function Page() {
           <ProgramSection />
           <MarginsPanel />
           <WorkspacePanel />
+          <FamilySection />
         </div>
         <ProgramDock />
       </main>
