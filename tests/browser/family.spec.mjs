@@ -49,6 +49,7 @@ test("the volume over phi1, by keyboard", async ({ page }) => {
   await openFamily(page, "#tolerance=5");
   await page.getByRole("radio", { name: "φ₁", exact: true }).focus();
   await page.keyboard.press("Space");
+  await expect(page.getByLabel("First phi 1, degrees")).toHaveValue("-40.0");
   await type(page, "First phi 1, degrees", "20");
   await type(page, "Last phi 1, degrees", "-20");
   await type(page, "Workspaces", "3");

@@ -60,7 +60,11 @@ export function FamilyPanel() {
 }
 
 function RangeFields({ over, range }: { over: Parameter; range: Range }) {
-  const set = (part: Partial<Range>) => (ranges.value = { ...ranges.peek(), [over]: { ...range, ...part } });
+  // Read when it is set: two fields can change before the next picture.
+  const set = (part: Partial<Range>) => {
+    const now = ranges.peek();
+    ranges.value = { ...now, [over]: { ...now[over], ...part } };
+  };
   const length = over === "tool_length";
   const ends = length
     ? { unit: "mm", min: 0, max: 1e7, step: 10 }
