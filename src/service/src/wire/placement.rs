@@ -212,7 +212,7 @@ pub(crate) struct PlacementAnswer {
     pub links: PlacementLinks,
 }
 
-/// What the set-up of the request gives.
+/// The request's own set-up.
 #[derive(Clone, Copy, Debug, Serialize, ToSchema)]
 pub(crate) struct GivenSetup {
     /// Whether the machine can run the program in it.

@@ -188,14 +188,14 @@ pub(crate) struct WindowIntervalObject {
     pub from: f64,
     /// The greatest value.
     pub to: f64,
-    /// What ends it below, and above.
+    /// Its lower and its upper end.
     #[schema(value_type = Vec<WindowEndObject>, min_items = 2, max_items = 2)]
     pub ends: [WindowEndObject; 2],
     /// Greatest distance of two values in the interval, one after the other, with which the whole program was planned.
     pub step: f64,
 }
 
-/// What ends an interval: `limit`, the first limit that breaks outside; `bound`, the range of the request.
+/// The end of an interval: `limit`, the first limit that breaks outside; `bound`, the range of the request.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[schema(as = WindowEnd)]

@@ -24,7 +24,7 @@ class FrameSetup:
 
 @dataclass(frozen=True, slots=True)
 class GivenSetup:
-    """What the set-up of the request gives."""
+    """The own set-up of the request."""
 
     verdict: str
     within_bounds: bool
@@ -56,7 +56,7 @@ class ActiveMargin:
 
 @dataclass(frozen=True, slots=True)
 class WindowEnd:
-    """What ends an interval of a window."""
+    """The end of an interval of a window."""
 
     kind: str
     """``limit``: the limit that breaks first outside; ``bound``: the range of the request."""
