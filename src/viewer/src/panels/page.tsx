@@ -17,6 +17,8 @@ import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
 import { MeasurementCaption } from "./measurement_caption";
 import { Notices } from "./notices";
+import { DexterityCaption, DexteritySection, showLayersIn } from "../dexterity/entry";
+import { FamilySection } from "../families/entry";
 import { openProgramFile, ProgramDialogs, ProgramDock, ProgramSection, showPathIn } from "../program/entry";
 import { PositionsPanel } from "./positions";
 import { SceneTools } from "./scene_tools";
@@ -62,6 +64,8 @@ export function Page() {
           <ProgramSection />
           <MarginsPanel />
           <WorkspacePanel />
+          <FamilySection />
+          <DexteritySection />
         </div>
         <ProgramDock />
       </main>
@@ -93,6 +97,7 @@ function Scene() {
     if (kind !== "none") {
       const made = new World(canvas.current, labels.current, kind);
       showPathIn(made.stage);
+      showLayersIn(made.stage);
       setWorld(made);
     } else setTrouble("This browser draws no 3D (WebGL 2): the figures beside remain.");
   }, []);
@@ -108,6 +113,7 @@ function Scene() {
       <div ref={labels} class="labels" aria-hidden="true" />
       <div class="over">
         <WorkspaceCaption />
+        <DexterityCaption />
         <MeasurementCaption />
         <Notices />
       </div>

@@ -15,6 +15,7 @@ import {
 import { cubicMetres, number, squareMetres } from "../words/numbers";
 import { Downloads } from "./downloads";
 import { Choice, NumberField } from "./fields";
+import { JobProgress } from "./job_progress";
 import { Legend } from "./legend";
 import { SectionControls } from "./section";
 
@@ -140,29 +141,12 @@ function TableFields() {
 function Progress() {
   const now = computing.value;
   const note = workspaceNote.value;
-  if (now) {
-    const words = { waiting: "Computing …", queued: "Waiting for its turn …", running: "Computing …" }[
-      now.state
-    ];
+  if (now)
     return (
-      <div class="progress" data-testid="progress">
-        <label>
-          <span>
-            {words}
-            {now.progress !== null && now.job ? ` ${number(now.progress * 100, 0)} %` : ""}
-          </span>
-          <progress
-            max={1}
-            {...(now.progress === null ? {} : { value: now.progress })}
-            aria-label="Progress of the workspace"
-          />
-        </label>
-        <button type="button" class="small" onClick={() => void cancelComputation()}>
-          Cancel
-        </button>
+      <div data-testid="progress">
+        <JobProgress now={now} name="the workspace" cancel={() => void cancelComputation()} />
       </div>
     );
-  }
   if (!note) return null;
   return (
     <div class="progress">
