@@ -2,6 +2,8 @@
 
 import { effect, type ReadonlySignal } from "@preact/signals";
 import type { Stage } from "../scene/stage";
+import { forgetWithProgram } from "./inquiry";
+import { placing } from "./placement";
 import { keepPlan } from "./planning";
 import { keepPlaying } from "./player";
 import { keepProgramInView } from "./program_view";
@@ -18,6 +20,7 @@ export function begin(stage: ReadonlySignal<Stage | null>): void {
   keepPlan();
   keepPlaying();
   keepProgramInView();
+  forgetWithProgram(placing);
   effect(() => {
     const scene = stage.value;
     if (scene) new PathLines(scene);
