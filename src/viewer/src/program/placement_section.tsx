@@ -8,8 +8,8 @@ import { freedoms, givenRequest, placing, standing, usePlacement } from "./place
 import { usualFreedoms } from "./placement_bounds";
 import { PlacementForm } from "./placement_form";
 import { activeWords, guaranteeWords, reserveWords } from "./placement_words";
-import { seekLine } from "./player";
-import { settings, shownLine } from "./program_state";
+import { showLine } from "./player";
+import { settings } from "./program_state";
 
 /** Margins that are listed. */
 const MOST = 6;
@@ -37,7 +37,7 @@ function Answer({ answer }: { answer: Placement }) {
   const state = standing.value;
   const runs = answer.verdict === "ok";
   return (
-    <section aria-label="The set-up that was found" data-testid="placement" class="found">
+    <div role="region" aria-label="The set-up that was found" data-testid="placement" class="found">
       <Comparison answer={answer} />
       {state === "outdated" && (
         <p class="verdict">
@@ -65,7 +65,7 @@ function Answer({ answer }: { answer: Placement }) {
       </p>
       <Limiting answer={answer} />
       <p class="hint">{guaranteeWords(answer.guarantee, answer.rows, answer.given.within_bounds)}</p>
-    </section>
+    </div>
   );
 }
 
@@ -124,7 +124,7 @@ function Limiting({ answer: { active } }: { answer: Placement }) {
       <ol class="failures limiting" aria-labelledby="limiting">
         {active.slice(0, MOST).map((margin) => (
           <li key={`${margin.line} ${margin.constraint} ${margin.element}`}>
-            <button type="button" class="failure-line" onClick={() => show(margin.line)}>
+            <button type="button" class="failure-line" onClick={() => showLine(margin.line)}>
               {activeWords(margin)}
             </button>
           </li>
@@ -133,10 +133,4 @@ function Limiting({ answer: { active } }: { answer: Placement }) {
       {active.length > MOST && <p class="hint">… and {active.length - MOST} other margins.</p>}
     </>
   );
-}
-
-/** Moves the machine to a line, or to the last one before it that the machine reaches; the text shows the line. */
-function show(line: number): void {
-  seekLine(line);
-  shownLine.value = line;
 }

@@ -8,6 +8,7 @@ import { keepPlan } from "./planning";
 import { keepPlaying } from "./player";
 import { keepProgramInView } from "./program_view";
 import { PathLines } from "./path_lines";
+import { windows } from "./windows";
 import "../style/program.css";
 
 export { Dock } from "./dock";
@@ -21,6 +22,7 @@ export function begin(stage: ReadonlySignal<Stage | null>): void {
   keepPlaying();
   keepProgramInView();
   forgetWithProgram(placing);
+  for (const { inquiry } of Object.values(windows)) forgetWithProgram(inquiry);
   effect(() => {
     const scene = stage.value;
     if (scene) new PathLines(scene);

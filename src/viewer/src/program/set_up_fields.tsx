@@ -3,6 +3,7 @@
 import { Choice, NumberField } from "../panels/fields";
 import { settings, type OpenProgram } from "./program_state";
 import { toolNumbers, type SetUp, type Settings, type ToolLengths } from "./settings";
+import { WindowBars } from "./window_bars";
 
 /** The length that is offered where a program states none, mm. */
 const USUAL = 100;
@@ -29,6 +30,7 @@ export function SetUpFields({ open }: { open: OpenProgram }) {
           </fieldset>
         ))}
         <Lengths open={open} lengths={now.lengths} before={now.toolBefore} />
+        <WindowBars open={open} />
       </details>
       <details>
         <summary>Tolerances and motion</summary>
