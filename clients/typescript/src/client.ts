@@ -90,7 +90,10 @@ export class Verne {
 
   /** The values of a parameter with which the machine can run a program. */
   async window(body: WindowRequest, options: Wait = {}): Promise<Window> {
-    return this.settled(unwrap(await this.api.POST("/toolpath/window", { body, ...asked(options) })), options);
+    return this.settled(
+      unwrap(await this.api.POST("/toolpath/window", { body, ...asked(options) })),
+      options,
+    );
   }
 
   /** The set-up in which a program keeps the greatest distance from the limits. */
@@ -103,7 +106,10 @@ export class Verne {
 
   /** The summary of the region of origins of a program; `links.mesh` is its surface. */
   async origins(body: OriginsRequest, options: Wait = {}): Promise<OriginsSummary> {
-    return this.settled(unwrap(await this.api.POST("/toolpath/origins", { body, ...asked(options) })), options);
+    return this.settled(
+      unwrap(await this.api.POST("/toolpath/origins", { body, ...asked(options) })),
+      options,
+    );
   }
 
   /** A file of a stored result, such as `/workspace/ID/mesh.glb`. If the service evicted it, a job computes it again. */
