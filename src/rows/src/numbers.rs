@@ -14,7 +14,7 @@ use arrow_schema::DataType;
 #[derive(Clone, Copy, Debug)]
 pub struct Numbers<'a>(pub(crate) &'a Float64Array);
 
-impl Numbers<'_> {
+impl<'a> Numbers<'a> {
     /// The number of a row, which may be a NaN; `None` where the row has none.
     ///
     /// # Panics
@@ -35,7 +35,7 @@ impl Numbers<'_> {
     /// let incomplete = Column::numbers("x", [Some(1.0), None]);
     /// assert_eq!(incomplete.as_numbers().and_then(|numbers| numbers.all()), None);
     /// ```
-    pub fn all(&self) -> Option<&[f64]> {
+    pub fn all(&self) -> Option<&'a [f64]> {
         (self.0.null_count() == 0).then(|| &self.0.values()[..])
     }
 }

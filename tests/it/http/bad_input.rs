@@ -89,7 +89,7 @@ async fn a_problem_points_to_the_invalid_numbers_of_a_machine() {
         ("/limits/slider_cone", json!(0)),
         ("/limits/serial_margin", json!(1)),
         ("/geometry/L1", json!(-1050)),
-        ("/geometry/R1", json!(75)),
+        ("/geometry/R1", json!(74)),
         ("/geometry/rod_radius", json!(-1)),
         ("/table/da", json!(1e9)),
         ("/name", json!("")),

@@ -8,7 +8,8 @@ use verne_solver::workspace::Binding;
 
 use crate::wire::constraint::{ConstraintName, ElementName};
 
-/// The share of white in the colour of the last element of a constraint that seldom bounds a workspace; the first has none.
+/// The share of white in the colour of the last element of a constraint that seldom bounds a workspace. The first
+/// element has none.
 const LIGHTEST: f64 = 0.5;
 
 /// A tag for each triangle, and the names and colours of the tags, such as `stroke slider1.max`. Only constraints that
@@ -107,8 +108,8 @@ mod tests {
 
     type Matrix = [[f64; 3]; 3];
 
-    /// What people see: all of them the first, then those without red, green or blue cones. Linear sRGB to linear sRGB, from
-    /// Machado, Oliveira and Fernandes 2009, DOI 10.1109/TVCG.2009.113, severity 1.
+    /// Colours as people see them: with all cones, then without the red, green or blue ones. Linear sRGB to linear
+    /// sRGB, from Machado, Oliveira and Fernandes 2009, DOI 10.1109/TVCG.2009.113, severity 1.
     const SIGHTS: [Matrix; 4] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         [

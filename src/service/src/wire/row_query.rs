@@ -56,7 +56,7 @@ pub(crate) struct IkRowsQuery {
     pub tool_radius: f64,
     /// Columns of the Jacobian that the answer has. `condition`: det_p, condition_number and, if the machine has
     /// drives, speed_x, speed_y, speed_z. `matrix`: j11 to j55, too. Only frame `part` has it.
-    #[arg(long)]
+    #[arg(id = "jacobian_columns", long)]
     #[param(nullable = false)]
     pub jacobian: Option<JacobianColumns>,
     /// Length by which the Jacobian's lengths are divided before its condition number is computed, mm. Only with
@@ -129,7 +129,7 @@ pub(crate) struct FkRowsQuery {
     pub tool_radius: f64,
     /// Columns of the Jacobian that the answer has. `condition`: det_p, condition_number and, if the machine has
     /// drives, speed_x, speed_y, speed_z. `matrix`: j11 to j55, too. Needs theta1 and theta2.
-    #[arg(long)]
+    #[arg(id = "jacobian_columns", long)]
     #[param(nullable = false)]
     pub jacobian: Option<JacobianColumns>,
     /// Length by which the Jacobian's lengths are divided before its condition number is computed, mm. Only with

@@ -78,7 +78,7 @@ fn compare_sliders(machine: &Machine, rows: &[[f64; 3]]) {
 
 fn compare_margins(machine: &Machine, rows: &[(Posture, Option<TableAngles>)]) {
     let mut columns = PostureColumns::new();
-    for (posture, table) in &rows {
+    for (posture, table) in rows {
         columns.push(posture, *table);
     }
     for clearance in [None, Some(&CLEARANCE)] {
