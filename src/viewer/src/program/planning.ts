@@ -31,7 +31,7 @@ const REST = 250;
 const WAIT = 1;
 
 /** The question as text, so that equal ones are equal. */
-const question = computed(() => {
+export const question = computed(() => {
   const [open, known] = [program.value, machine.value];
   if (!open || !known) return null;
   return JSON.stringify(toolpathRequest(open.summary.id, known.ref, settings.value, overTable.value));

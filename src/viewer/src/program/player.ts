@@ -8,7 +8,7 @@ import { pass } from "../state/history";
 import { moveTo } from "../state/motion";
 import { change, machine, overTable, position, refusal, tool } from "../state/store";
 import { postureAt, type Posture } from "./posture";
-import { currentRow, duration, loop, now, plan, playing, program, speed } from "./program_state";
+import { currentRow, duration, loop, now, plan, playing, program, shownLine, speed } from "./program_state";
 import { instantAt, rowOfLine } from "./timeline";
 import { wakeOn } from "./wake_on";
 
@@ -38,6 +38,11 @@ export function seekRow(row: number): void {
 export function seekLine(line: number): void {
   const rows = plan.peek()?.rows;
   if (rows) seekRow(rowOfLine(rows, line));
+}
+/** Moves the machine to a line, or to the last one before it that it reaches; the text shows the line. */
+export function showLine(line: number): void {
+  seekLine(line);
+  shownLine.value = line;
 }
 
 /** To the next row, or to the one before. Rows at the same time count as one. */

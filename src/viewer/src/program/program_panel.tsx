@@ -7,6 +7,7 @@ import { FailureList } from "./failure_list";
 import { FORMAT_NAMES, type Format } from "./formats";
 import { cancelSending, unsent } from "./open_program";
 import { cancelPlanning, outdated, planAgain } from "./planning";
+import { PlacementSection } from "./placement_section";
 import { ProgramDownloads } from "./program_downloads";
 import {
   activity,
@@ -31,6 +32,7 @@ export function ProgramPanel() {
       <Activity />
       {open && found && (outdated.value ? <Outdated /> : <Verdict found={found} />)}
       {found && <FailureList report={found.report} />}
+      {open && found && <PlacementSection key={open.summary.id} />}
       {open && <Figures open={open} found={found} />}
       {open && <SetUpFields open={open} />}
       {open && <WarningList open={open} found={found} />}

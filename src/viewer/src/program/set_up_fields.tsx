@@ -1,8 +1,10 @@
 /** Where the program stands on the table, with which tools, and how exactly the machine follows it. */
 
 import { Choice, NumberField } from "../panels/fields";
+import { OriginsSection } from "./origins_section";
 import { settings, type OpenProgram } from "./program_state";
 import { toolNumbers, type SetUp, type Settings, type ToolLengths } from "./settings";
+import { WindowBars } from "./window_bars";
 
 /** The length that is offered where a program states none, mm. */
 const USUAL = 100;
@@ -29,6 +31,8 @@ export function SetUpFields({ open }: { open: OpenProgram }) {
           </fieldset>
         ))}
         <Lengths open={open} lengths={now.lengths} before={now.toolBefore} />
+        <WindowBars open={open} />
+        <OriginsSection />
       </details>
       <details>
         <summary>Tolerances and motion</summary>

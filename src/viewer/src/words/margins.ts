@@ -77,7 +77,7 @@ export function bars(margins: Margins, machine: Machine, home: Home): Bar[] {
 }
 
 /** A limit that is kept, in words. */
-function kept({ constraint, element, value }: Limit): string {
+export function kept({ constraint, element, value }: Limit): string {
   switch (constraint) {
     case "stroke": {
       const [slider = "", which] = element.split(".");
