@@ -9,16 +9,20 @@ import verne
 
 
 def test_a_placement_is_no_worse_than_the_given_set_up(client: verne.Client, dome: Path) -> None:
-    free = {"setup.x": (-100.0, 100.0), "setup.z": (300.0, 700.0)}
     reserve = {"stroke": 20.0, "slider_joint": 2.0}
-    best = client.placement(dome, free=free, reserve=reserve, tool_length=120, setup={"z": 560}).result()
+    best = client.placement(
+        dome,
+        free={"setup.x": (-100.0, 100.0), "setup.z": (300.0, 700.0)},
+        reserve=reserve,
+        tool_length=120,
+        setup={"z": 560},
+    ).result()
     assert best.verdict == "ok"
     assert best.t is not None
     assert best.given.t is not None
     assert best.t >= best.given.t
     assert best.guarantee.starts
-    setup = {"x": best.setup.x, "z": best.setup.z}
-    report = client.toolpath(dome, tool_length=120, setup=setup).result()
+    report = client.toolpath(dome, tool_length=120, setup={"x": best.setup.x, "z": best.setup.z}).result()
     assert report.verdict == "ok"
     least = min(margin.margin / reserve[margin.constraint] for margin in report.margins if margin.constraint in reserve)
     assert least == best.t
@@ -49,8 +53,9 @@ def test_a_region_of_origins_has_a_mesh(client: verne.Client, dome: Path) -> Non
 def test_the_asynchronous_client_has_both(client: verne.Client, dome: Path) -> None:
     async def ask() -> float | None:
         async with verne.AsyncClient(client.url) as asynchronous:
-            free = {"setup.z": (300.0, 700.0)}
-            job = await asynchronous.placement(dome, free=free, reserve={"stroke": 20.0}, tool_length=120)
+            job = await asynchronous.placement(
+                dome, free={"setup.z": (300.0, 700.0)}, reserve={"stroke": 20.0}, tool_length=120
+            )
             return (await job.result()).t
 
     assert asyncio.run(ask()) is not None

@@ -87,6 +87,13 @@ class NearestToWindow:
 
 
 @dataclass(frozen=True, slots=True)
+class WindowLinks:
+    """Paths of a window."""
+
+    self: str
+
+
+@dataclass(frozen=True, slots=True)
 class Window:
     """The values of a parameter with which the machine can run a program."""
 
@@ -103,6 +110,7 @@ class Window:
     """Width of the intervals, and of the gaps between them, that the search may have missed."""
     plans: int
     not_checked: list[str]
+    links: WindowLinks
     nearest: NearestToWindow | None = None
     """Only a window without an interval has it."""
 
