@@ -18,7 +18,9 @@ use crate::wire::degrees::to_degrees;
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::json::write_json;
 use crate::wire::limit::{Limit, Unchecked};
-use crate::wire::placement::{ActiveObject, GivenSetup, Guarantee, PlacementAnswer, PlacementLinks};
+use crate::wire::placement::{
+    ActiveObject, GivenSetup, Guarantee, GuaranteeKind, PlacementAnswer, PlacementLinks,
+};
 use crate::wire::toolpath_report::{MarginObject, Verdict};
 
 /// About the bytes of an answer.
@@ -75,7 +77,7 @@ pub(crate) fn compute_placement(
         setup,
         tool_length: question.tool_length().map(|_| tool_length),
         given: GivenSetup { verdict: verdict(found.given.1), t: found.given.0, within_bounds: within },
-        guarantee: Guarantee::BestOfStarts { starts: found.starts },
+        guarantee: Guarantee { kind: GuaranteeKind::BestOfStarts, starts: found.starts },
         active: found.active.iter().map(|margin| active(lines, margin)).collect(),
         margins: found
             .report

@@ -226,14 +226,21 @@ pub(crate) struct GivenSetup {
 /// How sure it is that no other set-up within the bounds is better: `best_of_starts`, the answer is the best that
 /// searches from many set-ups found. The answer itself is planned with all its rows and checked between them.
 #[derive(Clone, Copy, Debug, Serialize, ToSchema)]
-#[serde(tag = "kind", rename_all = "snake_case")]
 #[schema(as = PlacementGuarantee)]
-pub(crate) enum Guarantee {
+pub(crate) struct Guarantee {
+    /// The kind.
+    #[schema(inline)]
+    pub kind: GuaranteeKind,
+    /// Number of searches.
+    pub starts: u32,
+}
+
+/// The kind of a guarantee.
+#[derive(Clone, Copy, Debug, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum GuaranteeKind {
     /// The best that searches from many set-ups found.
-    BestOfStarts {
-        /// Number of searches.
-        starts: u32,
-    },
+    BestOfStarts,
 }
 
 /// A margin that limits the placement.

@@ -35,9 +35,9 @@ class GivenSetup:
 class PlacementGuarantee:
     """How sure it is that no other set-up within the bounds is better."""
 
-    kind: str = "best_of_starts"
+    kind: str
     """``best_of_starts``: the best that searches from many set-ups found."""
-    starts: int | None = None
+    starts: int
     """Number of searches."""
 
 
