@@ -31,7 +31,7 @@ SECONDS = 300
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 # A process that does not end by itself; without a command, verne serves.
 SERVES = re.compile(
-    r"(?:[A-Z_]+=\S+ +)*verne(?: +(?:serve|worker)\b| +-| *(?:#.*)?$)(?!.*--(?:help|version|print-config)\b)")
+    r"(?:[A-Z_]+=\S+ +)*verne(?: +(?:serve|worker)\b| +(?=-)| *(?:#.*)?$)(?!.*--(?:help|version|print-config)\b)")
 
 
 class Reader:

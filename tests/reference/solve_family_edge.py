@@ -9,6 +9,7 @@ times and the last 4,000 starts have reached no new one. A case with a condition
 closer than 1e-3 mm and 1e-6 rad, is not kept: there double precision could not tell them apart.
 """
 
+import argparse
 import json
 import math
 import random
@@ -224,7 +225,11 @@ def sliders(g, symmetric, draw):
 
 
 def main():
-    count, seed = int(sys.argv[1]), int(sys.argv[2])
+    parser = argparse.ArgumentParser(description="Makes forward problems with every solution.")
+    parser.add_argument("machines", type=int)
+    parser.add_argument("seed", type=int)
+    arguments = parser.parse_args()
+    count, seed = arguments.machines, arguments.seed
     draw, generator = random.Random(seed), numpy.random.default_rng(seed)
     cases, dropped, number = [], 0, 0
     while len(cases) < count:
