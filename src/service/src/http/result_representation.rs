@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use verne_store::ContentReader;
+use verne_store::{Content, ContentReader};
 
 use crate::http::base_path::summary_below;
-use crate::http::conditional_response::Representation;
+use crate::http::conditional_response::{IMMUTABLE, Representation};
 use crate::http::error::{HttpError, LookupError};
+use crate::http::negotiation::Accept;
 use crate::http::result_or_job::ResultOrJob;
 use crate::http::state::AppState;
 use crate::http::wait_policy::WaitPolicy;
@@ -17,7 +18,7 @@ use crate::operations::question_text::QuestionKind;
 use crate::operations::results::{MESH, Record, hashed, unpack_mesh};
 use crate::wire::dexterity::SetName;
 use crate::wire::error::OperationError;
-use crate::wire::format::MeshFormat;
+use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::result_id::ResultId;
 
 /// The summary of a record.
@@ -34,6 +35,44 @@ pub(crate) async fn summary_or_job(
     wait_policy: &WaitPolicy,
 ) -> Result<ResultOrJob<Representation>, HttpError> {
     Ok(state.record_or_job(question, wait_policy).await?.map(|record| summary(state, record)))
+}
+
+/// The format that a request for a mesh states, or else prefers.
+pub(crate) fn mesh_format(accept: &Accept, stated: Option<MeshFormat>) -> Result<MeshFormat, HttpError> {
+    match stated {
+        Some(format) => Ok(format),
+        None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format))),
+    }
+}
+
+/// The format that a request for a slice states, or else prefers, with its media type.
+pub(crate) fn slice_format(
+    accept: &Accept,
+    stated: Option<SliceFormat>,
+) -> Result<(SliceFormat, &'static str), HttpError> {
+    let offers = |format: SliceFormat| format.media().iter().map(move |&media| (media, (format, media)));
+    match stated {
+        Some(format) => Ok((format, format.media()[0])),
+        None => accept.choose(SliceFormat::ALL.into_iter().flat_map(offers)),
+    }
+}
+
+/// The slice of a result at a height.
+pub(crate) fn slice_file(
+    (id, kind): (ResultId, QuestionKind),
+    z: f64,
+    (format, media): (SliceFormat, &'static str),
+    bytes: Content,
+) -> Representation {
+    let name = format.name();
+    Representation {
+        content: bytes.into(),
+        is_unshared: true,
+        media,
+        cache_control: Some(IMMUTABLE),
+        location: format!("{}/slice?z={z}&format={name}", kind.path(id)),
+        file_name: Some(format!("slice-{id:.8}.{name}")),
+    }
 }
 
 /// A surface of a result.

@@ -26,7 +26,6 @@ use crate::wire::limit::Unchecked;
 use crate::wire::origins::{OriginsLinks, OriginsSummary};
 use crate::wire::result_id::ResultId;
 use crate::wire::slice::SliceObject;
-use crate::wire::toolpath::ToolLengths;
 use crate::wire::workspace_summary::BoundsObject;
 
 /// About how far the boundary is off because the program is examined at places, mm.
@@ -77,11 +76,7 @@ fn survey(
 ) -> Result<OriginSurvey, OperationError> {
     let toolpath = &question.toolpath;
     let motions = toolpath.motions(program).map_err(OperationError::ProgramFaults)?;
-    let tool_length = match toolpath.request.tool_length {
-        Some(ToolLengths::One(length)) => Some(length),
-        _ => None,
-    };
-    let motions = AdjustableMotions::new(motions, toolpath.request.setup, tool_length);
+    let motions = AdjustableMotions::new(motions, toolpath.request.setup, toolpath.one_tool_length());
     let request = OriginRequest { cell: question.cell, tolerance: PLACE_TOLERANCE };
     let options = toolpath.plan_options();
     let survey =

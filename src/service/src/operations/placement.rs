@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use verne_program::Program;
-use verne_solver::toolpath::{ActiveMargin, LeastMargin, PlanError, place};
+use verne_solver::toolpath::{ActiveMargin, LeastMargin, place};
 use verne_solver::workspace::Observer;
 
 use crate::operations::blocking_results::BlockingResults;
@@ -12,10 +12,11 @@ use crate::operations::program_motions::ProgramMotions;
 use crate::operations::program_motions::adjustable::AdjustableMotions;
 use crate::operations::programs::load_program_in_job;
 use crate::operations::question::Question;
+use crate::operations::solver_errors::plan_error;
 use crate::telemetry::metrics::computations::ComputationMetrics;
 use crate::wire::constraint::Unit;
 use crate::wire::degrees::to_degrees;
-use crate::wire::error::{FieldError, OperationError};
+use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::limit::{Limit, Unchecked};
 use crate::wire::placement::{
@@ -50,16 +51,11 @@ pub(crate) fn compute_placement(
 ) -> Result<Vec<u8>, OperationError> {
     let toolpath = &question.toolpath;
     let given = toolpath.motions(program).map_err(OperationError::ProgramFaults)?;
-    let motions = AdjustableMotions::new(given, toolpath.request.setup, question.tool_length());
+    let motions = AdjustableMotions::new(given, toolpath.request.setup, toolpath.one_tool_length());
     let given = motions.set_up();
     let request = question.placement_request(given.parameters());
     let found = place(&toolpath.machine, &motions, given, &request, &toolpath.plan_options(), observer)
-        .map_err(|error| match error {
-            PlanError::Cancelled => OperationError::Cancelled,
-            PlanError::TooManyRows => {
-                OperationError::Fields(vec![FieldError::new("/tolerance", error.to_string())])
-            }
-        })?;
+        .map_err(plan_error)?;
     let (setup, tool_length) = motions.stated_setup(&found.set_up);
     let within = given
         .parameters()
@@ -75,7 +71,7 @@ pub(crate) fn compute_placement(
         verdict: verdict(found.report.is_feasible()),
         t: found.t,
         setup,
-        tool_length: question.tool_length().map(|_| tool_length),
+        tool_length: toolpath.one_tool_length().map(|_| tool_length),
         given: GivenSetup { verdict: verdict(found.given.1), t: found.given.0, within_bounds: within },
         guarantee: Guarantee { kind: GuaranteeKind::BestOfStarts, starts: found.starts },
         active: found.active.iter().map(|margin| active(lines, margin)).collect(),

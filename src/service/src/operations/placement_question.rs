@@ -90,14 +90,6 @@ impl PlacementQuestion {
         CanonicalPlacement { toolpath: self.toolpath.request.clone(), free: self.free, reserve: self.reserve }
     }
 
-    /// The length of every tool, if the request states one, mm.
-    pub(crate) fn tool_length(&self) -> Option<f64> {
-        match self.toolpath.request.tool_length {
-            Some(ToolLengths::One(length)) => Some(length),
-            _ => None,
-        }
-    }
-
     /// Estimated work, seconds of one core.
     pub(crate) fn cost(&self) -> f64 {
         SEARCH_COST + PLANS * self.toolpath.cost

@@ -48,9 +48,14 @@ pub(crate) enum QuestionKind {
 impl QuestionKind {
     /// The path of a result of this kind.
     pub(crate) fn path(self, id: ResultId) -> String {
+        if self.is_of_toolpath() { id.toolpath() } else { id.path() }
+    }
+
+    /// Whether the result is about a program, and so has its path below /toolpath.
+    pub(crate) fn is_of_toolpath(self) -> bool {
         match self {
-            Self::Workspace | Self::Family | Self::Dexterity | Self::Subtask => id.path(),
-            Self::Toolpath | Self::Window | Self::Placement | Self::Origins => id.toolpath(),
+            Self::Workspace | Self::Family | Self::Dexterity | Self::Subtask => false,
+            Self::Toolpath | Self::Window | Self::Placement | Self::Origins => true,
         }
     }
 

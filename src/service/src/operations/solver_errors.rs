@@ -1,5 +1,6 @@
 //! The solver's errors in the terms of a request: which field is wrong, and what is accepted.
 
+use verne_solver::toolpath::PlanError;
 use verne_solver::workspace::WorkspaceError;
 
 use crate::wire::error::{FieldError, OperationError};
@@ -27,6 +28,16 @@ pub(crate) fn workspace_error(error: WorkspaceError) -> OperationError {
         WorkspaceError::Cancelled => return OperationError::Cancelled,
     };
     OperationError::Fields(vec![FieldError::new(pointer, detail)])
+}
+
+/// Maps an error of the planner to the field that caused it.
+pub(crate) fn plan_error(error: PlanError) -> OperationError {
+    match error {
+        PlanError::Cancelled => OperationError::Cancelled,
+        PlanError::TooManyRows => {
+            OperationError::Fields(vec![FieldError::new("/tolerance", error.to_string())])
+        }
+    }
 }
 
 fn tolerance(detail: impl Into<String>) -> (String, String) {

@@ -4,16 +4,17 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use verne_program::Program;
-use verne_solver::toolpath::{PlanError, TimedRow, Timer, healing_change, plan};
+use verne_solver::toolpath::{TimedRow, Timer, healing_change, plan};
 use verne_solver::workspace::Observer;
 
 use crate::operations::dwell_marks::DwellMarks;
 use crate::operations::program_pace::ProgramPace;
+use crate::operations::solver_errors::plan_error;
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_report::report;
 use crate::operations::toolpath_rows::RowWriter;
 use crate::operations::toolpath_rows::row_bytes::StoredRow;
-use crate::wire::error::{FieldError, OperationError};
+use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::toolpath_time::TimeObject;
 
@@ -89,13 +90,4 @@ pub(crate) fn compute_toolpath(
         report.add_texts(&texts(&failing)?);
     }
     write_json(&report, REPORT_BYTES)
-}
-
-fn plan_error(error: PlanError) -> OperationError {
-    match error {
-        PlanError::Cancelled => OperationError::Cancelled,
-        PlanError::TooManyRows => {
-            OperationError::Fields(vec![FieldError::new("/tolerance", error.to_string())])
-        }
-    }
 }

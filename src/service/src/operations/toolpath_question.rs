@@ -98,6 +98,14 @@ impl ToolpathQuestion {
         ProgramMotions::new(Arc::clone(program), &self.request, &self.machine)
     }
 
+    /// The length of every tool, if the request states one, mm.
+    pub(crate) fn one_tool_length(&self) -> Option<f64> {
+        match self.request.tool_length {
+            Some(ToolLengths::One(length)) => Some(length),
+            _ => None,
+        }
+    }
+
     /// Seconds in which the velocities of drives may change at corners.
     pub(crate) fn cycle(&self) -> f64 {
         self.request.cycle.unwrap_or(DEFAULT_CYCLE)

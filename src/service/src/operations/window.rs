@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use verne_program::Program;
 use verne_solver::toolpath::{
-    AdjustableProgram, LeastMargin, Motions, ParametricProgram, PlanError, SetUp, WINDOW_PRECISION,
-    WindowInterval, window,
+    AdjustableProgram, LeastMargin, Motions, ParametricProgram, SetUp, WINDOW_PRECISION, WindowInterval,
+    window,
 };
 use verne_solver::workspace::Observer;
 
@@ -14,13 +14,14 @@ use crate::operations::program_motions::ProgramMotions;
 use crate::operations::program_motions::adjustable::AdjustableMotions;
 use crate::operations::programs::load_program_in_job;
 use crate::operations::question::Question;
+use crate::operations::solver_errors::plan_error;
 use crate::operations::window_question::WindowQuestion;
 use crate::telemetry::metrics::computations::ComputationMetrics;
 use crate::wire::degrees::from_degrees;
-use crate::wire::error::{FieldError, OperationError};
+use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::limit::{Limit, Unchecked};
-use crate::wire::toolpath::{Setup, ToolLengths};
+use crate::wire::toolpath::Setup;
 use crate::wire::toolpath_report::MarginObject;
 use crate::wire::window::{
     NearestObject, WindowAnswer, WindowEndObject, WindowIntervalObject, WindowLinks, WindowParameter,
@@ -56,14 +57,7 @@ pub(crate) fn compute_window(
     let program = WindowProgram::new(question, given);
     let options = toolpath.plan_options();
     let found =
-        window(&toolpath.machine, &program, question.range, &options, observer).map_err(
-            |error| match error {
-                PlanError::Cancelled => OperationError::Cancelled,
-                PlanError::TooManyRows => {
-                    OperationError::Fields(vec![FieldError::new("/tolerance", error.to_string())])
-                }
-            },
-        )?;
+        window(&toolpath.machine, &program, question.range, &options, observer).map_err(plan_error)?;
     let lines = program.motions.given();
     let margin = |LeastMargin { margin, motion }: LeastMargin| MarginObject::new(margin, lines.line(motion));
     let answer = WindowAnswer {
@@ -107,10 +101,7 @@ struct WindowProgram {
 impl WindowProgram {
     fn new(question: &WindowQuestion, given: ProgramMotions) -> Self {
         let request = &question.toolpath.request;
-        let tool_length = match request.tool_length {
-            Some(ToolLengths::One(length)) => Some(length),
-            _ => None,
-        };
+        let tool_length = question.toolpath.one_tool_length();
         Self {
             motions: AdjustableMotions::new(given, request.setup, tool_length),
             parameter: question.parameter,

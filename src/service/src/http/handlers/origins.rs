@@ -5,17 +5,19 @@ use std::sync::Arc;
 use axum::extract::State;
 use axum::response::Response;
 
-use crate::http::conditional_response::{Conditions, IMMUTABLE, Representation};
+use crate::http::conditional_response::{Conditions, IMMUTABLE};
 use crate::http::error::{HttpError, JobError, LookupError};
 use crate::http::extractors::{BatchBody, PathParameter, QueryString};
 use crate::http::handlers::results::stored_of_toolpath;
-use crate::http::handlers::toolpath::with_program;
+use crate::http::handlers::toolpath::about_program;
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
 use crate::http::openapi::body_schemas::{Binary, MeshObject, Text};
 use crate::http::openapi::problem_responses::{RegionProblems, ToolpathProblems};
 use crate::http::result_or_job::ResultOrJob;
-use crate::http::result_representation::{Surface, mesh_or_job, summary_or_job};
+use crate::http::result_representation::{
+    Surface, mesh_format, mesh_or_job, slice_file, slice_format, summary_or_job,
+};
 use crate::http::state::{AppState, SharedState};
 use crate::http::wait_policy::WaitPolicy;
 use crate::operations::compute_pool::run_on_pool;
@@ -26,7 +28,6 @@ use crate::operations::question_text::QuestionKind;
 use crate::operations::results::{MESH, Record, hashed, unpack_mesh};
 use crate::operations::toolpath_request::read_fields;
 use crate::wire::error::OperationError;
-use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::origins::{OriginsBody, OriginsSliceQuery, OriginsSummary};
 use crate::wire::parse::parse_body;
 use crate::wire::query::point_into_query;
@@ -65,13 +66,8 @@ pub(crate) async fn post_origins(
         Ok((checked, source, fields))
     };
     let (checked, source, fields) = body.read(read).await?;
-    let toolpath = checked.question(source.id());
-    let question = fields.question(toolpath.clone());
-    let question = if state.results.record(question.id).await.is_some() {
-        question
-    } else {
-        fields.question(with_program(&state, toolpath, source).await?)
-    };
+    let of = |toolpath| fields.question(toolpath);
+    let question = about_program(&state, checked, source, of, |question| question.id).await?;
     let question = Arc::new(Question::Origins(Box::new(question)));
     summary_or_job(&state, &question, &wait_policy).await?.respond(&state, wait_policy, &conditions)
 }
@@ -101,10 +97,7 @@ pub(crate) async fn get_origins_mesh(
     wait_policy: WaitPolicy,
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
-    let format = match query.format {
-        Some(format) => format,
-        None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format)))?,
-    };
+    let format = mesh_format(&accept, query.format)?;
     let record = region(&state, id).await?;
     let surface = Surface::of(record.id, record.kind, None)?;
     let question = || state.results.questions.get_or_read(record.id, &record.question);
@@ -138,14 +131,7 @@ pub(crate) async fn get_origins_slice(
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
     let OriginsSliceQuery { z, format } = query;
-    let (format, media) = match format {
-        Some(format) => (format, format.media()[0]),
-        None => accept.choose(
-            SliceFormat::ALL
-                .into_iter()
-                .flat_map(|format| format.media().iter().map(move |&media| (media, (format, media)))),
-        )?,
-    };
+    let (format, media) = slice_format(&accept, format)?;
     let record = region(&state, id).await?;
     let id = record.id;
     let question = state.results.questions.get_or_read(id, &record.question)?;
@@ -160,21 +146,15 @@ pub(crate) async fn get_origins_slice(
         let mesh = unpack_mesh(&packed).ok_or(OperationError::Internal)?;
         slice_of_origins(id, cell, &mesh, z, format).map(hashed)
     });
-    let representation = Representation {
-        content: slice.await.map_err(point_into_query)?.into(),
-        is_unshared: true,
-        media,
-        cache_control: Some(IMMUTABLE),
-        location: format!("{}/slice?z={z}&format={}", id.toolpath(), format.name()),
-        file_name: Some(format!("slice-{id:.8}.{}", format.name())),
-    };
-    representation.respond(&conditions)
+    let slice = slice.await.map_err(point_into_query)?;
+    slice_file((id, record.kind), z, (format, media), slice).respond(&conditions)
 }
 
 /// The record of a stored region of origins.
 async fn region(state: &AppState, id: String) -> Result<Record, LookupError> {
-    let kinds = [QuestionKind::Origins, QuestionKind::Toolpath, QuestionKind::Placement];
-    let record = stored_of_toolpath(state, id, &kinds).await?;
+    let admits =
+        |kind| matches!(kind, QuestionKind::Origins | QuestionKind::Toolpath | QuestionKind::Placement);
+    let record = stored_of_toolpath(state, id, admits).await?;
     match record.kind {
         QuestionKind::Origins => Ok(record),
         _ => Err(LookupError::Region(record.id.to_string())),

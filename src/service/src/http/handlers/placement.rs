@@ -8,7 +8,7 @@ use axum::response::Response;
 use crate::http::conditional_response::Conditions;
 use crate::http::error::HttpError;
 use crate::http::extractors::BatchBody;
-use crate::http::handlers::toolpath::with_program;
+use crate::http::handlers::toolpath::about_program;
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
 use crate::http::openapi::problem_responses::ToolpathProblems;
@@ -57,13 +57,8 @@ pub(crate) async fn post_placement(
         Ok((checked, source, fields))
     };
     let (checked, source, fields) = body.read(read).await?;
-    let toolpath = checked.question(source.id());
-    let question = fields.question(toolpath.clone());
-    let question = if state.results.record(question.id).await.is_some() {
-        question
-    } else {
-        fields.question(with_program(&state, toolpath, source).await?)
-    };
+    let of = |toolpath| fields.question(toolpath);
+    let question = about_program(&state, checked, source, of, |question| question.id).await?;
     let question = Arc::new(Question::Placement(Box::new(question)));
     summary_or_job(&state, &question, &wait_policy).await?.respond(&state, wait_policy, &conditions)
 }

@@ -3,14 +3,16 @@
 use axum::extract::State;
 use axum::response::Response;
 
-use crate::http::conditional_response::{Conditions, IMMUTABLE, Representation};
+use crate::http::conditional_response::{Conditions, IMMUTABLE};
 use crate::http::error::{HttpError, LookupError};
 use crate::http::extractors::{PathParameter, QueryString};
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
 use crate::http::openapi::body_schemas::{Binary, MeshObject, Summary, Text};
 use crate::http::openapi::problem_responses::{MeshProblems, SliceProblems, SummaryProblems};
-use crate::http::result_representation::{Surface, mesh_or_job, summary};
+use crate::http::result_representation::{
+    Surface, mesh_format, mesh_or_job, slice_file, slice_format, summary,
+};
 use crate::http::state::{AppState, SharedState};
 use crate::http::wait_policy::WaitPolicy;
 use crate::operations::compute_pool::run_on_pool;
@@ -20,7 +22,6 @@ use crate::operations::results::{Record, hashed};
 use crate::operations::slice::answer_slice;
 use crate::wire::dexterity::StoredMeshQuery;
 use crate::wire::error::OperationError;
-use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::query::point_into_query;
 use crate::wire::slice::SliceObject;
 use crate::wire::workspace_query::SliceQuery;
@@ -47,10 +48,7 @@ pub(crate) async fn get_summary(
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
     let record = record(&state, id).await?;
-    if matches!(
-        record.kind,
-        QuestionKind::Toolpath | QuestionKind::Placement | QuestionKind::Window | QuestionKind::Origins
-    ) {
+    if record.kind.is_of_toolpath() {
         return Err(LookupError::Result(record.id.to_string()).into());
     }
     summary(&state, record).cached(IMMUTABLE).respond(&conditions)
@@ -82,10 +80,7 @@ pub(crate) async fn get_mesh(
     wait_policy: WaitPolicy,
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
-    let format = match query.format {
-        Some(format) => format,
-        None => accept.choose(MeshFormat::ALL.map(|format| (format.media(), format)))?,
-    };
+    let format = mesh_format(&accept, query.format)?;
     let record = record(&state, id).await?;
     if record.kind == QuestionKind::Origins {
         return Err(LookupError::Result(record.id.to_string()).into());
@@ -121,14 +116,7 @@ pub(crate) async fn get_slice(
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
     let SliceQuery { z, alpha, format } = query;
-    let (format, media) = match format {
-        Some(format) => (format, format.media()[0]),
-        None => accept.choose(
-            SliceFormat::ALL
-                .into_iter()
-                .flat_map(|format| format.media().iter().map(move |&media| (media, (format, media)))),
-        )?,
-    };
+    let (format, media) = slice_format(&accept, format)?;
     let Record { id, kind, question, inclination, .. } = record(&state, id).await?;
     if kind != QuestionKind::Workspace {
         return Err(LookupError::Slice(id.to_string()).into());
@@ -140,15 +128,8 @@ pub(crate) async fn get_slice(
         }
         _ => Err(OperationError::Internal),
     });
-    let representation = Representation {
-        content: slice.await.map_err(point_into_query)?.into(),
-        is_unshared: true,
-        media,
-        cache_control: Some(IMMUTABLE),
-        location: format!("{}/slice?z={z}&format={}", id.path(), format.name()),
-        file_name: Some(format!("slice-{id:.8}.{}", format.name())),
-    };
-    representation.respond(&conditions)
+    let slice = slice.await.map_err(point_into_query)?;
+    slice_file((id, kind), z, (format, media), slice).respond(&conditions)
 }
 
 /// The record of a stored result.
@@ -161,17 +142,17 @@ pub(crate) async fn record(state: &AppState, id: String) -> Result<Record, Looku
 
 /// The record of a stored tool path.
 pub(crate) async fn stored_toolpath(state: &AppState, id: String) -> Result<Record, LookupError> {
-    stored_of_toolpath(state, id, &[QuestionKind::Toolpath]).await
+    stored_of_toolpath(state, id, |kind| kind == QuestionKind::Toolpath).await
 }
 
-/// The record of a stored result below `/toolpath` of one of some kinds.
+/// The record of a stored result below `/toolpath` of an admitted kind.
 pub(crate) async fn stored_of_toolpath(
     state: &AppState,
     id: String,
-    kinds: &[QuestionKind],
+    admits: impl Fn(QuestionKind) -> bool,
 ) -> Result<Record, LookupError> {
     match record(state, id).await {
-        Ok(record) if kinds.contains(&record.kind) => Ok(record),
+        Ok(record) if admits(record.kind) => Ok(record),
         Ok(record) => Err(LookupError::Toolpath(record.id.to_string())),
         Err(LookupError::Result(id)) => Err(LookupError::Toolpath(id)),
         Err(other) => Err(other),

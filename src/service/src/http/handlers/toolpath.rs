@@ -26,6 +26,7 @@ use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
 use crate::operations::toolpath_request::{ProgramSource, read_request};
 use crate::wire::error::OperationError;
 use crate::wire::program_query::ProgramQuery;
+use crate::wire::result_id::ResultId;
 use crate::wire::toolpath::ToolpathRequest;
 use crate::wire::toolpath_query::{ToolpathQuery, point_into_toolpath_query};
 use crate::wire::toolpath_report::ToolpathReport;
@@ -133,9 +134,7 @@ pub(crate) async fn get_report(
     conditions: Conditions,
 ) -> Result<Response, HttpError> {
     accept.require_json()?;
-    let kinds =
-        [QuestionKind::Toolpath, QuestionKind::Window, QuestionKind::Placement, QuestionKind::Origins];
-    let record = stored_of_toolpath(&state, id, &kinds).await?;
+    let record = stored_of_toolpath(&state, id, QuestionKind::is_of_toolpath).await?;
     summary(&state, record).cached(IMMUTABLE).respond(&conditions)
 }
 
@@ -161,21 +160,32 @@ fn with_json(error: OperationError) -> OperationError {
     OperationError::Fields(faults)
 }
 
-/// The question, whose program is checked and stored unless the answer is known.
 async fn question(
     state: &AppState,
     checked: CheckedToolpath,
     source: ProgramSource,
 ) -> Result<ToolpathQuestion, HttpError> {
-    let question = checked.question(source.id());
-    if state.results.record(question.id).await.is_some() {
+    about_program(state, checked, source, |toolpath| toolpath, |question| question.id).await
+}
+
+/// The question that `of` makes of a tool path. The program is checked and stored unless the answer is known.
+pub(crate) async fn about_program<Q>(
+    state: &AppState,
+    checked: CheckedToolpath,
+    source: ProgramSource,
+    of: impl Fn(ToolpathQuestion) -> Q,
+    id: impl Fn(&Q) -> ResultId,
+) -> Result<Q, HttpError> {
+    let toolpath = checked.question(source.id());
+    let question = of(toolpath.clone());
+    if state.results.record(id(&question)).await.is_some() {
         return Ok(question);
     }
-    with_program(state, question, source).await
+    Ok(of(with_program(state, toolpath, source).await?))
 }
 
 /// The question with its estimated work. Its program is checked, and stored for the job.
-pub(crate) async fn with_program(
+async fn with_program(
     state: &AppState,
     question: ToolpathQuestion,
     source: ProgramSource,

@@ -29,7 +29,7 @@ pub(crate) fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-/// What an answer does not cover.
+/// The conditions that an answer does not cover.
 pub(crate) fn not_checked(answer: &Value) -> String {
     let conditions = answer["not_checked"].as_array().into_iter().flatten().filter_map(Value::as_str);
     conditions.collect::<Vec<_>>().join(", ")
