@@ -33,6 +33,7 @@ pub mod machine;
 mod margins;
 mod mechanism;
 mod parallel_matrix;
+pub mod parameter;
 mod pose;
 mod posture;
 mod posture_rows;

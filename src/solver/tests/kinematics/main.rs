@@ -32,6 +32,7 @@ mod level_leg;
 mod linear_delta;
 mod margins;
 mod parallel_singularity;
+mod parameter_rates;
 mod proportional_machine;
 mod proportions;
 mod reference_sets;
