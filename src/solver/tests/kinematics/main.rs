@@ -23,6 +23,7 @@ mod axis;
 mod common_lift;
 mod conditioning;
 mod degenerate_angles;
+mod error_budget;
 mod family_edge_round_trip;
 mod family_edge_sets;
 mod interference;
