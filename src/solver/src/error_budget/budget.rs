@@ -78,8 +78,8 @@ impl ErrorBudget {
     ///
     /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(7), (27),
     /// differentiated.
-    /// Ziegler, Lectures on Polytopes, [doi:10.1007/978-1-4613-8431-1](https://doi.org/10.1007/978-1-4613-8431-1): section
-    /// 7.3, zonotopes.
+    /// Ziegler, Lectures on Polytopes,
+    /// [doi:10.1007/978-1-4613-8431-1](https://doi.org/10.1007/978-1-4613-8431-1): section 7.3, zonotopes.
     ///
     /// # Examples
     ///

@@ -80,8 +80,19 @@ impl Tolerances {
     }
 
     /// The same tolerances, but zero for a parameter.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::error_budget::{ToleranceError, Tolerances};
+    /// use verne_solver::parameter::Parameter;
+    ///
+    /// let tolerances = Tolerances::new([(Parameter::da, 0.1), (Parameter::dt, 0.1)])?;
+    /// assert_eq!(Tolerances::new([(Parameter::dt, 0.1)]), Ok(tolerances.without(Parameter::da)));
+    /// # Ok::<(), ToleranceError>(())
+    /// ```
     #[must_use]
-    pub(crate) fn without(mut self, parameter: Parameter) -> Self {
+    pub fn without(mut self, parameter: Parameter) -> Self {
         self.0[parameter.index()] = 0.0;
         self
     }
