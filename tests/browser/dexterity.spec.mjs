@@ -48,6 +48,20 @@ test("the layers have the points of the service; a slider chooses the layer", as
   await expect(page.getByTestId("map-caption")).toHaveText(/^Other settings than those of the page: /);
 });
 
+test("the link has the section with its settings", async ({ page }) => {
+  await openMap(page);
+  const last = page.getByLabel("Last inclination, degrees");
+  await last.fill("35");
+  await last.press("Enter");
+  await expect(page).toHaveURL(/[#&]dexterity=-20,35,80$/);
+  await page.reload();
+  await expect(last).toHaveValue("35.0");
+  await expect(page.getByLabel("Distance between points, mm")).toHaveValue("80.0");
+  await expect(page.getByRole("button", { name: "Compute the map" })).toBeEnabled();
+  await page.getByRole("heading", { name: "Dexterity map" }).click();
+  await expect(page).not.toHaveURL(/dexterity/);
+});
+
 test("a long map can be cancelled", async ({ page }) => {
   await openMap(page, "#workspace=hidden");
   const cell = page.getByLabel("Distance between points, mm");

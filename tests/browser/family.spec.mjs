@@ -66,6 +66,21 @@ test("the volume over phi1, by keyboard", async ({ page }) => {
   await expect(page.getByTestId("family-caption")).toHaveText(/^Other settings than those of the page: /);
 });
 
+test("the link has the section with its settings, and without it the section is closed", async ({ page }) => {
+  await openFamily(page);
+  await page.getByRole("radio", { name: "φ₁", exact: true }).check({ force: true });
+  await type(page, "Last phi 1, degrees", "12.5");
+  await type(page, "Workspaces", "5");
+  await expect(page).toHaveURL(/[#&]family=phi1,-40,12\.5,5$/);
+  await page.reload();
+  await expect(page.getByLabel("Last phi 1, degrees")).toHaveValue("12.5");
+  await expect(page.getByLabel("Workspaces", { exact: true })).toHaveValue("5");
+  await page.getByRole("heading", { name: "Volume over tool length or φ₁" }).click();
+  await expect(page).not.toHaveURL(/family/);
+  await page.evaluate(() => (location.hash = "#family=tool,10,90,3"));
+  await expect(page.getByLabel("First tool length, mm")).toHaveValue("10.0");
+});
+
 test("kinds that depend on fewer parameters offer no others", async ({ page }) => {
   await openFamily(page, "#workspace=tool");
   await expect(page.getByText("the workspace of the tool tip depends on no angle")).toBeVisible();
