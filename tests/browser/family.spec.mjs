@@ -1,9 +1,6 @@
 // A family of workspaces: volume over tool length or phi1, as the service computes it.
-import { readFileSync } from "node:fs";
-import { fileURLToPath } from "node:url";
+import { expectAccessible, expectNothingOverflows, inEveryLook } from "./looks.mjs";
 import { ask, expect, open, test, value } from "./viewer.mjs";
-
-const AXE = readFileSync(fileURLToPath(import.meta.resolve("axe-core/axe.min.js")), "utf8");
 
 async function openFamily(page, view = "") {
   await open(page, view);
@@ -105,26 +102,13 @@ test("equal ends are refused with the reason, and a long family can be cancelled
   expect(jobs.find(({ kind }) => kind === "family").state).toBe("cancelled");
 });
 
-for (const colorScheme of ["light", "dark"])
-  for (const [name, viewport] of [
-    ["desk", { width: 1280, height: 720 }],
-    ["phone", { width: 390, height: 844 }],
-  ])
-    test.describe(`${colorScheme}, ${name}`, () => {
-      test.use({ colorScheme, viewport });
-
-      test("a family has no accessibility violations, and nothing overflows", async ({ page }) => {
-        await openFamily(page, "#tolerance=5");
-        await page.getByRole("button", { name: "Compute the family" }).click();
-        await expect(page.locator(".members tbody tr")).toHaveCount(13);
-        await page.getByTestId("family-plot").scrollIntoViewIfNeeded();
-        await page.evaluate(AXE);
-        const { violations } = await page.evaluate(() => window.axe.run(".family"));
-        expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" | ")}`)).toEqual([]);
-        const wider = (element) => element.scrollWidth - element.clientWidth;
-        expect(await page.locator(".family").evaluate(wider)).toBeLessThanOrEqual(0);
-        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(viewport.width);
-        if (process.env.PICTURES)
-          await page.screenshot({ path: `${process.env.PICTURES}/family-${colorScheme}-${name}.png` });
-      });
-    });
+test("a family has no accessibility violations, and nothing overflows", async ({ page }) => {
+  await openFamily(page, "#tolerance=5");
+  await page.getByRole("button", { name: "Compute the family" }).click();
+  await expect(page.locator(".members tbody tr")).toHaveCount(13);
+  await inEveryLook(page, "family", async () => {
+    await page.getByTestId("family-plot").scrollIntoViewIfNeeded();
+    await expectAccessible(page, ".family");
+    await expectNothingOverflows(page, ".family");
+  });
+});
