@@ -2,7 +2,7 @@
 // changes its look: nothing of the page depends on the look with which it was loaded.
 import { mkdirSync, readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
-import { expect, test } from "./viewer.mjs";
+import { drawn, expect, test } from "./viewer.mjs";
 
 const AXE = readFileSync(fileURLToPath(import.meta.resolve("axe-core/axe.min.js")), "utf8");
 
@@ -49,9 +49,4 @@ export async function expectNothingOverflows(page, ...parts) {
 /** Where the scene lies over a text, axe would compare the text with the scene. */
 export async function scrollUp(page) {
   await page.locator("main").evaluate((main) => main.scrollTo(0, 0));
-}
-
-/** Two frames: in the first the page is laid out anew, and those who watch sizes are told. */
-async function drawn(page) {
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
