@@ -116,8 +116,8 @@ async fn a_table_has_the_errors_of_the_rows() {
     let body =
         json!({"tool_length": 50, "parameter_tolerances": {"L1": 0.02, "tilt_zero": 0.001}, "poses": rows});
     let budgets = post("/error-budget", body).await.json["budgets"].clone();
-    let text: String =
-        rows.iter().map(|row| format!("{},A\n", row.map(|n| n.to_string()).join(","))).collect();
+    let lines: Vec<_> = rows.iter().map(|row| row.map(|n| n.to_string()).join(",") + ",A\n").collect();
+    let text = lines.concat();
     let query = "format=csv&tool_length=50&parameter_tolerances=%7B%22L1%22:0.02,%22tilt_zero%22:0.001%7D";
     let request = Request::post(format!("/error-budget?{query}")).header(header::CONTENT_TYPE, "text/csv");
     let reply = send(request.body(Body::from(format!("x,y,z,phi1,phi2,id\n{text}"))).unwrap()).await;

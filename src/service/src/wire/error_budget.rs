@@ -55,7 +55,7 @@ pub(crate) struct ErrorBudgetAnswer {
     /// The parameters with a tolerance. `worst_changes` and `contributions` have their order.
     pub parameters: Vec<ParameterObject>,
     /// `[rho1, rho2, rho3]`, in frame `part` `[rho1, rho2, rho3, theta1, theta2]`; null for a row without a solution.
-    /// Of several working solutions it is a feasible one if there is one.
+    /// If several working solutions exist, a feasible one is preferred.
     #[schema(value_type = Vec<Option<Vec<f64>>>)]
     pub joints: Vec<Option<Row>>,
     /// The budget of each row; null for a row without a solution, and at a parallel singularity, where errors have no
