@@ -12,6 +12,7 @@ pub(crate) mod kinematics;
 pub(crate) mod limit_words;
 pub(crate) mod machine;
 pub(crate) mod one_or_batch;
+pub(crate) mod program_arguments;
 pub(crate) mod progress;
 pub(crate) mod result_pipe;
 pub(crate) mod service_address;
