@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::OriginExtent;
 use super::constraining::constraining_places;
 use super::membership::Membership;
 use crate::machine::Machine;
@@ -25,13 +26,13 @@ const INTERVALS: u32 = 24;
 /// Fraction of the box's width that is added on each side.
 const ROOM: f64 = 0.02;
 
-/// The places that limit the region, and the box around it; `None` if no interior origin was found.
+/// The places that limit the region, and the box around it.
 pub(super) fn extent(
     machine: &Machine,
     places: &PlannedPlaces,
     admitted: &[[bool; 2]],
     observer: &dyn Observer,
-) -> Result<(Vec<u32>, Option<[Point; 2]>), WorkspaceError> {
+) -> Result<OriginExtent, WorkspaceError> {
     let bounds = reach(machine, places);
     let interior = interior_set_ups(machine, places, bounds, observer).map_err(|error| match error {
         PlanError::Cancelled => WorkspaceError::Cancelled,
@@ -55,7 +56,7 @@ pub(super) fn extent(
         }
         around = Some(found);
     }
-    Ok((set, around))
+    Ok(OriginExtent { places: set, bounds: around })
 }
 
 fn hull([a, b]: [Point; 2], [c, d]: [Point; 2]) -> [Point; 2] {
