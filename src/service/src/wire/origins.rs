@@ -81,10 +81,10 @@ pub(crate) struct OriginsSummary {
     pub limiting_places: usize,
     /// About how far the boundary is off because the program is examined at places, mm.
     pub place_tolerance: f64,
-    /// Greatest distance between the mesh and the boundary of the region, mm: one and a half times the greatest distance
-    /// from the mesh at which one of `samples` origins was on its wrong side, and at least the distance at which the
-    /// refinement of the mesh ends. It is measured, not proved. Pieces of the region, and gaps in it, that are narrower
-    /// than a cell may be missing.
+    /// Greatest distance between the mesh and the boundary of the region, mm: one and a half times the greatest
+    /// distance from the mesh at which one of `samples` origins was on its wrong side, and at least the distance at
+    /// which the refinement of the mesh ends. It is measured, not proved. Pieces of the region, and gaps in it, that
+    /// are narrower than a cell may be missing.
     pub boundary_error: f64,
     /// Number of origins near the mesh at which it was compared with the region.
     pub samples: u32,

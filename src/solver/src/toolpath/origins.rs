@@ -20,6 +20,7 @@ mod slice;
 mod smoothing;
 mod subdivision;
 
+pub use extent::OriginExtent;
 pub use measured_error::ORIGIN_SAMPLES;
 pub use mesh::{OriginRegion, merge_origins};
 pub use nodes::{OriginSlab, origin_slab};
@@ -50,15 +51,6 @@ pub struct OriginRequest {
 const OF_CELL: f64 = 1.0 / 40.0;
 const OF_PLACES: f64 = 4.0;
 
-/// What takes long in a survey. Other parts of the same computation can begin with it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct OriginExtent {
-    /// Indices of the places that limit the region, ascending.
-    pub places: Vec<u32>,
-    /// The box around the region; `None` if no origin was found in it.
-    pub bounds: Option<[[f64; 3]; 2]>,
-}
-
 /// What all parts of a region's computation share: the places of the program that limit it, and the grid.
 #[derive(Clone, Debug)]
 pub struct OriginSurvey {
@@ -74,8 +66,8 @@ pub struct OriginSurvey {
 impl OriginSurvey {
     /// Finds the places that limit the region, and places the grid.
     ///
-    /// The answer depends on the arguments alone: every part of a computation finds the same. `known` is the extent that
-    /// another part has found with the same arguments; one of other places takes no part.
+    /// The answer depends on the arguments alone: every part of a computation finds the same. `known` is the extent
+    /// that another part has found with the same arguments; one of other places takes no part.
     ///
     /// # Units
     ///

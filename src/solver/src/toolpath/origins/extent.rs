@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use super::OriginExtent;
 use super::constraining::constraining_places;
 use super::membership::Membership;
 use crate::machine::Machine;
@@ -25,6 +24,15 @@ const MOVES: u32 = 200;
 const INTERVALS: u32 = 24;
 /// Fraction of the box's width that is added on each side.
 const ROOM: f64 = 0.02;
+
+/// What takes long in a survey. Other parts of the same computation can begin with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OriginExtent {
+    /// Indices of the places that limit the region, ascending.
+    pub places: Vec<u32>,
+    /// The box around the region; `None` if no origin was found in it.
+    pub bounds: Option<[[f64; 3]; 2]>,
+}
 
 /// The places that limit the region, and the box around it.
 pub(super) fn extent(
