@@ -19,6 +19,7 @@
 extern crate self as verne_solver;
 
 pub mod axis;
+pub mod certificate;
 mod clearance;
 mod error;
 mod fast_math;
