@@ -1,4 +1,6 @@
 //! Proofs of solutions: boxes that contain exactly one, and that there are no others.
+//!
+#![doc = include_str!("certificate/derivation.md")]
 
 mod angle;
 mod answer;

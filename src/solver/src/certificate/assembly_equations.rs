@@ -2,11 +2,11 @@
 
 use arrayvec::ArrayVec;
 
+use super::angle::{direction, turned_within};
+use super::answer::Scope;
 use super::circle_search::CircleEquations;
 use super::enclosure::Enclosure;
 use super::plane_search::{EquationRange, PlaneEquations, Rectangle};
-use super::angle::{direction, turned_within};
-use super::answer::Scope;
 use crate::mechanism::Mechanism;
 use crate::trig_polynomial::{TrigPolynomial, linear};
 
@@ -59,7 +59,11 @@ impl<'a> AssemblyEquations<'a> {
             inverse_d: offset.times(2.0).reciprocal()?,
             d: [gap.times(2.0), (product(g.R2, g.r1) - product(g.R1, g.r4)).times(4.0)],
             n: [(number(g.L2) - number(g.L3)) * (number(g.L2) + number(g.L3)) - gap * s, s.times(2.0 * g.R2)],
-            t: [arms - c + l1 + squares + offset.square(), k - product(g.R2, g.r4).times(2.0), -gap.times(g.R2)],
+            t: [
+                arms - c + l1 + squares + offset.square(),
+                k - product(g.R2, g.r4).times(2.0),
+                -gap.times(g.R2),
+            ],
         })
     }
 
@@ -128,7 +132,8 @@ impl PlaneEquations for AssemblyEquations<'_> {
 
 impl CircleEquations<5> for AssemblyEquations<'_> {
     fn polynomial(&self) -> TrigPolynomial<5, Enclosure> {
-        let (r1, arm) = (Enclosure::of(self.mechanism.geometry.R1), Enclosure::of(self.mechanism.geometry.r1));
+        let (r1, arm) =
+            (Enclosure::of(self.mechanism.geometry.R1), Enclosure::of(self.mechanism.geometry.r1));
         let d = linear(-(self.d[0] * arm), self.d[0] * r1, self.d[1]);
         let n = linear(self.n[0], Enclosure::ZERO, self.n[1]);
         let t = linear(self.t[0], self.t[1], self.t[2]);

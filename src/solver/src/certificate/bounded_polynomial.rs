@@ -46,7 +46,7 @@ impl<const M: usize> BoundedPolynomial<M> {
                 *bound += power * error;
                 power *= order;
             }
-            fourth += power * (cos.hypot(sin) + cos_error + sin_error);
+            fourth += power * ((cos * cos + sin * sin).sqrt() + cos_error + sin_error);
             order += 1.0;
         }
         Self { middle, errors: errors.map(|error| error * UPWARDS), fourth: fourth * UPWARDS }
@@ -85,7 +85,8 @@ impl ArcRange<'_> {
         // The vertex of the parabola, if it is on the arc.
         let inside = bend > 0.0 && slope.abs() < 2.0 * bend * half;
         let lowest = if inside { value - 0.25 * slope * slope / bend } else { value - rise + curve };
-        let missing = e0 + half * (e1 + half * (0.5 * e2 + half * ((f3.abs() + e3) / 6.0 + half * self.fourth / 24.0)));
+        let missing =
+            e0 + half * (e1 + half * (0.5 * e2 + half * ((f3.abs() + e3) / 6.0 + half * self.fourth / 24.0)));
         lowest > UPWARDS * missing + (UPWARDS - 1.0) * (value + rise + curve.abs())
     }
 
@@ -96,5 +97,68 @@ impl ArcRange<'_> {
         let [_, e1, e2, e3] = *self.errors;
         let change = half * ((f2.abs() + e2) + half * (0.5 * (f3.abs() + e3) + half * self.fourth / 6.0));
         f1.abs() > UPWARDS * (e1 + change)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fast_math::sin_cos;
+    use crate::trig_polynomial::linear;
+
+    /// A polynomial of degree four, and its values.
+    fn polynomial(seed: u32) -> (BoundedPolynomial<5>, impl Fn(f64) -> f64) {
+        let number = |i: u32| (f64::from(5 * seed + i) * 0.618_033_988_749_895).fract() - 0.5;
+        let factor = |i: u32| linear(number(i), number(i + 1), number(i + 2));
+        let product = factor(0).times(&factor(3));
+        let shifted = product.squared().plus(1.0, &linear(0.1 * number(2), 0.0, 0.0).raised());
+        let bounds = |numbers: [f64; 5]| numbers.map(|number| Enclosure::of(number).widened(1e-15));
+        let bounded = TrigPolynomial { cos: bounds(shifted.cos), sin: bounds(shifted.sin) };
+        (BoundedPolynomial::new(&bounded), move |angle| shifted.at(angle).value)
+    }
+
+    #[test]
+    fn arcs_without_zeros_and_monotone_arcs_are_so() {
+        let (mut excluded, mut monotone) = (0, 0);
+        for seed in 0..400 {
+            let (bounded, value) = polynomial(seed);
+            for arc in 0..40 {
+                let (middle, half) = (f64::from(arc) * 0.16 - 3.1, 0.02 * f64::from(1 + arc % 7));
+                let (s, c) = sin_cos(middle);
+                let range = bounded.at([c, s]);
+                let values: Vec<f64> =
+                    (-20..=20).map(|i| value(middle + half * f64::from(i) / 20.0)).collect();
+                if range.excludes_zero(half) {
+                    excluded += 1;
+                    assert!(
+                        values.iter().all(|v| *v > 0.0) || values.iter().all(|v| *v < 0.0),
+                        "{seed} {middle}"
+                    );
+                }
+                if range.is_monotone(half) {
+                    monotone += 1;
+                    let rising = values[40] > values[0];
+                    assert!(values.windows(2).all(|pair| (pair[1] > pair[0]) == rising), "{seed} {middle}");
+                }
+            }
+        }
+        assert!(excluded > 5_000 && monotone > 3_000, "{excluded} {monotone}");
+    }
+
+    #[test]
+    fn a_double_zero_is_never_excluded() {
+        for turn in 0..60 {
+            let angle = f64::from(turn) * 0.1 - 3.0;
+            // (1 - cos(θ - angle))²
+            let factor = linear(1.0, -angle.cos(), -angle.sin());
+            let square = factor.times(&factor);
+            let bounds = |numbers: [f64; 3]| numbers.map(|number| Enclosure::of(number).widened(1e-15));
+            let bounded =
+                BoundedPolynomial::new(&TrigPolynomial { cos: bounds(square.cos), sin: bounds(square.sin) });
+            for half in [1e-9, 1e-4, 0.1] {
+                let (s, c) = sin_cos(angle + 0.9 * half);
+                assert!(!bounded.at([c, s]).excludes_zero(half) && !bounded.at([c, s]).is_monotone(half));
+            }
+        }
     }
 }

@@ -71,11 +71,7 @@ impl<'a> ChartEquations<'a> {
             ratio,
             complement: difference * (number(g.R1) + number(g.r1)) * inverse.square(),
             e: [e0, k],
-            t: [
-                arms + squares + e0 + offset.square(),
-                k - number(g.R2).times(2.0 * g.r4),
-                -gap.times(g.R2),
-            ],
+            t: [arms + squares + e0 + offset.square(), k - number(g.R2).times(2.0 * g.r4), -gap.times(g.R2)],
             gaps: [a, b],
             gap,
             s: a + b,
@@ -101,7 +97,8 @@ impl<'a> ChartEquations<'a> {
         let m = (y.square() + w.square()).root()?;
         let mut found = [1.0, -1.0].into_iter().filter_map(|sign| {
             let phi = angle_of(w.times(sign), y.times(sign))?;
-            let [cosine, sine] = self.platform_angle(phi.middle(), (phi - Enclosure::of(phi.middle())).magnitude()).turn;
+            let [cosine, sine] =
+                self.platform_angle(phi.middle(), (phi - Enclosure::of(phi.middle())).magnitude()).turn;
             (cosine.meets(c) && sine.meets(s)).then_some((phi, m.times(sign)))
         });
         match (found.next(), found.next()) {
@@ -172,8 +169,7 @@ impl PlaneEquations for ChartEquations<'_> {
         let (spread, spread_slope) = (self.gap - sin_a.times(2.0 * g.R2), -sin_slope.times(2.0 * g.R2));
         let m_slopes = [radius_slope * cos_theta, -x1];
         let across = (c * spread - (s * p).times(2.0)).times(2.0);
-        let across_slope =
-            (c * spread_slope - s * spread - (c * p + s * p_slope).times(2.0)).times(2.0);
+        let across_slope = (c * spread_slope - s * spread - (c * p + s * p_slope).times(2.0)).times(2.0);
         let difference = EquationRange {
             value: m * across + self.s * spread - self.k,
             slopes: [m_slopes[0] * across + m * across_slope + self.s * spread_slope, m_slopes[1] * across],

@@ -27,11 +27,15 @@ pub(super) trait CircleEquations<const M: usize>: PlaneEquations {
 }
 
 /// Whether every wanted solution is known. `known` are the bounds of distinct solutions.
-pub(super) fn knows_all<const M: usize, E: CircleEquations<M>>(equations: &E, known: &[[Enclosure; 2]]) -> bool {
+pub(super) fn knows_all<const M: usize, E: CircleEquations<M>>(
+    equations: &E,
+    known: &[[Enclosure; 2]],
+) -> bool {
     let polynomial = BoundedPolynomial::new(&equations.polynomial());
     let mut search = CircleSearch { equations, polynomial, known, plane: PlaneSearch::new(equations, known) };
     let half = std::f64::consts::PI / f64::from(ARCS);
-    (0..ARCS).all(|i| search.examine(f64::from(2 * i) * half - std::f64::consts::PI, half_of(2.0 * half, 4.0), 0))
+    (0..ARCS)
+        .all(|i| search.examine(f64::from(2 * i) * half - std::f64::consts::PI, half_of(2.0 * half, 4.0), 0))
 }
 
 struct CircleSearch<'a, const M: usize, E> {

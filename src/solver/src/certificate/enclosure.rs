@@ -4,8 +4,14 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use crate::fast_math::{greater, lesser};
 
-/// Bounds nearer to zero are moved to this distance: arithmetic with subnormal numbers is slow.
+/// A bound moves by this distance at least: arithmetic with subnormal numbers is slow.
 const LEAST: f64 = 1e-280;
+/// u (1 + 2u) with u = 2^-53. A number less this part of its magnitude and a positive number is not above the double
+/// before it (S. M. Rump, P. Zimmermann, S. Boldo, G. Melquiond, 2009, [doi:10.1007/s10543-009-0218-z][rump]).
+/// `f64::next_down` does the same in twice the time.
+///
+/// [rump]: https://doi.org/10.1007/s10543-009-0218-z
+const STEP: f64 = 0.5 * f64::EPSILON * (1.0 + f64::EPSILON);
 /// Least divisor. All other numbers are below 1e60, so no quotient and no product of quotients overflows.
 const LEAST_DIVISOR: f64 = 1e-60;
 
@@ -19,13 +25,13 @@ pub(super) struct Enclosure {
 /// A number that is not above the real number of which `rounded` is the nearest double.
 #[inline(always)]
 fn below(rounded: f64) -> f64 {
-    if rounded.abs() < LEAST { -LEAST } else { rounded.next_down() }
+    rounded - (rounded.abs() * STEP + LEAST)
 }
 
 /// A number that is not below it.
 #[inline(always)]
 fn above(rounded: f64) -> f64 {
-    if rounded.abs() < LEAST { LEAST } else { rounded.next_up() }
+    rounded + (rounded.abs() * STEP + LEAST)
 }
 
 impl Enclosure {
@@ -165,5 +171,62 @@ impl Mul for Enclosure {
         let [a, b] = [self.low * other.low, self.low * other.high];
         let [c, d] = [self.high * other.low, self.high * other.high];
         Self::rounded(lesser(lesser(a, b), lesser(c, d)), greater(greater(a, b), greater(c, d)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers of all magnitudes and signs.
+    fn numbers() -> impl Iterator<Item = f64> {
+        (0..20_000_u32).map(|i| {
+            let fraction = (f64::from(i) * 0.618_033_988_749_895).fract() - 0.5;
+            fraction * 10.0_f64.powi((i % 61).cast_signed() - 30)
+        })
+    }
+
+    #[test]
+    fn a_bound_moves_to_the_next_double_or_further() {
+        for number in numbers().chain([0.0, -0.0, 1.0, -1.0, f64::MIN_POSITIVE, 5e-324, 2.0_f64.powi(40)]) {
+            assert!(below(number) <= number.next_down() && above(number) >= number.next_up(), "{number}");
+            assert!(below(number) >= number - 3.0 * (number - number.next_down()) - LEAST, "{number}");
+        }
+    }
+
+    #[test]
+    fn results_contain_those_of_numbers_inside() {
+        let samples = |x: Enclosure| [x.low, x.middle(), x.high];
+        let intervals = |shift: usize| {
+            numbers()
+                .skip(shift)
+                .zip(numbers().skip(shift + 7))
+                .map(|(a, b)| Enclosure::new(a.min(b), a.max(b)))
+        };
+        for (x, y) in intervals(0).zip(intervals(3)).take(5_000) {
+            for a in samples(x) {
+                for b in samples(y) {
+                    let inside = |range: Enclosure, number: f64| range.low < number && number < range.high;
+                    assert!(
+                        inside(x + y, a + b) && inside(x - y, a - b) && inside(x * y, a * b),
+                        "{x:?} {y:?}"
+                    );
+                    assert!(
+                        inside(x.times(b), a * b) && x.square().contains(Enclosure::of(a * a)),
+                        "{x:?} {b}"
+                    );
+                }
+                assert!(
+                    x.reciprocal().is_none_or(|inverse| inverse.contains(Enclosure::of(1.0 / a))),
+                    "{x:?}"
+                );
+                assert!(
+                    a < 0.0 || x.root().is_some_and(|root| root.contains(Enclosure::of(a.sqrt()))),
+                    "{x:?}"
+                );
+            }
+            assert_eq!(x.reciprocal().is_some(), x.excludes_zero(), "{x:?}");
+            assert_eq!(x.root().is_some(), x.high >= 0.0, "{x:?}");
+        }
     }
 }

@@ -49,7 +49,10 @@ impl<const N: usize> ProvedZero<N> {
 }
 
 /// Proves that there is exactly one zero near a point, if there is.
-pub(super) fn prove<const N: usize, E: Equations<N>>(equations: &E, centre: [f64; N]) -> Option<ProvedZero<N>> {
+pub(super) fn prove<const N: usize, E: Equations<N>>(
+    equations: &E,
+    centre: [f64; N],
+) -> Option<ProvedZero<N>> {
     let values = equations.values(&centre);
     RADII.into_iter().find_map(|radius| {
         let radii = equations.scales().map(|scale| radius * scale);
@@ -85,4 +88,45 @@ fn image<const N: usize>(
 #[inline(always)]
 fn combined<const N: usize>(factors: &[f64; N], number: impl Fn(usize) -> Enclosure) -> Enclosure {
     (1..N).fold(number(0).times(factors[0]), |sum, k| sum + number(k).times(factors[k]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x² = c.
+    struct Square(f64);
+
+    impl Equations<1> for Square {
+        fn values(&self, [x]: &[f64; 1]) -> [Enclosure; 1] {
+            [Enclosure::of(*x).square() - Enclosure::of(self.0)]
+        }
+
+        fn slopes(&self, [x]: &[f64; 1], [radius]: &[f64; 1]) -> [[Enclosure; 1]; 1] {
+            [[Enclosure::of(*x).widened(*radius).times(2.0)]]
+        }
+
+        fn scales(&self) -> [f64; 1] {
+            [1.0]
+        }
+
+        fn inverse([[slope]]: &[[f64; 1]; 1]) -> Option<[[f64; 1]; 1]> {
+            Some([[1.0 / slope]])
+        }
+    }
+
+    #[test]
+    fn a_simple_zero_is_proved_within_rounding() {
+        let zero = prove(&Square(2.0), [1.414_213_562_4]).unwrap_or_else(|| unreachable!("√2 is simple"));
+        let [root] = zero.bounds;
+        assert!(root.square().contains(Enclosure::of(2.0)) && root.high - root.low < 2e-15, "{root:?}");
+        assert!(zero.is_alone_in(0, root) && !zero.is_alone_in(0, root.widened(1e-7)));
+    }
+
+    #[test]
+    fn neither_a_double_zero_nor_none_is_proved() {
+        for (c, start) in [(0.0, 0.0), (0.0, 1e-9), (-1e-12, 1e-6), (2.0, 1.0)] {
+            assert!(prove(&Square(c), [start]).is_none(), "{c}");
+        }
+    }
 }

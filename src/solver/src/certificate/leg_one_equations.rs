@@ -8,8 +8,8 @@ use super::circle_search::CircleEquations;
 use super::enclosure::Enclosure;
 use super::krawczyk::Equations;
 use super::locus::EnclosedLocus;
-use super::rod_equations::is_level;
 use super::plane_search::{EquationRange, PlaneEquations, Rectangle, inverse};
+use super::rod_equations::is_level;
 use crate::mechanism::Mechanism;
 use crate::trig_polynomial::{TrigPolynomial, linear};
 
@@ -109,7 +109,8 @@ impl CircleEquations<4> for LegOneEquations<'_> {
     fn is_unwanted(&self, turn: [Enclosure; 2]) -> bool {
         let ([u, v], [y, _]) = (self.arm(turn), self.locus.at(turn));
         // y u + w1 v = 0 with w1 > 0 and u > 0: y and v have different signs.
-        let is_unwanted = self.scope == Scope::Working && (u.high < 0.0 || (u.low > 0.0 && (y * v).low > 0.0));
+        let is_unwanted =
+            self.scope == Scope::Working && (u.high < 0.0 || (u.low > 0.0 && (y * v).low > 0.0));
         is_unwanted || self.is_out_of_reach(turn[0], y)
     }
 

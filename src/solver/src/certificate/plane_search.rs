@@ -6,8 +6,8 @@
 
 use super::enclosure::Enclosure;
 
-/// Rectangles after which the search ends without a proof.
-const MOST_RECTANGLES: u32 = 20_000;
+/// Rectangles after which the search ends without a proof. Proofs take up to 800.
+const MOST_RECTANGLES: u32 = 4_000;
 /// Halvings after which it does.
 const DEEPEST: u32 = 60;
 
@@ -33,7 +33,7 @@ pub(super) trait PlaneEquations {
     const ANGLES: [bool; 2];
 }
 
-/// A search with its known solutions.
+/// A search with its known solutions: bounds of each, in which a solution is proved.
 #[derive(Debug)]
 pub(super) struct PlaneSearch<'a, E> {
     equations: &'a E,
@@ -91,7 +91,9 @@ impl<'a, E: PlaneEquations> PlaneSearch<'a, E> {
             (combined([here[0].value, here[1].value]) + change).excludes_zero()
         };
         let inverse = inverse(ranges.map(|range| range.slopes.map(Enclosure::middle)));
-        inverse.is_some_and(|rows| rows.into_iter().any(excludes)) || excludes([1.0, 0.0]) || excludes([0.0, 1.0])
+        inverse.is_some_and(|rows| rows.into_iter().any(excludes))
+            || excludes([1.0, 0.0])
+            || excludes([0.0, 1.0])
     }
 }
 
@@ -152,4 +154,60 @@ pub(super) fn reach(middle: f64, half: f64, interval: Enclosure, is_angle: bool)
     };
     let found = moved(Enclosure::ZERO);
     if is_angle { found.or_else(|| moved(turn)).or_else(|| moved(-turn)) } else { found }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The unit circle and the line y = x + c, in plain coordinates.
+    struct CircleAndLine(f64);
+
+    impl PlaneEquations for CircleAndLine {
+        const ANGLES: [bool; 2] = [false, false];
+
+        fn over(&self, rectangle: &Rectangle) -> Option<[EquationRange; 2]> {
+            let [x, y] = [0, 1].map(|i| Enclosure::of(rectangle.centre[i]).widened(rectangle.half[i]));
+            let circle = EquationRange {
+                value: x.square() + y.square() - Enclosure::ONE,
+                slopes: [x.times(2.0), y.times(2.0)],
+            };
+            let line = EquationRange {
+                value: y - x - Enclosure::of(self.0),
+                slopes: [-Enclosure::ONE, Enclosure::ONE],
+            };
+            Some([circle, line])
+        }
+    }
+
+    fn knows_all(line: f64, known: &[[f64; 2]]) -> bool {
+        let known: Vec<_> =
+            known.iter().map(|at| at.map(|number| Enclosure::of(number).widened(1e-12))).collect();
+        let everywhere = Rectangle { centre: [0.01, -0.02], half: [3.0, 3.0] };
+        PlaneSearch::new(&CircleAndLine(line), &known).knows_all_of(&everywhere)
+    }
+
+    #[test]
+    fn a_missing_solution_is_noticed() {
+        let half = 0.5_f64.sqrt();
+        let both = [[half, half], [-half, -half]];
+        assert!(knows_all(0.0, &both));
+        assert!(!knows_all(0.0, &both[..1]) && !knows_all(0.0, &both[1..]) && !knows_all(0.0, &[]));
+        assert!(knows_all(1.5, &[]), "the line passes beside the circle");
+    }
+
+    #[test]
+    fn a_double_solution_is_not_proved() {
+        let half = 0.5_f64.sqrt();
+        let touching = 2.0_f64.sqrt();
+        assert!(!knows_all(touching, &[[-half, half]]) && !knows_all(touching, &[]));
+    }
+
+    #[test]
+    fn an_angle_is_found_a_turn_away() {
+        let angle = Enclosure::of(-3.14).widened(1e-9);
+        assert!(reach(3.1, 0.1, angle, false).is_none());
+        assert!(reach(3.1, 0.1, angle, true).is_some_and(|reach| reach == 0.1));
+        assert!(reach(3.1, 0.04, angle, true).is_none());
+    }
 }

@@ -130,7 +130,11 @@ fn certify(machine: &Machine, locus: &EnclosedLocus, postures: &[Posture], scope
 }
 
 /// Whether the postures of these roots are all that there are.
-fn is_complete(equations: &LegOneEquations<'_>, roots: &[LegOneRoot], scope: Scope) -> Result<(), Incomplete> {
+fn is_complete(
+    equations: &LegOneEquations<'_>,
+    roots: &[LegOneRoot],
+    scope: Scope,
+) -> Result<(), Incomplete> {
     let known: ArrayVec<_, MAX_POSTURES> = roots.iter().map(LegOneRoot::bounds).collect();
     if !circle_search::knows_all(equations, &known) {
         return Err(Incomplete::Undecided);

@@ -8,8 +8,8 @@ use verne_solver::certificate::{
     Certification, EnclosedOrientation, Scope, certify_forward, certify_part, certify_platform, certify_tool,
 };
 use verne_solver::{
-    KinematicsError, Machine, PartPose, Posture, Postures, forward, forward_working, part, part_every_working,
-    platform, platform_working, tool, tool_every_working,
+    KinematicsError, Machine, PartPose, Posture, Postures, forward, forward_working, part,
+    part_every_working, platform, platform_working, tool, tool_every_working,
 };
 
 use super::lengths::scale;
@@ -98,7 +98,9 @@ impl Random {
             0 => Machine::verne(),
             1 => Machine::linear_delta(),
             2 | 3 => std::iter::repeat_with(|| spread(self)).flatten().next().unwrap_or_else(Machine::verne),
-            4 => std::iter::repeat_with(|| near_the_edge(self)).flatten().next().unwrap_or_else(Machine::verne),
+            4 => {
+                std::iter::repeat_with(|| near_the_edge(self)).flatten().next().unwrap_or_else(Machine::verne)
+            }
             _ => self.machine(),
         }
     }
@@ -165,7 +167,11 @@ impl Random {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            if question.towards(&other, middle).count(machine)? == count { low = middle } else { high = middle }
+            if question.towards(&other, middle).count(machine)? == count {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         let distance = self.magnitude(1e-15, 1e-2) * self.pick(&[-1.0, 1.0]);
         Some(question.towards(&other, 0.5 * (low + high) + distance))
