@@ -47,6 +47,9 @@ pub(super) fn turned_within([c, s]: [Enclosure; 2], half: f64) -> [Enclosure; 2]
 
 /// Cosine and sine of an interval of angles.
 pub(super) fn directions(angles: Enclosure) -> [Enclosure; 2] {
+    if angles == Enclosure::ZERO {
+        return [Enclosure::ONE, Enclosure::ZERO];
+    }
     let middle = angles.middle();
     let half = (angles - Enclosure::of(middle)).magnitude();
     turned_within(direction(middle), half)

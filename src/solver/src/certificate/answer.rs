@@ -14,11 +14,11 @@ pub enum Scope {
     Working,
 }
 
-/// A box that contains exactly one solution: `[low, high]` of each coordinate. The given coordinates of the request have
-/// equal bounds. It contains the posture that was proved, too, so its width bounds the posture's error.
+/// A box that contains exactly one solution: `[low, high]` of each coordinate. The coordinates that the request gives
+/// have equal bounds. It contains the posture that was proved, too, so its width bounds the posture's error.
 ///
-/// Lengths are millimetres. alpha is in radians and may exceed π. Still exactly one solution is inside if alpha's bounds
-/// are moved outwards by up to 1e-14 rad.
+/// Lengths are millimetres. alpha is in radians and may exceed π. Still exactly one solution is inside if alpha's
+/// bounds are moved outwards by up to 1e-14 rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PostureBox {
     /// x of P.

@@ -12,7 +12,8 @@ const LEAST: f64 = 1e-280;
 ///
 /// [rump]: https://doi.org/10.1007/s10543-009-0218-z
 const STEP: f64 = 0.5 * f64::EPSILON * (1.0 + f64::EPSILON);
-/// Least divisor. All other numbers are below 1e60, so no quotient and no product of quotients overflows.
+/// Least divisor. All other numbers are below 1e60, so no quotient and no product of quotients overflows: no bound is
+/// ever infinite or not a number.
 const LEAST_DIVISOR: f64 = 1e-60;
 
 /// All real numbers from `low` to `high`.
@@ -32,6 +33,11 @@ fn below(rounded: f64) -> f64 {
 #[inline(always)]
 fn above(rounded: f64) -> f64 {
     rounded + (rounded.abs() * STEP + LEAST)
+}
+
+/// Whether the numbers of a matrix can be multiplied with enclosures.
+pub(super) fn are_moderate<const N: usize>(matrix: &[[f64; N]; N]) -> bool {
+    matrix.as_flattened().iter().all(|number| number.abs() < 1.0 / LEAST_DIVISOR)
 }
 
 impl Enclosure {

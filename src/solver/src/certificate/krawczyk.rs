@@ -12,7 +12,7 @@
 
 use std::array::from_fn;
 
-use super::enclosure::Enclosure;
+use super::enclosure::{Enclosure, are_moderate};
 
 /// Radii of W that are tried, over the scale of each unknown. The first one is small enough for the curvature of nearly
 /// all equations, and large beside rounding. The others are for solutions with a large rounding error, and near to a
@@ -57,7 +57,7 @@ pub(super) fn prove<const N: usize, E: Equations<N>>(
     RADII.into_iter().find_map(|radius| {
         let radii = equations.scales().map(|scale| radius * scale);
         let slopes = equations.slopes(&centre, &radii);
-        let inverse = E::inverse(&slopes.map(|row| row.map(Enclosure::middle)))?;
+        let inverse = E::inverse(&slopes.map(|row| row.map(Enclosure::middle))).filter(are_moderate)?;
         let offsets = image(&values, &slopes, &radii, &inverse)?;
         let bounds = from_fn(|i| Enclosure::of(centre[i]) + offsets[i]);
         Some(ProvedZero { centre, radii, bounds })

@@ -4,7 +4,7 @@
 //! solution and the equations are injective: no matrix within the bounds of their derivatives is singular. Otherwise it
 //! is halved.
 
-use super::enclosure::Enclosure;
+use super::enclosure::{Enclosure, are_moderate};
 
 /// Rectangles after which the search ends without a proof. Proofs take up to 800.
 const MOST_RECTANGLES: u32 = 4_000;
@@ -116,7 +116,8 @@ fn wider_axis(rectangle: &Rectangle, ranges: &[EquationRange; 2]) -> usize {
 /// The inverse of a matrix in double precision, if it has one.
 pub(super) fn inverse([[a, b], [c, d]]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     let scale = 1.0 / (a * d - b * c);
-    scale.is_finite().then(|| [[d * scale, -b * scale], [-c * scale, a * scale]])
+    let inverse = [[d * scale, -b * scale], [-c * scale, a * scale]];
+    are_moderate(&inverse).then_some(inverse)
 }
 
 impl Rectangle {

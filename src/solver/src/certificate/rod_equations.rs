@@ -76,9 +76,9 @@ impl RodEquations<'_> {
     }
 }
 
-/// Whether the platform is level, for certain, at a solution of a machine with R1 = r1 within bounds of (y, w1) and of a.
-/// The first of equations (A) is then 2 R1 sin(a/2) (w1 cos(a/2) - y sin(a/2)) = 0: where the second factor has no zero,
-/// a is zero.
+/// Whether the platform is level, for certain, at a solution of a machine with R1 = r1 within bounds of (y, w1) and of
+/// a. The first of equations (A) is then 2 R1 sin(a/2) (w1 cos(a/2) - y sin(a/2)) = 0: where the second factor has no
+/// zero, a is zero.
 pub(super) fn is_level([y, w]: [Enclosure; 2], a: Enclosure) -> bool {
     let [c, s] = directions(a.times(0.5));
     !a.excludes_zero() && (w * c - y * s).excludes_zero()
