@@ -18,10 +18,15 @@
 #[cfg(test)]
 extern crate self as verne_solver;
 
+#[cfg(test)]
+#[path = "../tests/support/random.rs"]
+mod random;
+
 pub mod axis;
 pub mod certificate;
 mod clearance;
 mod error;
+pub mod error_budget;
 mod fast_math;
 mod forward;
 mod interval;
@@ -34,6 +39,7 @@ pub mod machine;
 mod margins;
 mod mechanism;
 mod parallel_matrix;
+pub mod parameter;
 mod pose;
 mod posture;
 mod posture_rows;
