@@ -61,18 +61,13 @@ impl<'a, E: PlaneEquations> PlaneSearch<'a, E> {
             return true;
         }
         let mut inside = self.known.iter().filter_map(|known| rectangle.with::<E>(known));
-        match (inside.next(), inside.next()) {
-            (None, _) => {
-                if self.is_excluded(rectangle, &ranges) {
-                    return true;
-                }
-            }
-            (Some(larger), None) => {
-                if self.equations.over(&larger).is_none_or(|ranges| is_injective(&ranges)) {
-                    return true;
-                }
-            }
-            _ => {}
+        let is_finished = match (inside.next(), inside.next()) {
+            (None, _) => self.is_excluded(rectangle, &ranges),
+            (Some(larger), None) => self.equations.over(&larger).is_none_or(|ranges| is_injective(&ranges)),
+            _ => false,
+        };
+        if is_finished {
+            return true;
         }
         let parts = rectangle.halves(wider_axis(rectangle, &ranges));
         parts.iter().all(|part| self.examine(part, depth + 1))
@@ -123,11 +118,8 @@ pub(super) fn inverse([[a, b], [c, d]]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> 
 impl Rectangle {
     /// The rectangle with a known solution as a whole, if both meet.
     fn with<E: PlaneEquations>(&self, known: &[Enclosure; 2]) -> Option<Self> {
-        let mut larger = *self;
-        for axis in 0..2 {
-            larger.half[axis] = reach(self.centre[axis], self.half[axis], known[axis], E::ANGLES[axis])?;
-        }
-        Some(larger)
+        let reach = |axis: usize| reach(self.centre[axis], self.half[axis], known[axis], E::ANGLES[axis]);
+        Some(Self { half: [reach(0)?, reach(1)?], ..*self })
     }
 
     fn halves(&self, axis: usize) -> [Self; 2] {
@@ -206,9 +198,9 @@ mod tests {
 
     #[test]
     fn an_angle_is_found_a_turn_away() {
-        let angle = Enclosure::of(-3.14).widened(1e-9);
+        let angle = Enclosure::of(-3.1).widened(1e-9);
         assert!(reach(3.1, 0.1, angle, false).is_none());
         assert!(reach(3.1, 0.1, angle, true).is_some_and(|reach| reach == 0.1));
-        assert!(reach(3.1, 0.04, angle, true).is_none());
+        assert!(reach(3.1, 0.08, angle, true).is_none());
     }
 }

@@ -67,12 +67,13 @@ impl RodEquations<'_> {
             true => a.excludes_zero().then_some(true),
             false => sign(-u),
         };
-        let below = rods.iter().map(|[_, _, z]| sign(-*z)).chain([crosses]);
-        below.fold(Some(true), |hang, below| match (hang, below) {
-            (Some(false), _) | (_, Some(true)) => Some(false),
-            (Some(true), Some(false)) => Some(true),
-            _ => None,
-        })
+        let [first, other, second, third] = rods.map(|[_, _, z]| sign(-z));
+        let faults = [crosses, first, other, second, third];
+        if faults.contains(&Some(true)) {
+            Some(false)
+        } else {
+            faults.iter().all(|fault| *fault == Some(false)).then_some(true)
+        }
     }
 }
 

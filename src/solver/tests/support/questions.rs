@@ -167,11 +167,8 @@ impl Random {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            if question.towards(&other, middle).count(machine)? == count {
-                low = middle
-            } else {
-                high = middle
-            }
+            let is_alike = question.towards(&other, middle).count(machine)? == count;
+            (low, high) = if is_alike { (middle, high) } else { (low, middle) };
         }
         let distance = self.magnitude(1e-15, 1e-2) * self.pick(&[-1.0, 1.0]);
         Some(question.towards(&other, 0.5 * (low + high) + distance))
