@@ -48,7 +48,7 @@ pub struct OriginRequest {
 
 /// The distance from the boundary at which the refinement of the surface ends, as a multiple of the grid's step; and
 /// the least such distance, as a multiple of that of the places.
-const OF_CELL: f64 = 1.0 / 40.0;
+const OF_CELL: f64 = 1.0 / 10.0;
 const OF_PLACES: f64 = 4.0;
 
 /// What all parts of a region's computation share: the places of the program that limit it, and the grid.

@@ -15,7 +15,7 @@ use crate::workspace::vector::{distance, minus};
 use crate::workspace::{Observer, WorkspaceError};
 
 /// Number of origins near the surface at which it is compared with the region.
-pub const ORIGIN_SAMPLES: u32 = 1 << 16;
+pub const ORIGIN_SAMPLES: u32 = 1 << 14;
 /// Error of the surface as a multiple of the greatest distance that was found: nobody finds the greatest of all.
 const SAFETY: f64 = 1.5;
 
