@@ -8,6 +8,8 @@ mod continuous_batch;
 mod cross_origin_requests;
 mod dexterity;
 mod documented_failures;
+mod error_budget;
+mod error_map;
 mod etags_and_ranges;
 mod guide;
 mod jacobian;

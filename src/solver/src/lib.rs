@@ -18,9 +18,14 @@
 #[cfg(test)]
 extern crate self as verne_solver;
 
+#[cfg(test)]
+#[path = "../tests/support/random.rs"]
+mod random;
+
 pub mod axis;
 mod clearance;
 mod error;
+pub mod error_budget;
 mod fast_math;
 mod forward;
 mod interval;
@@ -33,6 +38,7 @@ pub mod machine;
 mod margins;
 mod mechanism;
 mod parallel_matrix;
+pub mod parameter;
 mod pose;
 mod posture;
 mod posture_rows;

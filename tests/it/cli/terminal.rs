@@ -86,6 +86,17 @@ fn workspaces_and_machines_are_names_with_values() {
     assert!(slice.starts_with("Slice at z = 300 mm in the part frame\n"), "{slice}");
     let map = on_terminal("dexterity --phi1 0,20 --tool-length 50 --cell 200");
     assert!(map.contains("\nreachable\n  volume") && map.contains("\ngrid\n  points"), "{map}");
+    let budget = on_terminal(
+        "error-budget --x 100 --y 50 --z 150 --tool-length 50 --parameter-tolerances {\"L1\":0.02,\"tilt_zero\":0.001}",
+    );
+    assert!(budget.starts_with("verne: error budget\n") && budget.contains("\ntool end\n  rms"), "{budget}");
+    assert!(
+        budget.contains("L1") && budget.contains("0.02000 mm") && budget.contains("0.001000 deg"),
+        "{budget}"
+    );
+    let line = "error-map --kind tool --cell 200 --tolerance 20 --parameter-tolerances {\"L1\":0.02}";
+    let map = on_terminal(line);
+    assert!(map.contains("\n  tip_worst") && map.contains("the largest at"), "{map}");
     let machine = on_terminal("machine");
     let definition = json("machine");
     let number = |value: &Value| value.as_f64().unwrap().to_string();

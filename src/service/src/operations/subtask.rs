@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::operations::dexterity_question::DexterityQuestion;
+use crate::operations::error_map_question::ErrorMapQuestion;
 use crate::operations::family_question::FamilyQuestion;
 use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::origins::OriginsPart;
@@ -12,6 +13,7 @@ use crate::operations::origins_question::OriginsQuestion;
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::dexterity::CanonicalDexterity;
+use crate::wire::error_map::CanonicalErrorMap;
 use crate::wire::origins::CanonicalOrigins;
 use crate::wire::result_id::ResultId;
 use crate::wire::workspace::CanonicalWorkspace;
@@ -36,7 +38,10 @@ const GRID_FRACTION: f64 = 0.25;
 /// The volumes' fraction of a map's work, about.
 const VOLUMES_FRACTION: f64 = 0.2;
 
-/// A subtask of a family, of a dexterity map or of a region of origins.
+/// The surface's fraction of an error map's work, about.
+const SURFACE_FRACTION: f64 = 0.2;
+
+/// A subtask of a family, of a map or of a region of origins.
 #[derive(Clone, Debug)]
 pub(crate) struct Subtask {
     /// The machine.
@@ -69,6 +74,17 @@ pub(crate) enum SubtaskRequest {
         /// The part.
         part: OriginsPart,
     },
+    /// One of `count` slabs of an error map.
+    ErrorSlab {
+        /// The map.
+        map: Box<CanonicalErrorMap>,
+        /// The slab's number, from 0.
+        number: u32,
+        /// How many slabs the map has.
+        count: u32,
+    },
+    /// The surface of an error map.
+    ErrorSurface(Box<CanonicalErrorMap>),
 }
 
 impl Subtask {
@@ -105,6 +121,18 @@ impl Subtask {
             .collect()
     }
 
+    /// The slabs of an error map, then its surface.
+    pub(crate) fn of_error_map(question: &ErrorMapQuestion) -> Vec<Self> {
+        let map = Box::new(question.request);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 64")]
+        let count = (question.grid_cost() / SLAB_COST).clamp(1.0, MAX_SLABS) as u32;
+        let slabs = (0..count).map(|number| SubtaskRequest::ErrorSlab { map: map.clone(), number, count });
+        slabs
+            .chain([SubtaskRequest::ErrorSurface(map.clone())])
+            .map(|request| Self { machine: Arc::clone(&question.machine), request })
+            .collect()
+    }
+
     /// The region of origins that a part belongs to.
     pub(crate) fn region(&self, region: &CanonicalOrigins) -> OriginsQuestion {
         let toolpath = ToolpathQuestion::of(Arc::clone(&self.machine), region.toolpath.clone(), 0.0);
@@ -123,6 +151,10 @@ impl Subtask {
             SubtaskRequest::Origins { region, part } => {
                 (b"o", self.region(region).id, [part.number, part.count])
             }
+            SubtaskRequest::ErrorSlab { map, number, count } => {
+                (b"e", ErrorMapQuestion::of(machine, map).id, [*number, *count])
+            }
+            SubtaskRequest::ErrorSurface(map) => (b"f", ErrorMapQuestion::of(machine, map).id, [0, 0]),
         };
         let mut hasher = blake3::Hasher::new();
         hasher.update(HASH_PREFIX).update(kind).update(id.job().as_bytes());
@@ -139,7 +171,12 @@ impl Subtask {
                 let [from, to] = [number, number + 1].map(|cut| f64::from(cut) / f64::from(count));
                 total * (1.0 - VOLUMES_FRACTION) * (work_below(to) - work_below(from))
             }
+            SubtaskRequest::ErrorSlab { number, count, .. } => {
+                let [from, to] = [number, number + 1].map(|cut| f64::from(cut) / f64::from(count));
+                total * (1.0 - SURFACE_FRACTION) * (work_below(to) - work_below(from))
+            }
             SubtaskRequest::Volumes(_) => total * VOLUMES_FRACTION,
+            SubtaskRequest::ErrorSurface(_) => total * SURFACE_FRACTION,
         }
     }
 }

@@ -45,6 +45,7 @@ export function Help() {
           <h3 id="frames">Frames</h3>
           <img
             src={frames}
+            loading="lazy"
             width="480"
             height="445"
             alt="Three vertical guideways with sliders carry the platform by six rods. The base frame’s z points down. The table below tilts about an axis parallel to x and turns; it carries the part frame, whose Z points up."
