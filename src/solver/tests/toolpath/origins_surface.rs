@@ -18,7 +18,7 @@ fn dot(a: Point, b: Point) -> f64 {
     (0..3).map(|i| a[i] * b[i]).sum()
 }
 
-fn corners<'a>(surface: &'a OriginRegion) -> impl Iterator<Item = [Point; 3]> + 'a {
+fn corners(surface: &OriginRegion) -> impl Iterator<Item = [Point; 3]> {
     surface.triangles.iter().map(|corners| corners.map(|corner| surface.positions[corner as usize]))
 }
 
@@ -55,8 +55,7 @@ fn is_near(surface: &OriginRegion, at: Point, distance: f64) -> bool {
 
 /// A random origin at most `around` from a random vertex along each axis.
 fn any_near(surface: &OriginRegion, around: f64, random: &mut Random) -> Point {
-    let count = surface.positions.len();
-    let vertex = surface.positions[(random.between(0.0, count as f64) as usize).min(count - 1)];
+    let vertex = random.pick(&surface.positions);
     vertex.map(|c| c + random.between(-around, around))
 }
 
