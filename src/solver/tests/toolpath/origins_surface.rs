@@ -79,7 +79,7 @@ fn origins_on_the_wrong_side_of_the_surface_are_within_its_error() {
     for (machine, program, cell) in cases {
         let survey = surveyed(&machine, &program, cell);
         let surface = region(&machine, &survey);
-        assert!(surface.error < 0.4 * cell, "{}", surface.error);
+        assert!(surface.error < 0.75 * cell, "{}", surface.error);
         let mut wrong = 0;
         for _ in 0..origins(1500) {
             let at = any_near(&surface, 0.2 * cell, &mut random);
