@@ -23,6 +23,7 @@ extern crate self as verne_solver;
 mod random;
 
 pub mod axis;
+pub mod calibration;
 mod clearance;
 mod error;
 pub mod error_budget;
