@@ -10,6 +10,7 @@ pub(crate) mod calibration;
 pub(crate) mod calibration_answer;
 pub(crate) mod calibration_query;
 pub(crate) mod canonical_toolpath;
+pub(crate) mod certificate;
 pub(crate) mod code_list;
 pub(crate) mod constraint;
 pub(crate) mod contains;
