@@ -96,7 +96,7 @@ pub fn calibrated(
     let fitted = fit.run(start.clone())?;
     let nearest = nearest_to_start(&fit, &start, &fitted)?;
     let fitted = match nearest {
-        Some(nearest) => fit.finished(nearest, fitted)?,
+        Some(nearest) => fit.finished(nearest, &fitted)?,
         None => fitted,
     };
     concluded(machine, &fit, &start, fitted, options)

@@ -26,10 +26,10 @@ pub(crate) fn read_calibration(
     let request: CalibrationRequest = parse_body(body)?;
     let counts = [
         request.rho.len(),
-        request.table.as_ref().map_or(0, |list| list.len()),
-        request.points.as_ref().map_or(0, |list| list.len()),
-        request.pairs.as_ref().map_or(0, |list| list.len()),
-        request.lengths.as_ref().map_or(0, |list| list.len()),
+        request.table.as_ref().map_or(0, super::super::wire::bounded_list::BoundedList::len),
+        request.points.as_ref().map_or(0, super::super::wire::bounded_list::BoundedList::len),
+        request.pairs.as_ref().map_or(0, super::super::wire::bounded_list::BoundedList::len),
+        request.lengths.as_ref().map_or(0, super::super::wire::bounded_list::BoundedList::len),
     ];
     check_count(counts.into_iter().max().unwrap_or_default(), max_rows)?;
     let (mut question, mut faults) = without_measurements(&request, machines)?;
@@ -62,9 +62,24 @@ fn check_lists(request: &CalibrationRequest, faults: &mut FieldErrors) {
         faults.add("/rho", "must have at least one pose");
     }
     let lists = [
-        ("table", request.table.as_ref().map(|list| list.len()), kind == MeasurementKind::Part, true),
-        ("points", request.points.as_ref().map(|list| list.len()), kind.has_points(), false),
-        ("lengths", request.lengths.as_ref().map(|list| list.len()), kind == MeasurementKind::Ballbar, false),
+        (
+            "table",
+            request.table.as_ref().map(super::super::wire::bounded_list::BoundedList::len),
+            kind == MeasurementKind::Part,
+            true,
+        ),
+        (
+            "points",
+            request.points.as_ref().map(super::super::wire::bounded_list::BoundedList::len),
+            kind.has_points(),
+            false,
+        ),
+        (
+            "lengths",
+            request.lengths.as_ref().map(super::super::wire::bounded_list::BoundedList::len),
+            kind == MeasurementKind::Ballbar,
+            false,
+        ),
     ];
     for (name, count, belongs, is_required) in lists {
         let pointer = format!("/{name}");
@@ -124,17 +139,27 @@ fn check_numbers(request: &CalibrationRequest, machine: &Machine, faults: &mut F
     for (i, rho) in request.rho.items().iter().enumerate() {
         check_point(&format!("/rho/{i}"), rho, machine, faults);
     }
-    for (i, table) in request.table.iter().flat_map(|list| list.items()).enumerate() {
+    for (i, table) in
+        request.table.iter().flat_map(super::super::wire::bounded_list::BoundedList::items).enumerate()
+    {
         for (k, angle) in table.0.into_iter().enumerate() {
             faults.angle(&format!("/table/{i}/{k}"), Some(angle));
         }
     }
-    for (i, point) in request.points.iter().flat_map(|list| list.items()).enumerate() {
+    for (i, point) in
+        request.points.iter().flat_map(super::super::wire::bounded_list::BoundedList::items).enumerate()
+    {
         check_measured_point(&format!("/points/{i}"), point, request.kind, machine, faults);
     }
-    let lengths = request.lengths.iter().flat_map(|list| list.items()).copied().enumerate();
+    let lengths = request
+        .lengths
+        .iter()
+        .flat_map(super::super::wire::bounded_list::BoundedList::items)
+        .copied()
+        .enumerate();
     let lengths = lengths.map(|(i, length)| (format!("/lengths/{i}"), length));
-    let pairs = request.pairs.iter().flat_map(|list| list.items()).enumerate();
+    let pairs =
+        request.pairs.iter().flat_map(super::super::wire::bounded_list::BoundedList::items).enumerate();
     let distances = pairs.filter_map(|(i, pair)| Some((format!("/pairs/{i}/2"), *pair.get(2)?)));
     for (pointer, length) in lengths.chain(distances) {
         check_length(&pointer, length, machine, faults);
@@ -171,7 +196,7 @@ fn measured(request: &CalibrationRequest) -> Measured {
     let points = request.points.as_ref();
     let points = points.map(|points| points.items().iter().map(|point| point.0).collect::<Vec<Point>>());
     let table = || {
-        let table = request.table.iter().flat_map(|list| list.items());
+        let table = request.table.iter().flat_map(super::super::wire::bounded_list::BoundedList::items);
         table.map(|pair| table_angles(pair.0)).collect::<Vec<_>>()
     };
     let centre = request.centre.map(|centre| centre.0);
@@ -191,7 +216,7 @@ fn measured(request: &CalibrationRequest) -> Measured {
             (Plan::BallBar(centre), lengths.map(|lengths| Observed::BallBar { centre, lengths }))
         }
         MeasurementKind::Distances => {
-            let pairs = request.pairs.iter().flat_map(|list| list.items());
+            let pairs = request.pairs.iter().flat_map(super::super::wire::bounded_list::BoundedList::items);
             distances(pairs, poses)
         }
     };

@@ -109,7 +109,7 @@ impl Fit<'_> {
     }
 
     /// Finds the least cost from a state near the end of an earlier minimisation.
-    pub(super) fn finished(&self, from: State, earlier: Fitted) -> Result<Fitted, CalibrationError> {
+    pub(super) fn finished(&self, from: State, earlier: &Fitted) -> Result<Fitted, CalibrationError> {
         let last = self.minimise(from, earlier.weighting)?;
         Ok(Fitted { steps: earlier.steps + last.steps, ..last })
     }
@@ -143,7 +143,7 @@ impl Fit<'_> {
                 // Nielsen 1999: the damping grows faster and faster.
                 trial *= growth;
                 growth *= 2.0;
-                if !(trial < MOST_DAMPING * unit) {
+                if trial.is_nan() || trial >= MOST_DAMPING * unit {
                     return self.stopped(state, cost, weighting, &information, steps);
                 }
             }

@@ -147,7 +147,9 @@ impl Information {
         let mut entries: Vec<_> =
             entries.filter(|(_, amount)| amount.abs() > NEGLIGIBLE * greatest).collect();
         let sign = entries.first().map_or(1.0, |(_, amount)| amount.signum());
-        entries.iter_mut().for_each(|(_, amount)| *amount *= sign / greatest);
+        for (_, amount) in &mut entries {
+            *amount *= sign / greatest;
+        }
         entries
     }
 }
@@ -176,12 +178,12 @@ mod tests {
     fn combinations_that_do_not_matter_are_told_apart() {
         let information = example();
         assert_eq!(information.rank(), 2);
-        let names: Vec<Vec<(usize, i32)>> = information
+        let names: Vec<Vec<(usize, f64)>> = information
             .undetermined()
             .iter()
-            .map(|combination| combination.iter().map(|(at, amount)| (*at, amount.round() as i32)).collect())
+            .map(|combination| combination.iter().map(|(at, amount)| (*at, amount.round())).collect())
             .collect();
-        assert_eq!(names, [vec![(0, 1), (1, -1)], vec![(2, 1)], vec![(3, 1), (4, 1)]]);
+        assert_eq!(names, [vec![(0, 1.0), (1, -1.0)], vec![(2, 1.0)], vec![(3, 1.0), (4, 1.0)]]);
         assert!((0..5).all(|unknown| !information.determines(unknown)));
     }
 

@@ -206,7 +206,7 @@ impl<'a> Model<'a> {
         let starts: Vec<usize> = (0..count).step_by(BLOCK).collect();
         let blocks: Vec<Triangle> = starts.into_par_iter().map(block).collect();
         let none = Triangle::of(DMatrix::zeros(1, columns + 1));
-        blocks.iter().fold(none, |all, block| all.and(block))
+        blocks.iter().fold(none, Triangle::and)
     }
 }
 

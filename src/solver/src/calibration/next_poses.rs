@@ -58,7 +58,9 @@ pub(super) fn next_poses(
     let regular = information + DMatrix::identity(unknowns, unknowns) * faint;
     let Some(mut covariance) = regular.try_inverse() else { return Vec::new() };
     let mut candidates = candidates(machine, model, state);
-    candidates.iter_mut().for_each(|candidate| candidate.rows /= sigma);
+    for candidate in &mut candidates {
+        candidate.rows /= sigma;
+    }
     let mut chosen = Vec::with_capacity(count);
     while chosen.len() < count {
         let gain = |candidate: &Candidate| growth(&candidate.rows, &covariance).determinant();
@@ -110,17 +112,13 @@ fn candidate_joints(
     let limits = machine.limits();
     let within = |[low, high]: [f64; 2], fraction: f64| low + fraction * (high - low);
     let offsets = slider_positions(&state.machine, [0.0; 3]);
-    let (pose, rho) = match &model.measurements.observed {
-        Observed::BallBar { lengths, .. } => {
-            let tip = state.centre + on_sphere(place) * median(lengths);
-            let posture =
-                tool_working(machine, tip.into(), state.machine.value(Parameter::ToolLength)).ok()?;
-            (posture.pose, [0, 1, 2].map(|i| posture.rho[i] - offsets[i]))
-        }
-        _ => {
-            let rho = [0, 1, 2].map(|i| within(limits.stroke[i], place[i]) - offsets[i]);
-            (state.machine.platform_near(nearest(model, state, rho)?, rho)?, rho)
-        }
+    let (pose, rho) = if let Observed::BallBar { lengths, .. } = &model.measurements.observed {
+        let tip = state.centre + on_sphere(place) * median(lengths);
+        let posture = tool_working(machine, tip.into(), state.machine.value(Parameter::ToolLength)).ok()?;
+        (posture.pose, [0, 1, 2].map(|i| posture.rho[i] - offsets[i]))
+    } else {
+        let rho = [0, 1, 2].map(|i| within(limits.stroke[i], place[i]) - offsets[i]);
+        (state.machine.platform_near(nearest(model, state, rho)?, rho)?, rho)
     };
     let table = matches!(model.measurements.observed, Observed::PartTips(_)).then(|| TableAngles {
         theta1: within(limits.tilt, place[3]),

@@ -13,7 +13,7 @@ const SIGMA: f64 = 0.002;
 
 /// How often each parameter was identifiable, and how often within three standard deviations of its value.
 #[derive(Default)]
-struct Tally([[usize; 2]; PARAMETERS]);
+struct Tally([[u32; 2]; PARAMETERS]);
 
 impl Tally {
     fn add(&mut self, found: &Calibration, actual: &ActualMachine) {
@@ -21,14 +21,14 @@ impl Tally {
             let error = estimate.value - actual.value(estimate.parameter);
             let counts = &mut self.0[estimate.parameter.index()];
             counts[0] += 1;
-            counts[1] += usize::from(error.abs() <= 3.0 * estimate.sigma.unwrap());
+            counts[1] += u32::from(error.abs() <= 3.0 * estimate.sigma.unwrap());
         }
     }
 
     /// Checks that each parameter was found in this part of the runs.
     fn check(&self, least: f64, kind: Kind) {
         for (parameter, [all, within]) in Parameter::ALL.iter().zip(self.0) {
-            let part = within as f64 / all.max(1) as f64;
+            let part = f64::from(within) / f64::from(all.max(1));
             assert!(all == 0 || part >= least, "{kind:?}: {parameter:?} in {within} of {all}");
         }
     }
