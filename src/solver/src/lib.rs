@@ -18,6 +18,7 @@
 #[cfg(test)]
 extern crate self as verne_solver;
 
+pub mod atlas;
 pub mod axis;
 mod clearance;
 mod error;
