@@ -1,0 +1,179 @@
+//! Boxes that cover all configurations near a curve, and points on all of its components.
+//!
+//! A box is a range of φ and of the angle θ with X1 = r sin θ and m = r cos θ, and a side of each of legs II and III:
+//! above, below, or both where the leg may be level in the box. It is dropped if an equation has no zero in it. It is
+//! halved until one component of the curve's tangent has the same sign all over it. Then no closed curve lies inside
+//! it, so each component of the curve crosses edges of boxes, where [`super::edges`] finds it. Boxes whose image is
+//! smaller than the tolerance are not halved; only within one of them may a component be hidden.
+
+use std::f64::consts::PI;
+
+use super::enclosure::Enclosure;
+use super::leg_one::Shape;
+use super::place::Configuration;
+use super::request::{AtlasError, Space};
+use super::target::{System, Target};
+use crate::interval::Interval;
+use crate::workspace::Observer;
+
+/// Boxes along φ and θ at the start.
+const START: [u32; 2] = [4, 8];
+/// Most boxes that are examined.
+const MOST: usize = 400_000;
+/// Boxes between two questions to the observer.
+const ASK: usize = 1024;
+
+/// The side of leg II or III in a box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LegSide {
+    Above,
+    Below,
+    /// Either: the leg may be level.
+    Either,
+    /// Exactly level, as a target wants it.
+    Level,
+}
+
+/// A range of φ (of the parameter t, see [`Chart`]) and of θ, with a side of legs II and III.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cell {
+    pub(super) ranges: [Interval; 2],
+    pub(super) sides: [LegSide; 2],
+}
+
+/// The coordinates t and θ of a box: φ = low + (high - low)(1 - (1 - t)²) if leg I does not reach beyond high, else φ = t.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chart {
+    /// The least φ and, if leg I does not reach further, the greatest.
+    pub(super) low: f64,
+    pub(super) end: Option<f64>,
+    pub(super) range: Interval,
+}
+
+/// What a search covers.
+pub(super) struct Search<'a> {
+    pub(super) system: System<'a>,
+    pub(super) chart: Chart,
+    /// The part of the plane.
+    pub(super) window: [Interval; 2],
+    /// Boxes with a smaller image are not halved.
+    pub(super) tolerance: f64,
+    /// Whether only the sides above count, for legs II and III.
+    pub(super) above_only: [bool; 2],
+}
+
+impl Chart {
+    /// `None` if leg I reaches nowhere.
+    pub(super) fn new(shape: &Shape) -> Option<Self> {
+        let [low, high] = shape.half_turn();
+        let square = |phi: f64| shape.squares[0] - shape.angles(phi).arm[0].powi(2);
+        if square(high) > 0.0 {
+            return Some(Self { low, end: None, range: Interval::new(low, high) });
+        }
+        if square(low) <= 0.0 {
+            return None;
+        }
+        let at = crate::workspace::zero(square(low), square(high), 1e-16, |t| square(low + t * (high - low)));
+        let mut end = low + at * (high - low);
+        while square(end) < 0.0 && end > low {
+            end -= 1e-15;
+        }
+        Some(Self { low, end: Some(end), range: Interval::UNIT })
+    }
+
+    /// φ at a parameter, and its derivative.
+    pub(super) fn phi(&self, t: f64) -> [f64; 2] {
+        match self.end {
+            None => [t, 1.0],
+            Some(end) => [end - (end - self.low) * (1.0 - t) * (1.0 - t), 2.0 * (end - self.low) * (1.0 - t)],
+        }
+    }
+}
+
+impl Search<'_> {
+    /// Points of the curve, at least one on each component whose image in the window is larger than the tolerance.
+    pub(super) fn points(&self, observer: &dyn Observer) -> Result<Vec<Configuration>, AtlasError> {
+        let mut cells = self.first_cells();
+        let (mut found, mut count) = (Vec::new(), 0);
+        while let Some(cell) = cells.pop() {
+            count += 1;
+            if count > MOST {
+                return Err(AtlasError::TooFine);
+            }
+            if count % ASK == 0 && observer.cancelled() {
+                return Err(AtlasError::Cancelled);
+            }
+            let Some(enclosure) = Enclosure::of(self, &cell) else { continue };
+            let size = enclosure.image_size();
+            let is_settled = enclosure.tangent_has_a_sign() && 2.0 * size <= self.window_side();
+            if is_settled || size < self.tolerance {
+                self.edges(&cell, &mut found);
+            } else {
+                cells.extend(self.halves(&cell, &enclosure).into_iter().flatten());
+            }
+        }
+        Ok(found)
+    }
+
+    fn window_side(&self) -> f64 {
+        self.window.iter().map(|range| range.high - range.low).fold(0.0, f64::max)
+    }
+
+    fn first_cells(&self) -> Vec<Cell> {
+        let parts = |range: Interval, count: u32| {
+            let step = (range.high - range.low) / f64::from(count);
+            let end = move |i: u32| if i == count { range.high } else { range.low + step * f64::from(i) };
+            (0..count).map(move |i| Interval::new(end(i), end(i + 1)))
+        };
+        let side = |level: bool| if level { LegSide::Level } else { LegSide::Either };
+        let sides =
+            [side(self.system.target == Target::LegTwo), side(self.system.target == Target::LegThree)];
+        let [columns, rows] = START;
+        parts(self.chart.range, columns)
+            .flat_map(|t| {
+                parts(Interval::around(PI), rows).map(move |theta| Cell { ranges: [t, theta], sides })
+            })
+            .collect()
+    }
+
+    /// The halves of a box, or the box for both sides of a leg that is not level in it.
+    fn halves(&self, cell: &Cell, enclosure: &Enclosure) -> [Option<Cell>; 2] {
+        for leg in 0..2 {
+            if cell.sides[leg] == LegSide::Either && enclosure.height_squares[leg].low > 0.0 {
+                let with = |side: LegSide| {
+                    let mut sides = cell.sides;
+                    sides[leg] = side;
+                    Cell { sides, ..*cell }
+                };
+                let below = (!self.above_only[leg]).then(|| with(LegSide::Below));
+                return [Some(with(LegSide::Above)), below];
+            }
+        }
+        let axis = enclosure.axis(cell);
+        cell.halved(axis).map(Some)
+    }
+
+    /// Points on the edges of a box that bound it from above. The neighbours' edges bound it from below.
+    fn edges(&self, cell: &Cell, found: &mut Vec<Configuration>) {
+        for axis in 0..2 {
+            let mut edge = *cell;
+            edge.ranges[axis] = Interval::of(cell.ranges[axis].high);
+            self.edge(&edge, axis, 0, found);
+        }
+    }
+
+    /// Whether the mirror image of each configuration has the mirror image of its point.
+    pub(super) fn adds_mirror_images(&self) -> bool {
+        self.system.space == Space::Joints
+    }
+}
+
+impl Cell {
+    pub(super) fn halved(&self, axis: usize) -> [Self; 2] {
+        let middle = self.ranges[axis].middle();
+        let [mut below, mut above] = [*self, *self];
+        below.ranges[axis].high = middle;
+        above.ranges[axis].low = middle;
+        [below, above]
+    }
+}
