@@ -3,6 +3,7 @@
 mod answer;
 mod arc;
 mod arrangement;
+mod chart;
 mod clip;
 mod compute;
 mod continuation;

@@ -58,7 +58,31 @@ impl<'a> Path<'a> {
             let (a, b) = (self.node(pair[0]), self.node(pair[1]));
             self.refine(&a, &b, 0, fineness, &mut nodes);
         }
+        self.mark_cusps(&mut nodes);
         nodes
+    }
+
+    /// Marks the cusps that were nodes already, as where a symmetric curve begins.
+    fn mark_cusps(&self, nodes: &mut [ArcNode]) {
+        if !self.is_critical() || nodes.len() < 3 {
+            return;
+        }
+        let last = nodes.len() - 1;
+        let is_closed = nodes[0].at == nodes[last].at || {
+            let [a, b] = [nodes[0].at, nodes[last].at];
+            (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-12
+        };
+        for i in 0..last {
+            let before = match (i, is_closed) {
+                (0, true) => last - 1,
+                (0, false) => continue,
+                _ => i - 1,
+            };
+            let [p, q, r] = [nodes[before].at, nodes[i].at, nodes[i + 1].at];
+            if (q[0] - p[0]) * (r[0] - q[0]) + (q[1] - p[1]) * (r[1] - q[1]) < 0.0 {
+                nodes[i].mark = Some(PointKind::Cusp);
+            }
+        }
     }
 
     /// Adds the nodes after `a` up to `b`.

@@ -3,7 +3,7 @@
 use super::answer::{Atlas, Curve, PointKind, Region, SpecialPoint};
 use super::arc::Arc;
 use super::clip::Rectangle;
-use super::crossings::insert_crossings;
+use super::crossings::{insert_crossings, insert_ends};
 use super::leg_one::Shape;
 use super::regions::{Count, Grid, counted, polygon};
 use super::request::{AtlasError, AtlasRequest, Space};
@@ -30,6 +30,7 @@ pub fn atlas(
     };
     let tolerance = request.tolerance / unit;
     let Traced { mut arcs, points } = traced(&shapes, request.space, &window, tolerance, observer)?;
+    insert_ends(&mut arcs, tolerance);
     insert_crossings(&mut arcs);
     let grid = Grid::new(&window);
     let count = |at: [f64; 2]| count(machine, request.space, at.map(|coordinate| coordinate * unit));

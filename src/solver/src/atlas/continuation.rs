@@ -1,8 +1,12 @@
 //! Newton's method and continuation along a curve in the space of configurations.
 
+use std::f64::consts::{PI, TAU};
+
 use nalgebra::{Matrix4, SMatrix, SVector};
 
+use super::leg_one::Branch;
 use super::place::Configuration;
+use super::request::Space;
 use super::scalar::COORDINATES;
 use super::target::System;
 
@@ -20,6 +24,8 @@ const LEAST: f64 = 1e-9;
 /// Cosine of the angle between the tangents at both ends of a step: at least the first, and if it is above the second
 /// the next step is longer.
 const TURNS: [f64; 2] = [0.97, 0.995];
+/// A step shorter than this may cross a point at which the curve crosses itself.
+const CROSSING: f64 = 1e-5;
 /// Greatest correction of a step, relative to its length.
 const CORRECTION: f64 = 0.25;
 /// Most steps along one curve.
@@ -47,6 +53,16 @@ pub(super) enum End {
     Bound,
     /// Where the caller wanted no more, or where no step was possible.
     Open,
+}
+
+/// A point of a walk along a curve.
+struct Walker {
+    q: Configuration,
+    tangent: Configuration,
+    /// Whether the walk is along the tangent or against it.
+    sense: f64,
+    /// Length of the next step.
+    length: f64,
 }
 
 impl System<'_> {
@@ -124,7 +140,7 @@ impl System<'_> {
     /// Whether a point of the curve lies between two near ones.
     pub(super) fn contains(&self, [a, b]: [&Configuration; 2], point: &Configuration) -> bool {
         self.images(point).into_iter().any(|mut point| {
-            point[2] += std::f64::consts::TAU * ((a[2] - point[2]) / std::f64::consts::TAU).round();
+            self.turn_near(&mut point, a);
             let chord: Configuration = std::array::from_fn(|i| b[i] - a[i]);
             let offset: Configuration = std::array::from_fn(|i| point[i] - a[i]);
             let square = dot(&chord, &chord);
@@ -151,53 +167,47 @@ impl System<'_> {
     ) -> (Vec<Configuration>, End) {
         let mut points: Vec<Configuration> = Vec::new();
         let Some(first) = self.tangent(start) else { return (points, End::Open) };
-        let (mut q, mut tangent) = (*start, first.map(|component| component * sense));
-        let mut length = FIRST;
+        let mut place = Walker { q: *start, tangent: first, sense, length: FIRST };
         while points.len() < MOST {
-            let Some((next, next_tangent)) = self.step(&q, &tangent, &mut length) else { break };
-            if self.reserve(&next) < 0.0 {
-                points.extend(self.bound_between(&q, &next));
+            let Some(next) = self.step(&place) else { break };
+            if self.reserve(&next.q) < 0.0 {
+                points.extend(self.bound_between(&place.q, &next.q));
                 return (points, End::Bound);
             }
-            if points.len() >= 2 && self.contains([&q, &next], start) {
+            if points.len() >= 2 && self.contains([&place.q, &next.q], start) {
                 return (points, End::Start);
             }
-            points.push(next);
-            if !wants(&next) {
+            points.push(next.q);
+            if !wants(&next.q) {
                 break;
             }
-            (q, tangent) = (next, next_tangent);
+            place = next;
         }
         (points, End::Open)
     }
 
-    /// The next point and its tangent. It shortens and lengthens the step.
-    fn step(
-        &self,
-        q: &Configuration,
-        tangent: &Configuration,
-        length: &mut f64,
-    ) -> Option<(Configuration, Configuration)> {
-        while *length > LEAST {
-            let guess: Configuration = std::array::from_fn(|i| q[i] + *length * tangent[i]);
-            let found = self.corrected(&guess, tangent).and_then(|next| {
-                let off: Configuration = std::array::from_fn(|i| next[i] - guess[i]);
-                let other = self.tangent(&next)?;
-                let turn = dot(&other, tangent);
-                let aligned = other.map(|component| component * turn.signum());
-                (norm(&off) <= CORRECTION * *length && turn.abs() >= TURNS[0]).then_some((
-                    next,
-                    aligned,
-                    turn.abs(),
-                ))
+    /// The next point. The tangent has the same sense all along a curve, but the opposite one on the curve beside it. So
+    /// a step that leads to another curve is refused, unless it is so short that the two cross within it.
+    fn step(&self, from: &Walker) -> Option<Walker> {
+        let mut length = from.length;
+        let along = from.tangent.map(|component| component * from.sense);
+        while length > LEAST {
+            let guess: Configuration = std::array::from_fn(|i| from.q[i] + length * along[i]);
+            let found = self.corrected(&guess, &along).and_then(|q| {
+                let off: Configuration = std::array::from_fn(|i| q[i] - guess[i]);
+                let tangent = self.tangent(&q)?;
+                let turn = dot(&tangent, &from.tangent);
+                let is_other_sense = turn < 0.0 && length < CROSSING;
+                let sense = if is_other_sense { -from.sense } else { from.sense };
+                let turn = if is_other_sense { -turn } else { turn };
+                let next = Walker { q, tangent, sense, length };
+                (norm(&off) <= CORRECTION * length && turn >= TURNS[0]).then_some((next, turn))
             });
-            if let Some((next, aligned, turn)) = found {
-                if turn > TURNS[1] {
-                    *length = (1.6 * *length).min(GREATEST);
-                }
-                return Some((next, aligned));
+            if let Some((next, turn)) = found {
+                let length = if turn > TURNS[1] { (1.6 * length).min(GREATEST) } else { length };
+                return Some(Walker { length, ..next });
             }
-            *length *= 0.5;
+            length *= 0.5;
         }
         None
     }
@@ -228,24 +238,40 @@ impl System<'_> {
     pub(super) fn closing(&self, last: Configuration, start: &Configuration) -> Option<Configuration> {
         let near = |point: Configuration| {
             let mut point = point;
-            point[2] += std::f64::consts::TAU * ((last[2] - point[2]) / std::f64::consts::TAU).round();
+            self.turn_near(&mut point, &last);
             point
         };
         let distance = |point: &Configuration| norm(&std::array::from_fn(|i| point[i] - last[i]));
         self.images(start).into_iter().map(near).min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// The configurations that are the same point: all of them, if the branch of leg I or the plane has two
-    /// coordinates for one.
+    /// Turns φ of a configuration by whole turns to be near that of another.
+    fn turn_near(&self, q: &mut Configuration, other: &Configuration) {
+        if self.shape.branch != Branch::Level {
+            q[2] += TAU * ((other[2] - q[2]) / TAU).round();
+        }
+    }
+
+    /// The mirror image of a configuration: of the platform with its x and y, or of the sliders with the opposite
+    /// differences.
+    pub(super) fn mirrored(&self, [x1, second, third, w2, w3]: &Configuration) -> Configuration {
+        // (y, w1, a) becomes (y, -w1, -a).
+        let second = if self.shape.branch == Branch::Level { *second } else { -second };
+        match self.space {
+            Space::Platform => [*x1, second, -third, *w2, *w3],
+            Space::Joints => [*x1, second, -third, -w2, -w3],
+        }
+    }
+
+    /// The configurations that are the same point: the crossed branch has two coordinates for one, and in the plane of the
+    /// platform mirror images are the same.
     fn images(&self, q: &Configuration) -> Vec<Configuration> {
-        use super::leg_one::Branch;
-        use super::request::Space;
         let mut images = vec![*q];
-        if self.shape.branch != Branch::Only {
-            images.push([q[0], -q[1], q[2] + std::f64::consts::PI, q[3], q[4]]);
+        if self.shape.branch == Branch::Crossed {
+            images.push([q[0], -q[1], q[2] + PI, q[3], q[4]]);
         }
         if self.space == Space::Platform {
-            let mirrored = images.clone().into_iter().map(|[x1, m, phi, w2, w3]| [x1, -m, -phi, w2, w3]);
+            let mirrored: Vec<Configuration> = images.iter().map(|q| self.mirrored(q)).collect();
             images.extend(mirrored);
         }
         images

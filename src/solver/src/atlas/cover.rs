@@ -1,6 +1,6 @@
 //! Boxes that cover all configurations near a curve, and points on all of its components.
 //!
-//! A box is a range of φ and of the angle θ with X1 = r sin θ and m = r cos θ, and a side of each of legs II and III:
+//! A box is a range of two coordinates t and θ (see [`Chart`]), and a side of each of legs II and III:
 //! above, below, or both where the leg may be level in the box. It is dropped if an equation has no zero in it. It is
 //! halved until one component of the curve's tangent has the same sign all over it. Then no closed curve lies inside
 //! it, so each component of the curve crosses edges of boxes, where [`super::edges`] finds it. Boxes whose image is
@@ -8,18 +8,18 @@
 
 use std::f64::consts::PI;
 
+use super::chart::Chart;
 use super::enclosure::Enclosure;
-use super::leg_one::Shape;
 use super::place::Configuration;
-use super::request::{AtlasError, Space};
+use super::request::AtlasError;
 use super::target::{System, Target};
 use crate::interval::Interval;
 use crate::workspace::Observer;
 
 /// Boxes along φ and θ at the start.
 const START: [u32; 2] = [4, 8];
-/// Most boxes that are examined.
-const MOST: usize = 400_000;
+/// Most boxes, and most parts of edges, that are examined.
+pub(super) const MOST: usize = 400_000;
 /// Boxes between two questions to the observer.
 const ASK: usize = 1024;
 
@@ -34,20 +34,18 @@ pub(super) enum LegSide {
     Level,
 }
 
-/// A range of φ (of the parameter t, see [`Chart`]) and of θ, with a side of legs II and III.
+/// A range of t and θ (see [`Chart`]), with a side of legs II and III.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
     pub(super) ranges: [Interval; 2],
     pub(super) sides: [LegSide; 2],
 }
 
-/// The coordinates t and θ of a box: φ = low + (high - low)(1 - (1 - t)²) if leg I does not reach beyond high, else φ = t.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Chart {
-    /// The least φ and, if leg I does not reach further, the greatest.
-    pub(super) low: f64,
-    pub(super) end: Option<f64>,
-    pub(super) range: Interval,
+/// What a search has found on edges, and how many parts of them it has examined.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) points: Vec<Configuration>,
+    pub(super) examined: usize,
 }
 
 /// What a search covers.
@@ -62,42 +60,14 @@ pub(super) struct Search<'a> {
     pub(super) above_only: [bool; 2],
 }
 
-impl Chart {
-    /// `None` if leg I reaches nowhere.
-    pub(super) fn new(shape: &Shape) -> Option<Self> {
-        let [low, high] = shape.half_turn();
-        let square = |phi: f64| shape.squares[0] - shape.angles(phi).arm[0].powi(2);
-        if square(high) > 0.0 {
-            return Some(Self { low, end: None, range: Interval::new(low, high) });
-        }
-        if square(low) <= 0.0 {
-            return None;
-        }
-        let at = crate::workspace::zero(square(low), square(high), 1e-16, |t| square(low + t * (high - low)));
-        let mut end = low + at * (high - low);
-        while square(end) < 0.0 && end > low {
-            end -= 1e-15;
-        }
-        Some(Self { low, end: Some(end), range: Interval::UNIT })
-    }
-
-    /// φ at a parameter, and its derivative.
-    pub(super) fn phi(&self, t: f64) -> [f64; 2] {
-        match self.end {
-            None => [t, 1.0],
-            Some(end) => [end - (end - self.low) * (1.0 - t) * (1.0 - t), 2.0 * (end - self.low) * (1.0 - t)],
-        }
-    }
-}
-
 impl Search<'_> {
     /// Points of the curve, at least one on each component whose image in the window is larger than the tolerance.
     pub(super) fn points(&self, observer: &dyn Observer) -> Result<Vec<Configuration>, AtlasError> {
         let mut cells = self.first_cells();
-        let (mut found, mut count) = (Vec::new(), 0);
+        let (mut found, mut count) = (Found::default(), 0);
         while let Some(cell) = cells.pop() {
             count += 1;
-            if count > MOST {
+            if count > MOST || found.examined > MOST {
                 return Err(AtlasError::TooFine);
             }
             if count % ASK == 0 && observer.cancelled() {
@@ -112,7 +82,7 @@ impl Search<'_> {
                 cells.extend(self.halves(&cell, &enclosure).into_iter().flatten());
             }
         }
-        Ok(found)
+        Ok(found.points)
     }
 
     fn window_side(&self) -> f64 {
@@ -154,17 +124,12 @@ impl Search<'_> {
     }
 
     /// Points on the edges of a box that bound it from above. The neighbours' edges bound it from below.
-    fn edges(&self, cell: &Cell, found: &mut Vec<Configuration>) {
+    fn edges(&self, cell: &Cell, found: &mut Found) {
         for axis in 0..2 {
             let mut edge = *cell;
             edge.ranges[axis] = Interval::of(cell.ranges[axis].high);
             self.edge(&edge, axis, 0, found);
         }
-    }
-
-    /// Whether the mirror image of each configuration has the mirror image of its point.
-    pub(super) fn adds_mirror_images(&self) -> bool {
-        self.system.space == Space::Joints
     }
 }
 

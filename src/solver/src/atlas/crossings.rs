@@ -1,8 +1,9 @@
 //! The points at which arcs cross, on the true curves.
 
 use super::answer::PointKind;
-use super::arc::{Arc, ArcNode};
+use super::arc::{Arc, ArcNode, distance_to_segment};
 use super::segment_grid::SegmentGrid;
+use crate::workspace::zero;
 
 /// Steps of the iteration from the crossing of two chords, and the distance at which it has converged.
 const STEPS: usize = 40;
@@ -10,6 +11,50 @@ const CONVERGED: f64 = 1e-14;
 
 /// A node to be inserted: arc, number of the segment, fraction along it.
 type Insertion = (usize, usize, f64, ArcNode);
+
+/// Distance within which an end of an arc is on another arc.
+const SAME: f64 = 1e-9;
+
+/// Inserts the points at which arcs end on other arcs, or touch them, as nodes of these.
+pub(super) fn insert_ends(arcs: &mut [Arc<'_>], tolerance: f64) {
+    let is_end = |node: &&ArcNode| matches!(node.mark, Some(PointKind::Corner | PointKind::Tangency));
+    let ends: Vec<(usize, ArcNode)> = arcs
+        .iter()
+        .enumerate()
+        .flat_map(|(number, arc)| arc.nodes.iter().filter(is_end).map(move |node| (number, *node)))
+        .collect();
+    for (owner, end) in ends {
+        for (number, arc) in arcs.iter_mut().enumerate().filter(|(number, _)| *number != owner) {
+            let is_near =
+                |pair: &[ArcNode]| distance_to_segment(end.at, [pair[0].at, pair[1].at]) < tolerance;
+            let near: Vec<usize> =
+                arc.nodes.windows(2).enumerate().filter(|(_, pair)| is_near(pair)).map(|(i, _)| i).collect();
+            for i in near.into_iter().rev() {
+                if let Some(node) = passing(arc, i, end.at) {
+                    arc.nodes.insert(i + 1, node);
+                }
+            }
+        }
+    }
+}
+
+/// The node of an arc in a segment at a point, if the arc passes there between the segment's ends.
+fn passing(arc: &Arc<'_>, segment: usize, point: [f64; 2]) -> Option<ArcNode> {
+    let [a, b] = [&arc.nodes[segment], &arc.nodes[segment + 1]];
+    let chord = [b.at[0] - a.at[0], b.at[1] - a.at[1]];
+    // How far the point is ahead of a place, along the chord.
+    let ahead = |at: [f64; 2]| (point[0] - at[0]) * chord[0] + (point[1] - at[1]) * chord[1];
+    let [start, end] = [ahead(a.at), ahead(b.at)];
+    if start < 0.0 || end > 0.0 {
+        return None;
+    }
+    let place = |fraction: f64| arc.path.between(&a.q, &b.q, fraction);
+    let fraction =
+        zero(start, end, 1e-15, |fraction| place(fraction).map_or(f64::NAN, |q| ahead(arc.path.image(&q))));
+    let node = arc.path.node(place(fraction)?);
+    let is_same = (0..2).all(|i| (node.at[i] - point[i]).abs() < SAME);
+    is_same.then_some(ArcNode { at: point, ..node })
+}
 
 /// Inserts the crossings of all arcs as nodes of both.
 pub(super) fn insert_crossings(arcs: &mut [Arc<'_>]) {

@@ -1,7 +1,8 @@
 //! Points of a curve on the edges of boxes.
 
+use super::chart::Chart;
 use super::continuation::norm;
-use super::cover::{Cell, LegSide, Search};
+use super::cover::{Cell, Found, LegSide, MOST, Search};
 use super::enclosure::Enclosure;
 use super::place::Configuration;
 use crate::interval::Interval;
@@ -15,7 +16,11 @@ const STEPS: usize = 20;
 impl Search<'_> {
     /// Adds the points of the curve on an edge, on which the coordinate `axis` is constant. A point at the end of a part
     /// of the edge may be added twice.
-    pub(super) fn edge(&self, edge: &Cell, axis: usize, depth: u32, found: &mut Vec<Configuration>) {
+    pub(super) fn edge(&self, edge: &Cell, axis: usize, depth: u32, found: &mut Found) {
+        found.examined += 1;
+        if found.examined > MOST {
+            return;
+        }
         let Some(enclosure) = Enclosure::of(self, edge) else { return };
         for leg in 0..2 {
             if edge.sides[leg] == LegSide::Either && enclosure.height_squares[leg].low > 0.0 {
@@ -32,14 +37,14 @@ impl Search<'_> {
         let is_deepest = depth >= DEEPEST;
         if enclosure.crosses_once(axis) || is_deepest {
             if !edge.sides.contains(&LegSide::Either) && !edge.sides.contains(&LegSide::Level) {
-                found.extend(self.crossing(edge, axis));
+                found.points.extend(self.crossing(edge, axis));
                 return;
             }
-            let before = found.len();
-            found.extend(
+            let before = found.points.len();
+            found.points.extend(
                 self.newton_starts(edge).into_iter().filter_map(|start| self.newton(edge, axis, start)),
             );
-            if found.len() > before || is_deepest {
+            if found.points.len() > before || is_deepest {
                 return;
             }
         }
@@ -51,11 +56,8 @@ impl Search<'_> {
     /// The configuration at a point of an edge, without regard to the target.
     fn configuration(&self, [t, theta]: [f64; 2], signs: [f64; 2]) -> Configuration {
         let shape = self.system.shape;
-        let phi = self.chart.phi(t)[0];
-        let arm = shape.angles(phi).arm[0];
-        let r = (shape.squares[0] - arm * arm).max(0.0).sqrt();
-        let (s, c) = theta.sin_cos();
-        let mut q = [r * s, r * c, phi, 0.0, 0.0];
+        let [x1, second, third] = self.chart.configuration(shape, [t, theta]);
+        let mut q = [x1, second, third, 0.0, 0.0];
         let squares = shape.place(&q).height_squares();
         for leg in 0..2 {
             q[3 + leg] = signs[leg] * squares[leg].max(0.0).sqrt();
@@ -102,12 +104,7 @@ impl Search<'_> {
     /// Newton's method along an edge; `None` if it finds no point of it.
     fn newton(&self, edge: &Cell, axis: usize, start: Configuration) -> Option<Configuration> {
         let fixed = edge.ranges[axis].low;
-        let normal: Configuration = if axis == 0 {
-            [0.0, 0.0, 1.0, 0.0, 0.0]
-        } else {
-            let (s, c) = fixed.sin_cos();
-            [c, -s, 0.0, 0.0, 0.0]
-        };
+        let normal = Chart::normal(axis, fixed);
         let mut q = start;
         for _ in 0..STEPS {
             let next = self.system.newton_step(&q, &start, &normal)?;
@@ -124,17 +121,8 @@ impl Search<'_> {
     fn is_on(&self, edge: &Cell, axis: usize, q: &Configuration) -> bool {
         const SLACK: f64 = 1e-10;
         let free = edge.ranges[1 - axis];
-        let at = if axis == 0 {
-            q[0].atan2(q[1])
-        } else {
-            // t of φ.
-            match self.chart.end {
-                None => q[2],
-                Some(end) => 1.0 - ((end - q[2]) / (end - self.chart.low)).max(0.0).sqrt(),
-            }
-        };
-        let turned = at - std::f64::consts::TAU * ((at - free.middle()) / std::f64::consts::TAU).round();
-        let at = if axis == 0 { turned } else { at };
+        let [t, theta] = self.chart.coordinates(self.system.shape, q);
+        let at = if axis == 0 { Chart::nearest(theta, free.middle()) } else { t };
         let side_fits = |leg: usize| match edge.sides[leg] {
             LegSide::Above => q[3 + leg] >= -SLACK,
             LegSide::Below => q[3 + leg] <= SLACK,

@@ -1,7 +1,6 @@
 //! The ranges of a curve's equations over a box.
 
-use super::cover::{Cell, Chart, LegSide, Search};
-use super::leg_one::Shape;
+use super::cover::{Cell, LegSide, Search};
 use super::place::Place;
 use crate::interval::Interval;
 use crate::jet::Jet;
@@ -23,43 +22,6 @@ pub(super) struct Enclosure {
     changes: [f64; 2],
 }
 
-/// The place over a box, and the place in its middle.
-fn places<'a>(shape: &'a Shape, chart: &Chart, cell: &Cell) -> (Place<'a, Jet>, Place<'a, f64>) {
-    let [t, theta] = cell.ranges;
-    let [phi_low, phi_high] = [t.low, t.high].map(|t| chart.phi(t)[0]);
-    let rate = Interval::new(chart.phi(t.high)[1].min(chart.phi(t.low)[1]), chart.phi(t.low)[1]);
-    let angles = shape.angle_ranges(Interval::new(phi_low, phi_high.max(phi_low)));
-    let angles = angles.map(|[value, slope]| Jet { value, slopes: [slope * rate, Interval::ZERO] });
-    let radius = radius(shape, chart, t, &angles.arm);
-    let [cos, sin] = Jet::coordinate(theta, 1).cosine_and_sine();
-    let middle = cell.ranges.map(Interval::middle);
-    let at = shape.angles(chart.phi(middle[0])[0]).map(|[value, _]| value);
-    let r = (shape.squares[0] - at.arm * at.arm).max(0.0).sqrt();
-    let (s, c) = middle[1].sin_cos();
-    (Place::new(shape, [radius * sin, radius * cos], angles), Place::new(shape, [r * s, r * c], at))
-}
-
-/// √(L1² - ℓ²) over a range of t. It falls as ℓ rises.
-fn radius(shape: &Shape, chart: &Chart, t: Interval, arm: &Jet) -> Jet {
-    let root = |arm: f64| (shape.squares[0] - arm * arm).max(0.0).sqrt();
-    let value = Interval::new(root(arm.value.high), root(arm.value.low));
-    let slope = match chart.end {
-        None => -((arm.value * arm.slopes[0]) * value.reciprocal()),
-        Some(end) => {
-            // With r² = (end - φ) K, where K is a mean of 2 ℓ dℓ/dφ from φ to the end, and end - φ = reach (1 - t)²:
-            // dr/dt = -2 ℓ dℓ/dφ √(reach / K).
-            let to_end = Interval::new(chart.phi(t.low)[0], end);
-            let [beyond, here] = [to_end, Interval::new(to_end.low, chart.phi(t.high)[0])]
-                .map(|phi| shape.angle_ranges(phi).arm)
-                .map(|[arm, rate]| (arm * rate).times(2.0));
-            let least = Interval::new(beyond.low.max(1e-12), beyond.high.max(1e-12));
-            let reach = Interval::of(end - chart.low);
-            -(here * (reach * least.reciprocal()).root())
-        }
-    };
-    Jet { value, slopes: [slope, Interval::ZERO] }
-}
-
 fn excludes_zero(range: Interval) -> bool {
     range.low > ROUNDING || range.high < -ROUNDING
 }
@@ -68,7 +30,9 @@ impl Enclosure {
     /// `None` if the curve does not meet the box, or outside of the window only.
     pub(super) fn of(search: &Search<'_>, cell: &Cell) -> Option<Self> {
         let system = &search.system;
-        let (place, middle) = places(system.shape, &search.chart, cell);
+        let place = search.chart.place(system.shape, cell.ranges);
+        let [x1, second, third] = search.chart.configuration(system.shape, cell.ranges.map(Interval::middle));
+        let middle = system.shape.place(&[x1, second, third, 0.0, 0.0]);
         let offsets = cell.ranges.map(|range| range.plus(-range.middle()));
         let centred = |jet: Jet, value: f64| jet.centred_at(value, offsets);
         let [h2, h3] = place.height_squares();

@@ -2,7 +2,7 @@
 //!
 //! At constant X1 the platform's y = m sin φ is stationary along leg I's motion where
 //! m² R1 cos ψ cos φ = r1 ℓ² sin² φ. With X1² = L1² - ℓ² - m² the curve is a function of φ, up to the signs of X1 and m.
-//! For R1 = r1 it is the circle φ = π/2, X1² + m² = L1². The parameter is the angle of (|X1|, |m|), from 0 to π/2.
+//! For R1 = r1 it is the circle w1 = 0, X1² + y² = L1². The parameter is the angle of (|X1|, |m|), from 0 to π/2.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -35,19 +35,21 @@ impl<'a> Fold<'a> {
     /// The configuration at a parameter. The heights of legs II and III are zero where they do not reach.
     pub(super) fn at(&self, parameter: f64) -> Configuration {
         let (sin, cos) = parameter.sin_cos();
-        let (x, m, phi) = if self.shape.branch == Branch::Only {
+        let (x, m, third) = if self.shape.branch == Branch::Only {
             let off = |phi: f64| {
                 let (x, m) = on_fold(self.shape, phi);
                 m * cos - x * sin
             };
             let phi = self.end * zero(off(0.0), off(self.end), 1e-16, |part| off(part * self.end));
+            // At both ends one of them is exactly zero.
             let (x, m) = on_fold(self.shape, phi);
-            (x, m, phi)
+            let length = x.hypot(m);
+            (length * cos, length * sin, phi)
         } else {
             let length = self.shape.squares[0].sqrt();
-            (length * cos, length * sin, FRAC_PI_2)
+            (length * cos, length * sin, 0.0)
         };
-        let mut q = [self.signs[0] * x, self.signs[1] * m, phi, 0.0, 0.0];
+        let mut q = [self.signs[0] * x, self.signs[1] * m, third, 0.0, 0.0];
         let squares = self.shape.place(&q).height_squares();
         q[3] = squares[0].max(0.0).sqrt();
         q[4] = squares[1].max(0.0).sqrt();

@@ -15,7 +15,7 @@ pub(super) type Rated<T> = [T; 2];
 pub(super) enum Branch {
     /// R1 > r1: there is one.
     Only,
-    /// R1 = r1, a = 0: leg I is a parallelogram. ℓ = 0, ψ = φ.
+    /// R1 = r1, a = 0: leg I is a parallelogram, X1² + y² + w1² = L1².
     Level,
     /// R1 = r1, the other one: the rods of leg I cross. ℓ = -2 R1 cos φ, ψ = π - φ.
     Crossed,
@@ -34,8 +34,6 @@ pub(super) struct Shape {
     pub(super) e1: f64,
     /// X2 - X1.
     pub(super) offset: f64,
-    /// The longest dimension, mm.
-    pub(super) unit: f64,
     pub(super) branch: Branch,
 }
 
@@ -71,7 +69,6 @@ impl Shape {
             squares: [g.L1, g.L2, g.L3].map(|length| (length / unit).powi(2)),
             e1: mechanism.e1 / unit,
             offset: (mechanism.e2 - mechanism.e1) / unit,
-            unit,
             branch,
         }
     }
@@ -81,19 +78,31 @@ impl Shape {
         if machine.mechanism.is_delta() { &[Branch::Level, Branch::Crossed] } else { &[Branch::Only] }
     }
 
-    /// The angles at φ with their derivatives.
+    pub(super) fn has_equal_offsets(&self) -> bool {
+        self.offset == 0.0
+    }
+
+    /// cos ψ, sin ψ and dψ/dφ.
+    fn psi(&self, [cos, sin]: [f64; 2]) -> [f64; 3] {
+        if self.branch == Branch::Only {
+            let ratio = self.r1 / self.R1;
+            let sin_psi = ratio * sin;
+            let cos_psi = ((1.0 - sin_psi) * (1.0 + sin_psi)).sqrt();
+            [cos_psi, sin_psi, ratio * cos / cos_psi]
+        } else {
+            [-cos, sin, -1.0]
+        }
+    }
+
+    /// The angles at φ with their derivatives. The level branch has none.
     pub(super) fn angles(&self, phi: f64) -> LegOneAngles<Rated<f64>> {
         let (sin, cos) = phi.sin_cos();
-        let [psi_rate, arm, arm_rate, cos_psi, sin_psi] = match self.branch {
-            Branch::Level => [1.0, 0.0, 0.0, cos, sin],
-            Branch::Crossed => [-1.0, -2.0 * self.R1 * cos, 2.0 * self.R1 * sin, -cos, sin],
-            Branch::Only => {
-                let ratio = self.r1 / self.R1;
-                let sin_psi = ratio * sin;
-                let cos_psi = ((1.0 - sin_psi) * (1.0 + sin_psi)).sqrt();
-                let arm = self.arm(cos, cos_psi);
-                [ratio * cos / cos_psi, arm, self.r1 * arm * sin / (self.R1 * cos_psi), cos_psi, sin_psi]
-            }
+        let [cos_psi, sin_psi, psi_rate] = self.psi([cos, sin]);
+        let (arm, arm_rate) = if self.branch == Branch::Only {
+            let arm = self.arm(cos, cos_psi);
+            (arm, self.r1 * arm * sin / (self.R1 * cos_psi))
+        } else {
+            (-2.0 * self.R1 * cos, 2.0 * self.R1 * sin)
         };
         let (c, s) = (cos_psi * cos + sin_psi * sin, sin_psi * cos - cos_psi * sin);
         let rate = psi_rate - 1.0;
@@ -113,45 +122,26 @@ impl Shape {
         if near > 0.0 { (self.R1 - self.r1) * (self.R1 + self.r1) / (far + near) } else { far - near }
     }
 
-    /// The range of φ that holds all configurations, or their mirror images (φ, m, w) → (-φ, -m, -w). ℓ rises in it.
-    pub(super) fn half_turn(&self) -> [f64; 2] {
-        use std::f64::consts::{FRAC_PI_2, PI};
-        match self.branch {
-            Branch::Only => [0.0, PI],
-            Branch::Level => [0.0, FRAC_PI_2],
-            Branch::Crossed => [FRAC_PI_2, PI],
-        }
-    }
-
-    /// The ranges of the angles and of their derivatives over a range of φ within [`Self::half_turn`].
+    /// The ranges of the angles and of their derivatives over a range of φ in which ℓ rises.
     pub(super) fn angle_ranges(&self, phi: Interval) -> LegOneAngles<Rated<Interval>> {
-        let ends = [self.angles(phi.low), self.angles(phi.high)];
-        let between = |of: &dyn Fn(&LegOneAngles<Rated<f64>>) -> f64| {
-            let [a, b] = [of(&ends[0]), of(&ends[1])];
-            Interval::new(a.min(b), a.max(b))
-        };
-        let cos = between(&|at| at.cos_phi[0]);
-        let sin = phi.sine();
-        let arm = between(&|at| at.arm[0]);
-        // a falls, or stays, as φ rises, by at most two for one.
-        let a = [phi.low, phi.high].map(|phi| self.platform_angle(phi));
-        let a = Interval::new(a[1], a[0].max(a[1]));
+        let [low, high] = [phi.low, phi.high].map(|phi| self.angles(phi));
+        let between = |a: f64, b: f64| Interval::new(a.min(b), a.max(b));
+        let (cos, sin) = (between(low.cos_phi[0], high.cos_phi[0]), phi.sine());
+        let arm = between(low.arm[0], high.arm[0]);
+        // a falls as φ rises.
+        let a = between(self.platform_angle(phi.low), self.platform_angle(phi.high));
         let (c, s) = (a.cosine(), a.sine());
-        let [psi_rate, arm_rate, cos_psi, sin_psi] = match self.branch {
-            Branch::Level => [Interval::of(1.0), Interval::ZERO, cos, sin],
-            Branch::Crossed => [Interval::of(-1.0), sin.times(2.0 * self.R1), -cos, sin],
-            Branch::Only => {
-                let ratio = self.r1 / self.R1;
-                let sin_psi = sin.times(ratio);
-                let cosine = |sine: f64| ((1.0 - sine) * (1.0 + sine)).max(0.0).sqrt();
-                let cos_psi = Interval::new(cosine(sin_psi.high), cosine(sin_psi.low));
-                // ratio cos φ / cos ψ rises with cos φ.
-                let rate = between(&|at| ratio * at.cos_phi[0] / at.cos_psi[0]);
-                (|| {
-                    let tangent = sin * cos_psi.reciprocal();
-                    [rate, (arm * tangent).times(ratio), cos_psi, sin_psi]
-                })()
-            }
+        let [psi_rate, arm_rate, cos_psi, sin_psi] = if self.branch == Branch::Only {
+            let ratio = self.r1 / self.R1;
+            let sin_psi = sin.times(ratio);
+            let cosine = |sine: f64| ((1.0 - sine) * (1.0 + sine)).max(0.0).sqrt();
+            let cos_psi = Interval::new(cosine(sin_psi.high), cosine(sin_psi.low));
+            // ratio cos φ / cos ψ rises with cos φ.
+            let rate = |at: &LegOneAngles<Rated<f64>>| ratio * at.cos_phi[0] / at.cos_psi[0];
+            let arm_rate = (arm * sin * cos_psi.reciprocal()).times(ratio);
+            [between(rate(&low), rate(&high)), arm_rate, cos_psi, sin_psi]
+        } else {
+            [Interval::of(-1.0), sin.times(2.0 * self.R1), -cos, sin]
         };
         let rate = psi_rate.plus(-1.0);
         LegOneAngles {
@@ -165,11 +155,11 @@ impl Shape {
     }
 
     /// a at φ, continuous along φ.
-    pub(super) fn platform_angle(&self, phi: f64) -> f64 {
-        match self.branch {
-            Branch::Level => 0.0,
-            Branch::Crossed => std::f64::consts::PI - 2.0 * phi,
-            Branch::Only => (self.r1 / self.R1 * phi.sin()).asin() - phi,
+    fn platform_angle(&self, phi: f64) -> f64 {
+        if self.branch == Branch::Only {
+            (self.r1 / self.R1 * phi.sin()).asin() - phi
+        } else {
+            std::f64::consts::PI - 2.0 * phi
         }
     }
 }

@@ -46,6 +46,11 @@ impl Path<'_> {
         (length > 1e-12).then(|| along.map(|component| component / length))
     }
 
+    /// Whether the image may turn back.
+    pub(super) fn is_critical(&self) -> bool {
+        matches!(self, Self::Zeros(system) if system.target.is_critical())
+    }
+
     /// The velocity of the image of a critical curve, for a motion in the sense of a chord.
     pub(super) fn critical_velocity(&self, q: &Configuration, chord: &Configuration) -> Option<[f64; 2]> {
         match self {

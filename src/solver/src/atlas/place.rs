@@ -1,64 +1,91 @@
 //! A configuration of the parallel module, which is a posture up to a common shift along z, and what follows from it.
 //!
 //! Its coordinates are X1, m, φ (see [`super::leg_one`]) and the heights w2 and w3 of legs II and III, in units of the
-//! longest dimension. Three equations hold: leg I closes, and both heights fit the lengths of their legs.
+//! longest dimension; on the level branch X1, y, w1, w2 and w3. Three equations hold: leg I closes, and both heights fit
+//! the lengths of their legs.
 
 use super::leg_one::{Branch, LegOneAngles, Shape};
 use super::request::Space;
 use super::scalar::{COORDINATES, Dual, Scalar};
 
-/// Coordinates of a configuration: X1, m, φ, w2, w3.
+/// Five coordinates.
 pub(super) type Configuration = [f64; COORDINATES];
 
-/// The platform with leg I closed, and what depends on it.
+/// The platform with leg I, and what depends on it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place<'a, T> {
     shape: &'a Shape,
-    angles: LegOneAngles<T>,
+    /// `None` on the level branch.
+    angles: Option<(LegOneAngles<T>, T)>,
     x1: T,
-    m: T,
-    pub(super) y: T,
-    pub(super) w1: T,
-    p: T,
-    q: T,
+    y: T,
+    w1: T,
+    /// cos a and sin a.
+    c: T,
+    s: T,
 }
 
 impl<'a, T: Scalar> Place<'a, T> {
     pub(super) fn new(shape: &'a Shape, [x1, m]: [T; 2], angles: LegOneAngles<T>) -> Self {
-        Self {
-            shape,
-            x1,
-            m,
-            y: m * angles.sin_phi,
-            w1: m * angles.cos_phi,
-            p: angles.c.times(shape.R2).plus(-shape.r4),
-            q: angles.s.times(shape.R2),
-            angles,
-        }
+        let (y, w1) = (m * angles.sin_phi, m * angles.cos_phi);
+        Self { shape, angles: Some((angles, m)), x1, y, w1, c: angles.c, s: angles.s }
     }
 
-    /// v = R1 sin a.
-    fn v(&self) -> T {
-        self.angles.s.times(self.shape.R1)
+    /// A place on the level branch.
+    pub(super) fn level(shape: &'a Shape, [x1, y, w1]: [T; 3]) -> Self {
+        Self { shape, angles: None, x1, y, w1, c: T::constant(1.0), s: T::constant(0.0) }
+    }
+
+    pub(super) fn x1(&self) -> T {
+        self.x1
+    }
+
+    pub(super) fn w1(&self) -> T {
+        self.w1
     }
 
     fn x2(&self) -> T {
         self.x1.plus(self.shape.offset)
     }
 
+    /// R2 cos a - r4.
+    fn p(&self) -> T {
+        self.c.times(self.shape.R2).plus(-self.shape.r4)
+    }
+
+    /// R2 sin a.
+    fn q(&self) -> T {
+        self.s.times(self.shape.R2)
+    }
+
+    /// Heights of rods 11 and 12.
+    pub(super) fn rods_of_leg_one(&self) -> [T; 2] {
+        let v = self.s.times(self.shape.R1);
+        [self.w1 + v, self.w1 - v]
+    }
+
+    /// u over R1, or a multiple of it with the same sign: positive if the rods of leg I do not cross.
+    pub(super) fn uncrossed(&self) -> T {
+        self.angles.as_ref().map_or(T::constant(1.0), |(angles, _)| angles.cos_phi)
+    }
+
     /// The squares of the heights of legs II and III.
     pub(super) fn height_squares(&self) -> [T; 2] {
         let [_, second, third] = self.shape.squares;
-        let x2 = self.x2().square();
+        let (x2, p) = (self.x2().square(), self.p());
         [
-            (x2 + (self.y - self.p).square()).times(-1.0).plus(second),
-            (x2 + (self.y + self.p).square()).times(-1.0).plus(third),
+            (x2 + (self.y - p).square()).times(-1.0).plus(second),
+            (x2 + (self.y + p).square()).times(-1.0).plus(third),
         ]
     }
 
-    /// X1² + m² + ℓ² - L1².
+    /// The square of leg I's extent less L1².
     pub(super) fn leg_one_error(&self) -> T {
-        (self.x1.square() + self.m.square() + self.angles.arm.square()).plus(-self.shape.squares[0])
+        let across = match &self.angles {
+            None => self.y.square() + self.w1.square(),
+            Some((angles, m)) => m.square() + angles.arm.square(),
+        };
+        (self.x1.square() + across).plus(-self.shape.squares[0])
     }
 
     /// The coordinates in the plane of an atlas, in units of the longest dimension, without the heights of legs II and
@@ -66,85 +93,68 @@ impl<'a, T: Scalar> Place<'a, T> {
     pub(super) fn image(&self, space: Space) -> ([T; 2], f64) {
         match space {
             Space::Platform => ([self.x1.plus(-self.shape.e1), self.y], 0.0),
-            Space::Joints => ([self.w1 - self.q, self.w1 + self.q], -1.0),
+            Space::Joints => ([self.w1 - self.q(), self.w1 + self.q()], -1.0),
         }
     }
 
-    /// Heights of rods 11 and 12.
-    pub(super) fn rods_of_leg_one(&self) -> [T; 2] {
-        [self.w1 + self.v(), self.w1 - self.v()]
+    /// The second to fourth numbers of half the difference of leg I's rows in the parallel matrix; and y times the third
+    /// less w1 times the second. For R1 = r1 the factor that vanishes where the two branches meet is left out: w1, or
+    /// cos φ.
+    fn difference(&self) -> ([T; 3], T) {
+        let (zero, r1) = (T::constant(0.0), self.shape.R1);
+        let Some((LegOneAngles { cos_phi, sin_phi, arm, cos_psi, .. }, m)) = self.angles else {
+            return ([zero, zero, T::constant(r1)], zero);
+        };
+        if self.shape.branch == Branch::Only {
+            ([arm * cos_phi, -(arm * sin_phi), (m * cos_psi).times(r1)], -(arm * m))
+        } else {
+            let twice = 2.0 * r1;
+            ([cos_phi.times(-twice), sin_phi.times(twice), m.times(-r1)], m.times(twice))
+        }
     }
 
     /// `det_P` of the equations (A), (5) and (6), less the factors that vanish everywhere on known curves, as a
-    /// polynomial in w2 and w3: coefficients of 1, w2, w3 and w2 w3.
-    ///
-    /// For R1 = r1 the factor cos φ, or m cos φ, is left out: it vanishes where the two branches of leg I meet. For e1
-    /// = e2 the factor X1 is left out.
+    /// polynomial in w2 and w3: coefficients of 1, w2, w3 and w2 w3. For e1 = e2 the factor X1 is left out.
     pub(super) fn determinant(&self) -> [T; 4] {
-        let Self { shape, y, w1, p, q, m, .. } = *self;
-        let LegOneAngles { cos_phi, sin_phi, arm, cos_psi, c, s } = self.angles;
-        let ([a1, a2], a3, cross) = match shape.branch {
-            Branch::Only => ([arm * cos_phi, -(arm * sin_phi)], (m * cos_psi).times(shape.R1), -(arm * m)),
-            Branch::Level => ([T::constant(0.0); 2], T::constant(shape.R1), T::constant(0.0)),
-            Branch::Crossed => {
-                let twice = 2.0 * shape.R1;
-                ([cos_phi.times(-twice), sin_phi.times(twice)], m.times(-shape.R1), m.times(twice))
-            }
-        };
+        let Self { shape, y, w1, c, .. } = *self;
+        let (p, q, r2) = (self.p(), self.q(), shape.R2);
+        let ([a1, a2, a3], u12) = self.difference();
         let (x1, x2) = if shape.has_equal_offsets() {
             (T::constant(1.0), T::constant(1.0))
         } else {
             (self.x1, self.x2())
         };
-        // Minors of the rows of leg I: their mean and half their difference.
-        let turn = s.times(shape.R1 * shape.r1);
+        // Minors of the rows of leg I: their mean (X1, y, w1, R1 r1 sin a), and half their difference.
+        let turn = self.s.times(shape.R1 * shape.r1);
         let [u01, u02, u03] = [x1 * a1, x1 * a2, x1 * a3];
-        let [u12, u13, u23] = [cross, y * a3 - turn * a1, w1 * a3 - turn * a2];
-        let (r2, [b2, b3]) = (shape.R2, [y - p, y + p]);
-        let sb = q * (b2 * b3);
-        let level = (sb * u02).times(2.0) - (x2 * q * y * u12).times(2.0) + (p * x2 * u23).times(2.0);
+        let [u13, u23] = [y * a3 - turn * a1, w1 * a3 - turn * a2];
+        let [b2, b3] = [y - p, y + p];
+        let free =
+            (q * (b2 * b3) * u02).times(2.0) - (x2 * q * y * u12).times(2.0) + (p * x2 * u23).times(2.0);
         let common = (x2 * c * u12).times(r2);
         let second = common - q * b3 * u01 - (c * b3 * u02).times(r2) - b3 * u03 + x2 * u13;
         let third = common - q * b2 * u01 - (c * b2 * u02).times(r2) + b2 * u03 - x2 * u13;
-        [level, second, third, (c * u01).times(2.0 * r2)]
-    }
-
-    pub(super) fn x1(&self) -> T {
-        self.x1
-    }
-
-    pub(super) fn cos_phi(&self) -> T {
-        self.angles.cos_phi
-    }
-
-    /// On the two sides of it leg I has one angle more or less at the same x and y: zero where two angles merge.
-    pub(super) fn leg_one_fold(&self) -> T {
-        let Self { shape, m, .. } = *self;
-        let LegOneAngles { cos_phi, sin_phi, arm, cos_psi, .. } = self.angles;
-        match shape.branch {
-            Branch::Only => {
-                (m.square() * cos_phi * cos_psi).times(shape.R1)
-                    - (arm.square() * sin_phi.square()).times(shape.r1)
-            }
-            Branch::Level | Branch::Crossed => cos_phi,
-        }
+        [free, second, third, (c * u01).times(2.0 * r2)]
     }
 }
 
 impl Shape {
-    pub(super) fn has_equal_offsets(&self) -> bool {
-        self.offset == 0.0
-    }
-
     /// The place of a configuration.
     pub(super) fn place(&self, q: &Configuration) -> Place<'_, f64> {
+        if self.branch == Branch::Level {
+            return Place::level(self, [q[0], q[1], q[2]]);
+        }
         Place::new(self, [q[0], q[1]], self.angles(q[2]).map(|[value, _]| value))
     }
 
     /// The same with derivatives.
     pub(super) fn place_with_slopes(&self, q: &Configuration) -> Place<'_, Dual> {
+        let [x1, second, third] = [0, 1, 2].map(|axis| Dual::of(q[axis], 1.0, axis));
+        if self.branch == Branch::Level {
+            return Place::level(self, [x1, second, third]);
+        }
         let angles = self.angles(q[2]).map(|[value, slope]| Dual::of(value, slope, 2));
-        Place::new(self, [Dual::of(q[0], 1.0, 0), Dual::of(q[1], 1.0, 1)], angles)
+        Place::new(self, [x1, second], angles)
     }
 
     /// The point of the plane of a configuration.

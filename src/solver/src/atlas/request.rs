@@ -55,7 +55,8 @@ pub enum AtlasError {
 const LEAST_SIDE: f64 = 1e-6;
 /// Finest and coarsest tolerance, relative to the window's longer side.
 const TOLERANCES: [f64; 2] = [1e-5, 0.1];
-/// The tolerance that a request without one has: this part of the window's longer side, and at most this many mm.
+/// The tolerance that a request without one has: this part of the window's longer side, but at most this many mm if
+/// that is not too fine.
 const DEFAULT_TOLERANCE: [f64; 2] = [1e-3, 1.0];
 
 impl Window {
@@ -110,7 +111,8 @@ impl AtlasRequest {
     pub fn new(machine: &Machine, space: Space, window: Option<Window>) -> Self {
         let window = window.unwrap_or_else(|| Window::whole(machine, space));
         let [part, most] = DEFAULT_TOLERANCE;
-        Self { space, window, tolerance: (part * window.side()).min(most) }
+        let finest = TOLERANCES[0] * window.side();
+        Self { space, window, tolerance: (part * window.side()).min(most).max(finest) }
     }
 
     /// The finest and the coarsest tolerance of a window.

@@ -12,7 +12,7 @@ pub(super) enum Target {
     Parallel,
     /// X1, which is a factor of `det_P` for e1 = e2.
     MirrorPlane,
-    /// cos φ, which is a factor of `det_P` for R1 = r1.
+    /// w1, which is a factor of `det_P` on the level branch.
     Constraint,
     /// The height of leg II.
     LegTwo,
@@ -38,7 +38,13 @@ pub(super) enum Bound {
     LegOne,
     /// cos φ: the rods of leg I do not cross.
     Uncrossed,
+    /// X1, where e1 = e2 and the mirror images at X1 and -X1 have the same sliders.
+    MirrorSide,
 }
+
+/// A set of bounds.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Bounds(u8);
 
 /// One curve: which function vanishes, in which plane it is drawn, and which part of it matters.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +52,7 @@ pub(super) struct System<'a> {
     pub(super) shape: &'a Shape,
     pub(super) space: Space,
     pub(super) target: Target,
-    pub(super) bounds: &'a [Bound],
+    pub(super) bounds: Bounds,
 }
 
 /// Values of the four equations of a curve, and their derivatives.
@@ -59,7 +65,7 @@ impl Target {
         match self {
             Self::Parallel => place.determinant(),
             Self::MirrorPlane => [place.x1(), zero, zero, zero],
-            Self::Constraint => [place.cos_phi(), zero, zero, zero],
+            Self::Constraint => [place.w1(), zero, zero, zero],
             Self::LegTwo => [zero, one, zero, zero],
             Self::LegThree => [zero, zero, one, zero],
             Self::RodEleven => [place.rods_of_leg_one()[0], zero, zero, zero],
@@ -80,9 +86,38 @@ impl Bound {
             Self::LegThree => q[4],
             Self::RodEleven => place.rods_of_leg_one()[0],
             Self::RodTwelve => place.rods_of_leg_one()[1],
-            Self::LegOne => place.w1,
-            Self::Uncrossed => place.cos_phi(),
+            Self::LegOne => place.w1(),
+            Self::Uncrossed => place.uncrossed(),
+            Self::MirrorSide => q[0],
         }
+    }
+
+    const ALL: [Self; 7] = [
+        Self::LegTwo,
+        Self::LegThree,
+        Self::RodEleven,
+        Self::RodTwelve,
+        Self::LegOne,
+        Self::Uncrossed,
+        Self::MirrorSide,
+    ];
+}
+
+impl Bounds {
+    pub(super) fn of(bounds: &[Bound]) -> Self {
+        Self(bounds.iter().fold(0, |set, bound| set | 1 << *bound as u8))
+    }
+
+    pub(super) fn with(self, bound: Bound) -> Self {
+        Self(self.0 | 1 << bound as u8)
+    }
+
+    pub(super) fn contains(self, bound: Bound) -> bool {
+        self.0 & 1 << bound as u8 != 0
+    }
+
+    fn iter(self) -> impl Iterator<Item = Bound> {
+        Bound::ALL.into_iter().filter(move |bound| self.contains(*bound))
     }
 }
 

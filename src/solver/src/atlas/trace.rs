@@ -2,15 +2,16 @@
 
 use super::answer::{CurveKind, PointKind};
 use super::arc::{Arc, ArcNode, Fineness};
+use super::chart::Chart;
 use super::clip::Rectangle;
 use super::continuation::End;
-use super::cover::{Chart, Search};
+use super::cover::Search;
 use super::fold::Fold;
 use super::leg_one::{Branch, Shape};
 use super::path::Path;
 use super::place::Configuration;
 use super::request::{AtlasError, Space};
-use super::target::{Bound, System, Target};
+use super::target::{Bound, Bounds, System, Target};
 use crate::interval::Interval;
 use crate::workspace::Observer;
 
@@ -21,53 +22,70 @@ const BEYOND: [f64; 2] = [0.5, 1.5];
 struct Curves {
     target: Target,
     kind: Option<CurveKind>,
-    bounds: &'static [Bound],
+    bounds: Bounds,
 }
 
 /// The curves of a plane for a branch of leg I.
 fn curves(shape: &Shape, space: Space) -> Vec<Curves> {
-    use Bound::{LegThree, LegTwo, RodEleven, RodTwelve, Uncrossed};
-    let of = |target, kind, bounds| Curves { target, kind, bounds };
-    let (second, third) = (Some(CurveKind::LegTwo), Some(CurveKind::LegThree));
-    let working_rods = [
-        of(Target::RodEleven, None, &[LegTwo, LegThree, RodTwelve, Uncrossed][..]),
-        of(Target::RodTwelve, None, &[LegTwo, LegThree, RodEleven, Uncrossed][..]),
-    ];
-    match (space, shape.branch) {
-        (Space::Platform, Branch::Only) => {
-            [of(Target::LegTwo, second, &[LegThree][..]), of(Target::LegThree, third, &[LegTwo][..])]
-                .into_iter()
-                .chain(working_rods)
-                .collect()
-        }
-        // The mirror image of a configuration is on the same branch; the half above suffices.
-        (Space::Platform, Branch::Level | Branch::Crossed) => vec![
-            of(Target::LegTwo, second, &[LegThree, Bound::LegOne]),
-            of(Target::LegThree, third, &[LegTwo, Bound::LegOne]),
-        ],
-        (Space::Joints, branch) => {
-            let mut found = vec![of(Target::Parallel, Some(CurveKind::Parallel), &[][..])];
-            if shape.has_equal_offsets() {
-                found.push(of(Target::MirrorPlane, Some(CurveKind::Parallel), &[]));
-            }
-            match branch {
-                Branch::Only => {
-                    found.extend([
-                        of(Target::LegTwo, None, &[LegThree, RodEleven, RodTwelve, Uncrossed][..]),
-                        of(Target::LegThree, None, &[LegTwo, RodEleven, RodTwelve, Uncrossed][..]),
-                    ]);
-                    found.extend(working_rods);
-                }
-                Branch::Level => found.extend([
-                    of(Target::Constraint, Some(CurveKind::Constraint), &[][..]),
-                    of(Target::LegTwo, None, &[LegThree, Bound::LegOne][..]),
-                    of(Target::LegThree, None, &[LegTwo, Bound::LegOne][..]),
-                ]),
-                Branch::Crossed => {}
-            }
-            found
-        }
+    match space {
+        Space::Platform => platform_curves(shape.branch),
+        Space::Joints => joint_curves(shape),
     }
+}
+
+fn of(target: Target, kind: Option<CurveKind>, bounds: &[Bound]) -> Curves {
+    Curves { target, kind, bounds: Bounds::of(bounds) }
+}
+
+/// Where a rod of leg I is level, on the border of the working mode.
+fn working_rods() -> [Curves; 2] {
+    use Bound::{LegThree, LegTwo, RodEleven, RodTwelve, Uncrossed};
+    [
+        of(Target::RodEleven, None, &[LegTwo, LegThree, RodTwelve, Uncrossed]),
+        of(Target::RodTwelve, None, &[LegTwo, LegThree, RodEleven, Uncrossed]),
+    ]
+}
+
+fn platform_curves(branch: Branch) -> Vec<Curves> {
+    use Bound::{LegOne, LegThree, LegTwo};
+    let (second, third) = (Some(CurveKind::LegTwo), Some(CurveKind::LegThree));
+    match branch {
+        Branch::Only => {
+            let rods = working_rods();
+            let legs = [of(Target::LegTwo, second, &[LegThree]), of(Target::LegThree, third, &[LegTwo])];
+            legs.into_iter().chain(rods).collect()
+        }
+        // The mirror image of a configuration is on the same branch: the half above suffices.
+        Branch::Level | Branch::Crossed => vec![
+            of(Target::LegTwo, second, &[LegThree, LegOne]),
+            of(Target::LegThree, third, &[LegTwo, LegOne]),
+        ],
+    }
+}
+
+fn joint_curves(shape: &Shape) -> Vec<Curves> {
+    use Bound::{LegOne, LegThree, LegTwo, RodEleven, RodTwelve, Uncrossed};
+    let mut found = vec![of(Target::Parallel, Some(CurveKind::Parallel), &[])];
+    match shape.branch {
+        Branch::Only => {
+            found.push(of(Target::LegTwo, None, &[LegThree, RodEleven, RodTwelve, Uncrossed]));
+            found.push(of(Target::LegThree, None, &[LegTwo, RodEleven, RodTwelve, Uncrossed]));
+            found.extend(working_rods());
+        }
+        Branch::Level => {
+            found.push(of(Target::Constraint, Some(CurveKind::Constraint), &[]));
+            found.push(of(Target::LegTwo, None, &[LegThree, LegOne]));
+            found.push(of(Target::LegThree, None, &[LegTwo, LegOne]));
+        }
+        Branch::Crossed => {}
+    }
+    if shape.has_equal_offsets() {
+        for curves in &mut found {
+            curves.bounds = curves.bounds.with(Bound::MirrorSide);
+        }
+        found.push(of(Target::MirrorPlane, Some(CurveKind::Parallel), &[]));
+    }
+    found
 }
 
 /// The arcs of an atlas, cut at the window's sides, and the points that are no arcs.
@@ -95,7 +113,7 @@ pub(super) fn traced<'a>(
                     let path = Path::Zeros(system);
                     let mut nodes = path.refined(&chain, &fineness);
                     mark_ends(&mut nodes, ends);
-                    if space == Space::Platform {
+                    if space == Space::Joints && kind.is_none() {
                         mark_tangencies(&system, &mut nodes);
                     }
                     arcs.push(Arc { kind, path, nodes, closed });
@@ -105,7 +123,7 @@ pub(super) fn traced<'a>(
     }
     if space == Space::Platform {
         add_folds(&shapes[0], &fineness, &mut arcs);
-        points.extend(isolated(&shapes[0]).map(|at| (PointKind::Isolated, at)));
+        points.extend(shapes.last().into_iter().flat_map(isolated).map(|at| (PointKind::Isolated, at)));
     }
     let (mut drawn, rest): (Vec<_>, Vec<_>) = arcs.into_iter().partition(|arc| !is_a_point(arc));
     points.extend(rest.iter().map(|arc| (PointKind::SelfMotion, arc.nodes[0].at)));
@@ -126,12 +144,14 @@ fn components(
     observer: &dyn Observer,
 ) -> Result<Vec<Chain>, AtlasError> {
     let beyond = BEYOND.map(|part| window.with_margin(part * window.side()));
-    let above = |bound: Bound| system.bounds.contains(&bound);
     let mirrors = system.space == Space::Joints;
-    let windows = if mirrors { vec![beyond[0], beyond[0].mirrored()] } else { vec![beyond[0]] };
-    let is_symmetric = mirrors && window.low == window.high.map(|high| -high);
+    // A mirror image has the other sides.
+    let above = |bound: Bound| !mirrors && system.bounds.contains(bound);
+    let is_symmetric = window.low == window.high.map(|high| -high);
+    let windows =
+        if mirrors && !is_symmetric { vec![beyond[0], beyond[0].mirrored()] } else { vec![beyond[0]] };
     let mut starts = Vec::new();
-    for (i, rectangle) in windows.iter().enumerate().take(if is_symmetric { 1 } else { 2 }) {
+    for (i, rectangle) in windows.iter().enumerate() {
         let search = Search {
             system: *system,
             chart,
@@ -143,8 +163,8 @@ fn components(
         if i == 0 {
             starts.extend(found.iter().copied());
         }
-        if i == 1 || is_symmetric {
-            starts.extend(found.iter().map(|[x1, m, phi, w2, w3]| [*x1, -m, -phi, -w2, -w3]));
+        if i + 1 == windows.len() {
+            starts.extend(found.iter().map(|q| system.mirrored(q)));
         }
     }
     let mut chains: Vec<Chain> = Vec::new();
@@ -194,16 +214,18 @@ fn mark_ends(nodes: &mut [ArcNode], [start, end]: [End; 2]) {
     }
 }
 
-/// Inserts the points at which the curve touches leg I's fold.
+/// Inserts the points at which `det_P` is zero: there the curve touches that of `det_P`.
 fn mark_tangencies(system: &System<'_>, nodes: &mut Vec<ArcNode>) {
+    let critical = System { target: Target::Parallel, ..*system };
+    // The factor that is left out for e1 = e2 is zero at the ends of curves only.
+    let determinant = |q: &Configuration| critical.linearised(q).0[3];
     let path = Path::Zeros(*system);
-    let fold = |q: &Configuration| system.shape.place(q).leg_one_fold();
     let mut i = 0;
     while i + 1 < nodes.len() {
         let [a, b] = [nodes[i], nodes[i + 1]];
-        let [start, end] = [a.q, b.q].map(|q| fold(&q));
-        if start * end < 0.0
-            && let Some(q) = system.zero_between([&a.q, &b.q], fold)
+        let product = determinant(&a.q) * determinant(&b.q);
+        if product < 0.0
+            && let Some(q) = system.zero_between([&a.q, &b.q], determinant)
         {
             nodes.insert(i + 1, ArcNode { mark: Some(PointKind::Tangency), ..path.node(q) });
             i += 1;
