@@ -1,9 +1,6 @@
 // A family of workspaces: volume over tool length or phi1, as the service computes it.
-import { readFileSync } from "node:fs";
-import { fileURLToPath } from "node:url";
+import { expectAccessible, expectNothingOverflows, inEveryLook } from "./looks.mjs";
 import { ask, expect, open, test, value } from "./viewer.mjs";
-
-const AXE = readFileSync(fileURLToPath(import.meta.resolve("axe-core/axe.min.js")), "utf8");
 
 async function openFamily(page, view = "") {
   await open(page, view);
@@ -66,6 +63,21 @@ test("the volume over phi1, by keyboard", async ({ page }) => {
   await expect(page.getByTestId("family-caption")).toHaveText(/^Other settings than those of the page: /);
 });
 
+test("the link has the section with its settings, and without it the section is closed", async ({ page }) => {
+  await openFamily(page);
+  await page.getByRole("radio", { name: "φ₁", exact: true }).check({ force: true });
+  await type(page, "Last phi 1, degrees", "12.5");
+  await type(page, "Workspaces", "5");
+  await expect(page).toHaveURL(/[#&]family=phi1,-40,12\.5,5$/);
+  await page.reload();
+  await expect(page.getByLabel("Last phi 1, degrees")).toHaveValue("12.5");
+  await expect(page.getByLabel("Workspaces", { exact: true })).toHaveValue("5");
+  await page.getByRole("heading", { name: "Volume over tool length or φ₁" }).click();
+  await expect(page).not.toHaveURL(/family/);
+  await page.evaluate(() => (location.hash = "#family=tool,10,90,3"));
+  await expect(page.getByLabel("First tool length, mm")).toHaveValue("10.0");
+});
+
 test("kinds that depend on fewer parameters offer no others", async ({ page }) => {
   await openFamily(page, "#workspace=tool");
   await expect(page.getByText("the workspace of the tool tip depends on no angle")).toBeVisible();
@@ -90,26 +102,13 @@ test("equal ends are refused with the reason, and a long family can be cancelled
   expect(jobs.find(({ kind }) => kind === "family").state).toBe("cancelled");
 });
 
-for (const colorScheme of ["light", "dark"])
-  for (const [name, viewport] of [
-    ["desk", { width: 1280, height: 720 }],
-    ["phone", { width: 390, height: 844 }],
-  ])
-    test.describe(`${colorScheme}, ${name}`, () => {
-      test.use({ colorScheme, viewport });
-
-      test("a family has no accessibility violations, and nothing overflows", async ({ page }) => {
-        await openFamily(page, "#tolerance=5");
-        await page.getByRole("button", { name: "Compute the family" }).click();
-        await expect(page.locator(".members tbody tr")).toHaveCount(13);
-        await page.getByTestId("family-plot").scrollIntoViewIfNeeded();
-        await page.evaluate(AXE);
-        const { violations } = await page.evaluate(() => window.axe.run(".family"));
-        expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" | ")}`)).toEqual([]);
-        const wider = (element) => element.scrollWidth - element.clientWidth;
-        expect(await page.locator(".family").evaluate(wider)).toBeLessThanOrEqual(0);
-        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(viewport.width);
-        if (process.env.PICTURES)
-          await page.screenshot({ path: `${process.env.PICTURES}/family-${colorScheme}-${name}.png` });
-      });
-    });
+test("a family has no accessibility violations, and nothing overflows", async ({ page }) => {
+  await openFamily(page, "#tolerance=5");
+  await page.getByRole("button", { name: "Compute the family" }).click();
+  await expect(page.locator(".members tbody tr")).toHaveCount(13);
+  await inEveryLook(page, "family", async () => {
+    await page.getByTestId("family-plot").scrollIntoViewIfNeeded();
+    await expectAccessible(page, ".family");
+    await expectNothingOverflows(page, ".family");
+  });
+});

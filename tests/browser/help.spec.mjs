@@ -11,7 +11,8 @@ test("symbols have tooltips, and a panel explains them beside the drawing of the
   }
   await expect(help.getByText("the two rods of leg 1 cross each other")).toBeVisible();
   const drawing = help.getByRole("img", { name: /z points down/ });
-  expect(await drawing.evaluate((image) => image.complete && image.naturalWidth)).toBeGreaterThan(100);
+  // It is loaded when it is seen.
+  await expect.poll(() => drawing.evaluate((image) => image.naturalWidth)).toBeGreaterThan(100);
   await page.keyboard.press("Escape");
   await expect(help).toBeHidden();
 });

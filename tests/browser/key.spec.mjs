@@ -1,34 +1,32 @@
 // A service with keys: the page asks for one, and everything goes with it.
-import { spawn, spawnSync } from "node:child_process";
+import { spawnSync } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import { expect, test } from "./viewer.mjs";
+import { join } from "node:path";
+import { serve, VERNE } from "./service.mjs";
+import { expect, test as base } from "./viewer.mjs";
 
-const ADDRESS = "127.0.0.1:18474";
-const VERNE = resolve(import.meta.dirname, process.env.VERNE ?? "../../target/debug/verne");
-
-let directory, service, key;
-
-test.beforeAll(async () => {
-  const made = spawnSync(VERNE, ["key", "new", "--name", "cam", "--role", "compute"], { encoding: "utf8" });
-  key = made.stderr.trim();
-  directory = mkdtempSync(join(tmpdir(), "verne-keys-"));
-  const file = join(directory, "keys.toml");
-  writeFileSync(file, made.stdout);
-  service = spawn(VERNE, ["serve", "--memory-only", "--wait", "0", "--listen", ADDRESS, "--keys", file]);
-  const ready = () => fetch(`http://${ADDRESS}/readyz`).then(({ ok }) => ok, () => false);
-  await expect.poll(ready).toBe(true);
+const test = base.extend({
+  // A service with one key, beside the worker's own.
+  keyed: [
+    async ({}, use) => {
+      const made = spawnSync(VERNE, ["key", "new", "--name", "cam", "--role", "compute"], { encoding: "utf8" });
+      const directory = mkdtempSync(join(tmpdir(), "verne-keys-"));
+      const file = join(directory, "keys.toml");
+      writeFileSync(file, made.stdout);
+      const { address, stop } = await serve("--wait", "0", "--keys", file);
+      await use({ address, key: made.stderr.trim() });
+      stop();
+      rmSync(directory, { recursive: true });
+    },
+    { scope: "worker" },
+  ],
+  baseURL: async ({ keyed }, use) => use(keyed.address),
 });
 
-test.afterAll(() => {
-  service.kill();
-  rmSync(directory, { recursive: true });
-});
+test.use({ provoked: [/status of 401/] });
 
-test.use({ baseURL: `http://${ADDRESS}`, provoked: [/status of 401/] });
-
-test("the viewer asks for a key and uses it for machines, jobs, meshes and files", async ({ page }) => {
+test("the viewer asks for a key and uses it for machines, jobs, meshes and files", async ({ page, keyed: { key } }) => {
   await page.goto("/#workspace=tool&section=1200");
   const dialog = page.getByRole("dialog", { name: "This service asks for a key" });
   await dialog.getByLabel("Key").fill("wrong");
@@ -49,7 +47,7 @@ test("the viewer asks for a key and uses it for machines, jobs, meshes and files
   await expect(dialog).toBeHidden();
 });
 
-test("without a key the page says why it is empty, and asks again", async ({ page }) => {
+test("without a key the page says why it is empty, and asks again", async ({ page, keyed: { key } }) => {
   await page.goto("/");
   const dialog = page.getByRole("dialog", { name: "This service asks for a key" });
   await dialog.getByRole("button", { name: "Cancel" }).click();

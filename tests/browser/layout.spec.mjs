@@ -20,6 +20,7 @@ for (const [name, viewport] of [
   ["a phone in landscape", { width: 844, height: 390 }],
   ["a desk at 200 %", { width: 640, height: 360 }],
   ["a narrow phone", { width: 320, height: 640 }],
+  ["a tablet on end", { width: 768, height: 1024 }],
 ]) {
   test.describe(name, () => {
     test.use({ viewport });

@@ -27,6 +27,7 @@ test.describe("a link that cannot be shown leads home, and a notice says what it
     ["an unknown machine", "machine=nosuch&joints=1,2,3,0,0", /machine “nosuch” is not available: .* built-in machine/],
     ["a broken machine", "own=q1ZKzE0FAA", /“own=q1ZKzE0FAA”, which cannot be read/],
     ["words in place of numbers", "joints=a,b&tool=-4", /“joints=a,b”, “tool=-4”, which cannot be read/],
+    ["impossible settings of sections", "family=tool,0&dexterity=0,9,1", /“family=tool,0”, “dexterity=0,9,1”, which/],
     ["an impossible tool", "tool=1e9", /Its tool cannot be used: .*home with a tool of 50.mm/],
     ["a camera that looks elsewhere", "camera=900,0,0,800,0,0", /Its camera does not see the machine/],
   ]) {

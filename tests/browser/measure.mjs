@@ -1,6 +1,7 @@
 // What the viewer weighs and how fast it is: `npm run measure -- http://127.0.0.1:8080`, against a release build.
 import { chromium } from "@playwright/test";
 import { brotliCompressSync } from "node:zlib";
+import { bundle } from "./bundle.mjs";
 import { LAUNCH } from "./launch.mjs";
 
 const [address = "http://127.0.0.1:8080"] = process.argv.slice(2);
@@ -8,22 +9,14 @@ const [address = "http://127.0.0.1:8080"] = process.argv.slice(2);
 const DRAG_MS = 4000;
 const TOLERANCES = [1, 0.037];
 
-/** The bytes of files of the page, compressed, and the texts of them. */
-async function weigh(names) {
-  let [bytes, text] = [0, ""];
-  for (const name of new Set(names)) {
-    const body = Buffer.from(await (await fetch(new URL(name, `${address}/`))).arrayBuffer());
-    bytes += brotliCompressSync(body).length;
-    text += body.toString();
-  }
-  return { bytes, text };
+const total = { first: [0, 0], later: [0, 0] };
+for (const { first, body } of await bundle(address)) {
+  const sum = total[first ? "first" : "later"];
+  sum[0] += body.length;
+  sum[1] += brotliCompressSync(body).length;
 }
-
-const html = await (await fetch(`${address}/`)).text();
-const first = await weigh([...html.matchAll(/(?:src|href)="(\.\/assets\/[^"]+)"/g)].map(([, name]) => name));
-// What the page loads when a program is opened.
-const later = await weigh([...first.text.matchAll(/"\.\/(program-[\w-]+\.(?:js|css))"/g)].map(([, name]) => `./assets/${name}`));
-console.log(`bundle, brotli: ${(first.bytes / 1000).toFixed(0)} kB, and ${(later.bytes / 1000).toFixed(0)} kB for programs`);
+const kilobytes = ([plain, compressed]) => `${(plain / 1000).toFixed(0)} kB (brotli: ${(compressed / 1000).toFixed(0)} kB)`;
+console.log(`bundle: ${kilobytes(total.first)} for the first picture, ${kilobytes(total.later)} for what is opened later`);
 
 const browser = await chromium.launch(LAUNCH);
 const context = await browser.newContext({ viewport: { width: 1280, height: 720 } });

@@ -1,30 +1,20 @@
-// The viewer of the built binary, in Chromium. VERNE names the binary; VERNE_ADDRESS a service that runs already.
+// The viewer of the built binary, in Chromium; see service.mjs.
 import { defineConfig } from "@playwright/test";
 import { LAUNCH } from "./launch.mjs";
-
-const address = "127.0.0.1:18473";
-const verne = process.env.VERNE ?? "../../target/debug/verne";
 
 export default defineConfig({
   testDir: ".",
   testMatch: "*.spec.mjs",
   outputDir: "../../target/browser-tests",
-  workers: 1,
+  // Much of a test is waiting: for answers, and for a hand that rests.
+  workers: 2,
   // Software rendering on a busy machine is slow; what is waited for is a state, not a time.
-  timeout: 120_000,
-  expect: { timeout: 30_000 },
+  timeout: 240_000,
+  expect: { timeout: 60_000 },
   reporter: "list",
   use: {
-    baseURL: process.env.VERNE_ADDRESS ?? `http://${address}`,
     launchOptions: LAUNCH,
     viewport: { width: 1280, height: 720 },
     trace: "retain-on-failure",
   },
-  webServer: process.env.VERNE_ADDRESS
-    ? undefined
-    : {
-        command: `${verne} serve --memory-only --listen ${address}`,
-        url: `http://${address}/readyz`,
-        reuseExistingServer: false,
-      },
 });

@@ -1,7 +1,7 @@
 // Programs: opened, shown, played, corrected and saved.
 import { readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { drop, expect, open, test } from "./viewer.mjs";
+import { drawn, drop, expect, open, test } from "./viewer.mjs";
 
 const EXAMPLES = resolve(import.meta.dirname, "../../examples");
 const DOME = readFileSync(join(EXAMPLES, "dome.cls"), "utf8");
@@ -135,6 +135,9 @@ test("a click on a plot and on the path moves the machine there", async ({ page 
   const { width, height } = await plot.boundingBox();
   await plot.click({ position: { x: 0.7 * width, y: height / 2 } });
   await expect(where(page)).toContainText(/0:1[34]\.\d of 0:20\.0/);
+  const x = async () => Number(await page.getByLabel("X on the part, mm").inputValue());
+  await expect.poll(async () => Math.abs((await x()) - 40)).toBeLessThan(10);
+  await drawn(page);
   await page.locator("canvas[data-picture=good]").waitFor();
   const tip = await page.evaluate(() => document.querySelector("canvas").dataset.tip);
   await time(page).press("Home");
@@ -144,7 +147,7 @@ test("a click on a plot and on the path moves the machine there", async ({ page 
   await page.mouse.click(scene.x + ((u + 1) / 2) * scene.width, scene.y + ((1 - v) / 2) * scene.height);
   await expect(where(page)).not.toContainText("row 1 of");
   // Within two rows of where the plot led: the pixels of a click are some millimetres wide.
-  await expect.poll(async () => Math.abs(Number(await page.getByLabel("X on the part, mm").inputValue()) - 40)).toBeLessThan(25);
+  await expect.poll(async () => Math.abs((await x()) - 40)).toBeLessThan(25);
 });
 
 test("set-up, tool length and tolerance are planned anew", async ({ page }) => {

@@ -1,10 +1,9 @@
 // The region of origins: in words and in the scene, outdated when another setting changes.
 import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
-import { fileURLToPath } from "node:url";
+import { expectAccessible, expectNothingOverflows, inEveryLook, scrollUp } from "./looks.mjs";
 import { drop, expect, open, test } from "./viewer.mjs";
 
-const AXE = readFileSync(fileURLToPath(import.meta.resolve("axe-core/axe.min.js")), "utf8");
 const HELIX = readFileSync(resolve(import.meta.dirname, "../../examples/helix.ngc"), "utf8");
 const LINE = "UNITS/MM\nFEDRAT/600,MMPM\nGOTO/-100,0,300\nGOTO/100,0,300\n";
 
@@ -68,28 +67,14 @@ test("a computation is cancelled", async ({ page }) => {
   await expect(toggle(page)).toHaveAttribute("aria-pressed", "false");
 });
 
-for (const colorScheme of ["light", "dark"]) {
-  for (const [name, viewport] of [
-    ["desk", { width: 1280, height: 720 }],
-    ["phone", { width: 390, height: 844 }],
-  ]) {
-    test.describe(`${colorScheme}, ${name}`, () => {
-      test.use({ colorScheme, viewport });
-
-      test("the region has no accessibility violations, and nothing overflows", async ({ page }) => {
-        await program(page, "line.cls", LINE);
-        await setCell(page, "80");
-        await toggle(page).click();
-        await expect(drawn(page)).toHaveCount(1);
-        await page.locator("main").evaluate((main) => main.scrollTo(0, 0));
-        await page.evaluate(AXE);
-        const { violations } = await page.evaluate(() => globalThis.axe.run());
-        expect(violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" | ")}`)).toEqual([]);
-        const wider = (element) => element.scrollWidth - element.clientWidth;
-        expect(await page.locator(".program").evaluate(wider)).toBeLessThanOrEqual(0);
-        const overflow = () => document.documentElement.scrollWidth - document.documentElement.clientWidth;
-        expect(await page.evaluate(overflow)).toBe(0);
-      });
-    });
-  }
-}
+test("the region has no accessibility violations, and nothing overflows", async ({ page }) => {
+  await program(page, "line.cls", LINE);
+  await setCell(page, "80");
+  await toggle(page).click();
+  await expect(drawn(page)).toHaveCount(1);
+  await inEveryLook(page, "origins", async () => {
+    await scrollUp(page);
+    await expectAccessible(page);
+    await expectNothingOverflows(page, ".program");
+  });
+});

@@ -1,11 +1,23 @@
 // What every test of the viewer starts from: a page whose console stays clean.
 import { test as base, expect } from "@playwright/test";
+import { serve } from "./service.mjs";
 
 export { expect };
 
 export const test = base.extend({
   // Messages that a test provokes on purpose, such as the browser's own note of a refused request.
   provoked: [[], { option: true }],
+  // Each worker has a service of its own: its tests find no jobs of others. VERNE_ADDRESS is one that runs already.
+  service: [
+    async ({}, use) => {
+      const running = process.env.VERNE_ADDRESS;
+      const { address, stop } = running ? { address: running, stop: () => {} } : await serve();
+      await use(address);
+      stop();
+    },
+    { scope: "worker" },
+  ],
+  baseURL: async ({ service }, use) => use(service),
   page: async ({ page, provoked }, use) => {
     const errors = [];
     page.on("console", (message) => {
@@ -22,6 +34,11 @@ export const test = base.extend({
 export async function open(page, view = "") {
   await page.goto(`/${view}`);
   await page.locator("canvas[data-ready=yes]").waitFor();
+}
+
+/** Waits until what has changed is laid out and drawn: two frames, in the first of which watchers of sizes are told. */
+export async function drawn(page) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
 /** A figure of the page that carries its full value. */

@@ -3,11 +3,14 @@
 mod admission;
 mod bad_input;
 mod batch;
+mod certificates;
 mod client_quotas;
 mod continuous_batch;
 mod cross_origin_requests;
 mod dexterity;
 mod documented_failures;
+mod error_budget;
+mod error_map;
 mod etags_and_ranges;
 mod guide;
 mod jacobian;

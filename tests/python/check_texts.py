@@ -42,7 +42,7 @@ def help_texts(verne, command=()):
         for text in re.split(r"\s{2,}", line.strip()):
             yield " ".join(["verne", *command, "--help"]), text
     listed = re.search(r"^Commands:\n((?:  .*\n)+)", help_, re.MULTILINE)
-    for name in re.findall(r"^  (\w+)", listed[1], re.MULTILINE) if listed else []:
+    for name in re.findall(r"^  ([\w-]+)", listed[1], re.MULTILINE) if listed else []:
         if name != "help":
             yield from help_texts(verne, (*command, name))
 

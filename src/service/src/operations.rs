@@ -4,6 +4,7 @@
 //!
 //! - Kinematics: [`forward`], [`inverse`] and their batches. The solver computes the margins; [`solutions`] puts them
 //!   into answers.
+//! - Error budgets: [`error_budget`] of poses, [`error_map`] over a workspace.
 //! - Workspaces: [`workspace_question`], [`family_question`] and [`dexterity_question`] check requests; [`workspace`]
 //!   and [`dexterity_map`] compute answers; [`mesh_files`], [`slice`] and [`drawing`] write files.
 //! - Programs: a client's file is read while it arrives and kept in the result store ([`programs`]).
@@ -25,12 +26,23 @@ pub(crate) mod contains;
 pub(crate) mod contains_columns;
 pub(crate) mod continuation;
 pub(crate) mod continuous_rows;
+pub(crate) mod dexterity_job;
 pub(crate) mod dexterity_map;
 pub(crate) mod dexterity_question;
 pub(crate) mod dexterity_subtasks;
 pub(crate) mod dexterity_table;
+pub(crate) mod document_job;
 pub(crate) mod drawing;
 pub(crate) mod dwell_marks;
+pub(crate) mod error_budget;
+pub(crate) mod error_budget_columns;
+pub(crate) mod error_budget_rows;
+pub(crate) mod error_map;
+pub(crate) mod error_map_colours;
+pub(crate) mod error_map_job;
+pub(crate) mod error_map_question;
+pub(crate) mod error_map_subtasks;
+pub(crate) mod error_map_table;
 pub(crate) mod family_question;
 pub(crate) mod family_table;
 pub(crate) mod forward;
@@ -46,6 +58,7 @@ pub(crate) mod job_executor;
 pub(crate) mod joint_program;
 pub(crate) mod machine_hash;
 pub(crate) mod machine_registry;
+pub(crate) mod map_table;
 pub(crate) mod mesh_files;
 pub(crate) mod nearest;
 pub(crate) mod observers;

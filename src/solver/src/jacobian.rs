@@ -97,6 +97,11 @@ fn condition_number(matrix: &Matrix4<f64>) -> Option<f64> {
     (least > SINGULAR * most).then(|| most / least)
 }
 
+/// Whether a parallel matrix is singular to double precision.
+pub(crate) fn is_singular(rows: &ParallelMatrix) -> bool {
+    condition_number(&Matrix4::from_fn(|row, column| rows[row][column])).is_none()
+}
+
 /// Computes the rates d(x, y, z, alpha)/d(rho1, rho2, rho3): row for the coordinate, column for the slider. The answer
 /// is `None` at a parallel singularity.
 ///

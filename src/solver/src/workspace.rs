@@ -10,6 +10,7 @@
 //! - [`slice()`]: the cut at a height, as polygons.
 //! - [`contains()`]: whether points belong to the workspace, without a mesh.
 //! - [`dexterity`]: the tool's inclinations that reach a part point.
+//! - [`error_map`]: the errors of the tool, for tolerances of the machine's parameters.
 //!
 //! Every function takes a [`Request`] or a [`dexterity::DexterityRequest`]. Long computations report to an
 //! [`Observer`] and stop when it asks.
@@ -22,6 +23,7 @@ mod contains;
 mod cover;
 pub mod dexterity;
 mod domain;
+pub mod error_map;
 mod feasible_intervals;
 mod fold;
 mod image;
@@ -34,7 +36,7 @@ mod root;
 mod slice;
 mod surface;
 mod triangle_estimate;
-mod vector;
+pub(crate) mod vector;
 
 pub use agreement::agree;
 pub use contains::{Membership, contains};

@@ -3,6 +3,8 @@
 import { effect } from "@preact/signals";
 import { render } from "preact";
 import { Page } from "./panels/page";
+import { keepDexterityPanel } from "./dexterity/entry";
+import { keepFamilyPanel } from "./families/entry";
 import { followLinks } from "./program/entry";
 import { keepAddress, onNewAddress, saidByAddress } from "./state/address_bar";
 import { keepWorkspace } from "./state/computation";
@@ -14,9 +16,10 @@ import { stay } from "./state/motion";
 import { ghostKind, machine, overTable, tool } from "./state/store";
 
 async function start(): Promise<void> {
+  // The requests are under way while the page is made.
+  const first = follow(await saidByAddress());
   const root = document.getElementById("page");
   if (root) render(<Page />, root);
-  const first = saidByAddress().then(follow);
   void listMachines().catch(() => undefined);
   // The workspace does not wait for the position: at home it is asked for as soon as the machine is known.
   keepWorkspace();
@@ -27,6 +30,8 @@ async function start(): Promise<void> {
   onNewAddress((said) => void follow(said));
   followTool();
   followLinks();
+  keepFamilyPanel();
+  keepDexterityPanel();
 }
 
 /** Another tool, another height over the table or other ghosts: the same joints are solved anew. */

@@ -105,6 +105,46 @@ async fn a_dexterity_map_is_that_of_the_service() {
     }
 }
 
+#[tokio::test]
+async fn an_error_budget_is_that_of_the_service() {
+    let tolerances = r#"{"L1":0.02,"tilt_zero":0.001}"#;
+    let body = json!({"tool_length": 50, "parameter_tolerances": {"L1": 0.02, "tilt_zero": 0.001},
+                      "poses": [[100, 50, 150, 10, 20]]});
+    let line = format!(
+        "error-budget --x 100 --y 50 --z 150 --phi1 10 --phi2 20 --tool-length 50 --parameter-tolerances {tolerances}"
+    );
+    assert_eq!(json_of(&line), post("/error-budget", body).await.json);
+    let axis = line.replace("--phi1 10 --phi2 20", "--axis 0,0,1");
+    assert_eq!(json_of(&axis)["status"], json!(["ok"]));
+    for (line, expected) in [
+        ("error-budget --x 0 --y 0 --z 0", "--parameter-tolerances"),
+        ("error-budget --x 0 --y 0 --z 0 --parameter-tolerances {}", "--parameter-tolerances: must have"),
+        ("error-budget --x 0 --y 0 --z 0 --parameter-tolerances {\"D1\":1}", "unknown field"),
+        ("error-budget --frame tool --x 0 --y 0 --z 0 --phi1 3 --parameter-tolerances {\"L1\":1}", "invalid"),
+    ] {
+        match verne(line) {
+            Err(error) => assert!(error.contains(expected), "{line}: {error}"),
+            Ok(answer) => assert!(answer.contains(expected), "{line}: {answer}"),
+        }
+    }
+}
+
+#[tokio::test]
+async fn an_error_map_is_that_of_the_service() {
+    let directory = tempfile::tempdir().unwrap();
+    let line = "error-map --kind part --tool-length 50 --cell 200 --tolerance 20 --parameter-tolerances {\"L1\":0.02} \
+                -o DIR/map.ply --error axis_rms --cells DIR/cells.csv";
+    let summary = json_of(&line.replace("DIR", directory.path().to_str().unwrap()));
+    let body = json!({"kind": "part", "tool_length": 50, "cell": 200, "tolerance": 20,
+                      "parameter_tolerances": {"L1": 0.02}});
+    assert_eq!(summary, post("/workspace/error-budget", body).await.json);
+    assert!(std::fs::read(directory.path().join("map.ply")).unwrap().starts_with(b"ply"));
+    let cells = std::fs::read_to_string(directory.path().join("cells.csv")).unwrap();
+    assert_eq!(cells.lines().count() as u64, 1 + summary["inside"].as_u64().unwrap(), "{cells}");
+    let error = verne("error-map --parameter-tolerances {\"L1\":0.02} --cell 0").unwrap_err();
+    assert!(error.contains("--cell: "), "{error}");
+}
+
 #[test]
 fn shells_and_manual_pages_know_every_command() {
     for (shell, beginning) in

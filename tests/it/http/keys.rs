@@ -150,6 +150,8 @@ async fn a_role_allows_only_its_operations() {
     keys.get(&service, 0, "/workspace?tolerance=50").await.assert_problem(403, "forbidden");
     let dexterity = json_request(Method::POST, "/workspace/dexterity", json!({"tool_length": 50}));
     ask(0, dexterity).await.assert_problem(403, "forbidden");
+    let errors = json_request(Method::POST, "/workspace/error-budget", json!({"cell": 50}));
+    ask(0, errors).await.assert_problem(403, "forbidden");
     let made = ask(1, workspace()).await;
     assert_eq!(made.status, StatusCode::OK, "{}", made.json);
     let id = made.json["id"].as_str().unwrap();

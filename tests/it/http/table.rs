@@ -150,6 +150,7 @@ async fn clearances_out_of_range_are_refused() {
         ("/workspace", json!({"kind": "part", "phi1": [0, 1]})),
         ("/workspace/contains", json!({"kind": "part", "points": []})),
         ("/workspace/dexterity", json!({"phi1": {"from": 0, "to": 1}})),
+        ("/workspace/error-budget", json!({"kind": "part", "parameter_tolerances": {"L1": 0.1}})),
     ] {
         for field in ["table_clearance", "tool_radius"] {
             for number in [json!(-1), json!(1e9)] {

@@ -73,6 +73,12 @@ async fn families_membership_and_dexterity_end_at_the_table() {
     let before = post("/workspace/dexterity", &map).await.json;
     let after = post("/workspace/dexterity", with(map, json!({"table_clearance": 0}))).await.json;
     assert_eq!(after["not_checked"], json!(CHECKED));
+    let map = json!({"kind": "part", "tool_length": 400, "cell": 100, "tolerance": 20, "parameter_tolerances":
+        {"L1": 0.01}});
+    let all = post("/workspace/error-budget", &map).await.json;
+    let above = post("/workspace/error-budget", with(map, json!({"table_clearance": 0}))).await.json;
+    assert_eq!(above["not_checked"], json!(CHECKED));
+    assert!(above["inside"].as_u64() < all["inside"].as_u64(), "{above}");
     for set in ["reachable", "dexterous"] {
         let volume = |map: &Value| map[set]["volume"].as_f64().unwrap();
         assert!(volume(&after) < 0.95 * volume(&before), "{set}: {after}");

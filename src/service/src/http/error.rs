@@ -118,7 +118,7 @@ pub(crate) enum LookupError {
     Mesh(String),
     #[error("{0:?} is not a single workspace, so it has no slices.")]
     Slice(String),
-    #[error("{0:?} is not a dexterity map, so it has no grid.")]
+    #[error("{0:?} is no dexterity map and no error map, so it has no grid.")]
     Grid(String),
     #[error("{0:?} is not a region of origins, so it has no mesh and no slices.")]
     Region(String),

@@ -32,7 +32,7 @@ fn formats(path: &str) -> Vec<NameAndMedia> {
         "/toolpath/{id}/rows" | "/workspace/{id}/cells" => {
             RowFormat::ALL.map(|format| (format.name(), format.media())).into()
         }
-        "/fk/batch" | "/ik/batch" | "/workspace/contains" => {
+        "/fk/batch" | "/ik/batch" | "/error-budget" | "/workspace/contains" => {
             Format::ALL.map(|format| (format.name(), format.media())).into()
         }
         _ => Vec::new(),

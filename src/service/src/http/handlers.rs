@@ -2,6 +2,7 @@
 
 pub(crate) mod batch;
 pub(crate) mod dexterity;
+pub(crate) mod error_budget;
 pub(crate) mod jobs;
 pub(crate) mod joint_program;
 pub(crate) mod kinematics;

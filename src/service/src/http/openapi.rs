@@ -25,7 +25,8 @@ use crate::http::openapi::operations::drop_unused;
 use crate::http::openapi::optional_fields::describe_defaults;
 use crate::http::openapi::table_examples::write_table_examples;
 use crate::http::problem::Problem;
-use crate::wire::dexterity::DexteritySummary;
+use crate::wire::dexterity::{DexterityCells, DexteritySummary};
+use crate::wire::error_map::{ErrorCells, ErrorMapSummary};
 use crate::wire::family::FamilySummary;
 use crate::wire::workspace_summary::WorkspaceSummary;
 
@@ -77,7 +78,9 @@ use crate::wire::workspace_summary::WorkspaceSummary;
         (name = "machines", description = "Published machines."),
         (name = "service", description = "State and description of the service.")
     ),
-    components(schemas(Problem, WorkspaceSummary, FamilySummary, DexteritySummary))
+    components(schemas(
+        Problem, WorkspaceSummary, FamilySummary, DexteritySummary, DexterityCells, ErrorMapSummary, ErrorCells
+    ))
 )]
 pub(crate) struct Document;
 

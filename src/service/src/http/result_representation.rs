@@ -18,6 +18,7 @@ use crate::operations::question_text::QuestionKind;
 use crate::operations::results::{MESH, Record, hashed, unpack_mesh};
 use crate::wire::dexterity::SetName;
 use crate::wire::error::OperationError;
+use crate::wire::error_map::ErrorName;
 use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::result_id::ResultId;
 
@@ -75,34 +76,69 @@ pub(crate) fn slice_file(
     }
 }
 
+/// Which mesh of a result with several ones.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct MeshSelection {
+    /// The set of a dexterity map.
+    pub set: Option<SetName>,
+    /// The error of an error map.
+    pub error: Option<ErrorName>,
+}
+
+impl MeshSelection {
+    /// Refuses what a result of this kind does not have.
+    fn check(self, kind: QuestionKind) -> Result<(), HttpError> {
+        let refused = |name, maps| {
+            let detail = format!("is allowed only for {maps}: a workspace has one mesh");
+            Err(HttpError::field(format!("/query/{name}"), detail))
+        };
+        match self {
+            Self { set: Some(_), .. } if kind != QuestionKind::Dexterity => refused("set", "dexterity maps"),
+            Self { error: Some(_), .. } if kind != QuestionKind::ErrorMap => refused("error", "error maps"),
+            _ => Ok(()),
+        }
+    }
+
+    fn set(self) -> SetName {
+        self.set.unwrap_or(SetName::Reachable)
+    }
+
+    fn error(self) -> ErrorName {
+        self.error.unwrap_or(ErrorName::TipWorst)
+    }
+
+    /// The parameters of a query.
+    fn parameters(self) -> String {
+        let set = self.set.map(|set| format!("&set={}", set.name())).unwrap_or_default();
+        set + &self.error.map(|error| format!("&error={}", error.name())).unwrap_or_default()
+    }
+}
+
 /// A surface of a result.
 pub(crate) struct Surface {
     id: ResultId,
     kind: QuestionKind,
-    /// The set of a dexterity map.
-    set: Option<SetName>,
+    selection: MeshSelection,
     /// The blob with its mesh.
     blob: &'static str,
 }
 
 impl Surface {
-    /// The surface of a result that a request means by `set`.
-    pub(crate) fn of(id: ResultId, kind: QuestionKind, set: Option<SetName>) -> Result<Self, HttpError> {
-        let blob = match (kind, set) {
-            (QuestionKind::Workspace, None) | (QuestionKind::Origins, _) => MESH,
-            (QuestionKind::Workspace, Some(_)) => {
-                let detail = "is allowed only for dexterity maps: a workspace has one mesh";
-                return Err(HttpError::field("/query/set", detail));
-            }
-            (QuestionKind::Toolpath | QuestionKind::Window | QuestionKind::Placement, _) => {
+    /// The surface of a result that a request means.
+    pub(crate) fn of(id: ResultId, kind: QuestionKind, selection: MeshSelection) -> Result<Self, HttpError> {
+        let blob = match kind {
+            QuestionKind::Workspace | QuestionKind::Origins => MESH,
+            QuestionKind::Dexterity => selection.set().name(),
+            QuestionKind::ErrorMap => selection.error().name(),
+            QuestionKind::Toolpath | QuestionKind::Window | QuestionKind::Placement => {
                 return Err(LookupError::Result(id.to_string()).into());
             }
-            (QuestionKind::Family | QuestionKind::Subtask, _) => {
+            QuestionKind::Family | QuestionKind::Subtask => {
                 return Err(LookupError::Mesh(id.to_string()).into());
             }
-            (QuestionKind::Dexterity, set) => set.unwrap_or(SetName::Reachable).name(),
         };
-        Ok(Self { id, kind, set, blob })
+        selection.check(kind)?;
+        Ok(Self { id, kind, selection, blob })
     }
 
     fn representation(
@@ -112,13 +148,13 @@ impl Surface {
         is_unshared: bool,
     ) -> Representation {
         let (id, name) = (self.id, format.name());
-        let set = self.set.map(|set| format!("&set={}", set.name())).unwrap_or_default();
+        let selection = self.selection.parameters();
         Representation {
             content,
             is_unshared,
             media: format.media(),
             cache_control: None,
-            location: format!("{}/mesh?format={name}{set}", self.kind.path(id)),
+            location: format!("{}/mesh?format={name}{selection}", self.kind.path(id)),
             file_name: Some(match self.kind {
                 QuestionKind::Origins => format!("origins-{id:.8}.{name}"),
                 _ => format!("workspace-{id:.8}.{name}"),
@@ -168,7 +204,7 @@ async fn found_or_encoded(
     if let Some(content) = state.results.find_blob(surface.id, file).await {
         return Ok(Some((content, false)));
     }
-    let (id, blob, set) = (surface.id, surface.blob, surface.set);
+    let (id, blob, selection) = (surface.id, surface.blob, surface.selection);
     let mut permit = None;
     let encode = Box::pin(async {
         let taken = Arc::clone(permit.insert(Arc::new(state.admission.mesh(client).await?)));
@@ -178,7 +214,7 @@ async fn found_or_encoded(
             let _taken = taken;
             let Some(mesh) = unpack_mesh(&packed) else { return Ok(None) };
             drop(packed);
-            Ok(Some(write_mesh(&description(&question, set)?, &mesh, format)?))
+            Ok(Some(write_mesh(&description(&question, selection)?, &mesh, format)?))
         })
         .await
     });
@@ -186,10 +222,11 @@ async fn found_or_encoded(
     Ok(content.map(|content| (content.into(), permit.is_some())))
 }
 
-fn description(question: &Question, set: Option<SetName>) -> Result<MeshDescription<'_>, OperationError> {
+fn description(question: &Question, selection: MeshSelection) -> Result<MeshDescription<'_>, OperationError> {
     match question {
         Question::Workspace(workspace) => Ok(MeshDescription::of_workspace(workspace)),
-        Question::Dexterity(map) => Ok(MeshDescription::of_set(map, set.unwrap_or(SetName::Reachable))),
+        Question::Dexterity(map) => Ok(MeshDescription::of_set(map, selection.set())),
+        Question::ErrorMap(map) => Ok(MeshDescription::of_errors(map, selection.error())),
         Question::Origins(region) => Ok(MeshDescription::of_origins(region)),
         Question::Family(_)
         | Question::Toolpath(_)

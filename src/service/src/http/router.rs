@@ -18,8 +18,8 @@ use utoipa_axum::routes;
 use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
 use crate::http::format_paths;
 use crate::http::handlers::{
-    batch, dexterity, jobs, joint_program, kinematics, machines, origins, placement, programs, results,
-    service, toolpath, toolpath_rows, window, workspace,
+    batch, dexterity, error_budget, jobs, joint_program, kinematics, machines, origins, placement, programs,
+    results, service, toolpath, toolpath_rows, window, workspace,
 };
 use crate::http::openapi::{self, Document, problem_responses, security};
 use crate::http::state::SharedState;
@@ -35,15 +35,17 @@ pub fn document() -> Value {
 }
 
 /// Each route with its access.
-fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 36] {
+fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 38] {
     [
         (Key(Read, Fast), routes!(kinematics::get_fk, kinematics::post_fk)),
         (Key(Read, Fast), routes!(kinematics::get_ik, kinematics::post_ik)),
         (Key(Read, Other), routes!(batch::fk_batch)),
         (Key(Read, Other), routes!(batch::ik_batch)),
+        (Key(Read, Other), routes!(error_budget::post_error_budget)),
         (Key(Compute, Other), routes!(workspace::get_workspace, workspace::post_workspace)),
         (Key(Read, Other), routes!(batch::workspace_contains)),
         (Key(Compute, Other), routes!(dexterity::post_dexterity)),
+        (Key(Compute, Other), routes!(error_budget::post_error_map)),
         (Key(Read, Other), routes!(results::get_summary)),
         (Key(Read, Other), routes!(results::get_mesh)),
         (Key(Read, Other), routes!(results::get_slice)),

@@ -48,9 +48,7 @@ pub(crate) fn compute_map(
                 slabs.push(compute_slab(question, [number, count], &section)?);
             }
             SubtaskRequest::Volumes(_) => volumes = compute_volumes(question, &section)?,
-            SubtaskRequest::Member(_) | SubtaskRequest::Origins { .. } => {
-                return Err(OperationError::Internal);
-            }
+            _ => return Err(OperationError::Internal),
         }
     }
     merge_map(question, &slabs, &volumes, observer)

@@ -3,7 +3,6 @@
 use verne_rows::{Column, Format, Writer};
 
 use crate::operations::outcome_columns::defect;
-use crate::wire::degrees::from_degrees;
 use crate::wire::dexterity::DexterityCells;
 use crate::wire::error::OperationError;
 
@@ -50,7 +49,7 @@ impl DexterityTable {
             while begins(self.point + 1).is_some_and(|begin| begin <= self.interval) {
                 self.point += 1;
             }
-            let position = position(&self.cells, self.point);
+            let position = self.cells.grid.position(self.point);
             rows.push(Row { point: self.point, position, ends: [ends[0], ends[1]] });
             self.interval += 1;
         }
@@ -60,16 +59,6 @@ impl DexterityTable {
         }
         writer.write(&columns(&rows)).map(Some).map_err(defect)
     }
-}
-
-/// The place of a point in the part frame.
-#[expect(clippy::cast_precision_loss, reason = "a grid has far fewer points")]
-fn position(cells: &DexterityCells, point: usize) -> [f64; 3] {
-    let (grid, [_, y, z]) = (&cells.grid, cells.grid.counts.0.map(|count| count.max(1) as usize));
-    let steps = [point / (y * z), point / z % y, point % z];
-    let [x, y, z] = std::array::from_fn(|axis| grid.origin.0[axis] + grid.step * steps[axis] as f64);
-    let (sin, cos) = from_degrees(grid.turn).sin_cos();
-    [cos * x - sin * y, sin * x + cos * y, z]
 }
 
 fn columns(rows: &[Row]) -> Vec<Column> {

@@ -14,7 +14,7 @@ use crate::wire::error::OperationError;
 use crate::wire::request::Frame;
 
 /// The columns that a row may have.
-const NUMBERS: Group = &["x", "y", "z", "phi1", "phi2", "i", "j", "k"];
+pub(crate) const NUMBERS: Group = &["x", "y", "z", "phi1", "phi2", "i", "j", "k"];
 
 /// The columns that every row has.
 const POSITION: Group = &["x", "y", "z"];
@@ -23,7 +23,16 @@ const POSITION: Group = &["x", "y", "z"];
 const ORIENTATIONS: &[Group] = &[&["phi1", "phi2"], &["i", "j", "k"]];
 
 /// The columns of joints; only frame `part` has the last two.
-const JOINTS: Group = &["rho1", "rho2", "rho3", "theta1", "theta2"];
+pub(crate) const JOINTS: Group = &["rho1", "rho2", "rho3", "theta1", "theta2"];
+
+/// The columns of the rows in a frame, of those that there are.
+pub(crate) fn pose_names(frame: Frame, columns: &[Column]) -> Result<RowNames, OperationError> {
+    let has_orientation = frame == Frame::Part;
+    if !has_orientation {
+        refuse(columns, &NUMBERS[POSITION.len()..], "is allowed only in frame part")?;
+    }
+    row_names(columns, POSITION, ORIENTATIONS, has_orientation)
+}
 
 /// Answers poses.
 pub(crate) struct InverseColumns {
@@ -46,11 +55,7 @@ impl RowAnswer for InverseColumns {
     }
 
     fn begin(&mut self, columns: &[Column]) -> Result<(), OperationError> {
-        let has_orientation = self.batch.frame == Frame::Part;
-        if !has_orientation {
-            refuse(columns, &NUMBERS[POSITION.len()..], "is allowed only in frame part")?;
-        }
-        self.names = row_names(columns, POSITION, ORIENTATIONS, has_orientation)?;
+        self.names = pose_names(self.batch.frame, columns)?;
         Ok(())
     }
 

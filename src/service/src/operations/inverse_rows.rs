@@ -26,6 +26,11 @@ pub(crate) const PART_POSE: RowFormat =
 const POSITION: RowFormat =
     RowFormat { lengths: &[3], description: "[x, y, z]: only rows of frame part have an orientation" };
 
+/// The rows of a frame.
+pub(crate) fn row_format(frame: Frame) -> RowFormat {
+    if frame == Frame::Part { PART_POSE } else { POSITION }
+}
+
 /// How many numbers an answered row has.
 pub(crate) fn numbers_of_answer(frame: Frame) -> usize {
     if frame == Frame::Part { 5 } else { 3 }
@@ -135,7 +140,7 @@ fn push_solution(
 
 /// The target of a row; or the row's answer, if it has none or a tool axis.
 fn read_row(setting: Setting<'_>, frame: Frame, row: &impl BatchRow) -> Result<Target, AnsweredPose> {
-    let row = row.numbers(if frame == Frame::Part { PART_POSE } else { POSITION });
+    let row = row.numbers(row_format(frame));
     let row = row.map_err(|detail| AnsweredPose::without_solution(RowOutcome::Invalid(detail)))?;
     if row.len() == ROW_WITH_AXIS {
         return Err(answer_axis(setting, &row));

@@ -10,32 +10,29 @@ use verne_jobs::{JobId, RunControl, Submission, Work, WorkError};
 use verne_solver::workspace::Observer;
 
 use crate::operations::blocking_results::BlockingResults;
-use crate::operations::dexterity_map::merge_map;
+use crate::operations::dexterity_job::{self, DEXTERITY_MAP};
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::dexterity_subtasks::{compute_slab, compute_volumes};
+use crate::operations::document_job::answer_document;
+use crate::operations::error_map_job::{self, ERROR_MAP};
+use crate::operations::error_map_question::ErrorMapQuestion;
+use crate::operations::error_map_subtasks;
 use crate::operations::family_question::FamilyQuestion;
 use crate::operations::family_table::FamilyTable;
 use crate::operations::mesh_files::{MeshDescription, mesh_file_name, write_mesh};
 use crate::operations::observers::{ObserverFns, equal_section};
 use crate::operations::origins_job::{answer_part, merge_region};
-use crate::operations::origins_question::OriginsQuestion;
-use crate::operations::placement::answer_placement;
 use crate::operations::question::Question;
 use crate::operations::question_text::JobParameters;
-use crate::operations::results::{CELLS, MESH, Results, pack_mesh};
+use crate::operations::results::{MESH, Results, pack_mesh};
 use crate::operations::subtask::{Subtask, SubtaskRequest};
 use crate::operations::toolpath_job::answer_toolpath;
-use crate::operations::window::answer_window;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::telemetry::metrics::computations::ComputationMetrics;
-use crate::wire::dexterity::SetName;
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
 use crate::wire::result_id::ResultId;
-
-/// The blobs of a dexterity map.
-const MAP: [&str; 3] = [SetName::Reachable.name(), SetName::Dexterous.name(), CELLS];
 
 /// The blob of a subtask's result.
 const SUBTASK: &str = "subtask";
@@ -64,11 +61,13 @@ impl JobExecutor {
         match question {
             Question::Workspace(workspace) => self.workspace(workspace, parameters, observer).map(drop),
             Question::Family(family) => self.family(question, family, parameters, observer),
-            Question::Dexterity(map) => self.dexterity(question, map, parameters, observer),
+            Question::Dexterity(_) | Question::ErrorMap(_) | Question::Origins(_) => {
+                self.merged(question, parameters, observer)
+            }
             Question::Toolpath(path) => answer_toolpath(&self.store, path, &self.computations, observer),
-            Question::Window(asked) => answer_window(&self.store, asked, &self.computations, observer),
-            Question::Placement(asked) => answer_placement(&self.store, asked, &self.computations, observer),
-            Question::Origins(region) => self.origins(region, parameters, observer),
+            Question::Window(_) | Question::Placement(_) => {
+                answer_document(&self.store, question, &self.computations, observer)
+            }
             Question::Subtask(subtask) => self.subtask(subtask, parameters, observer).map(drop),
         }
     }
@@ -156,53 +155,49 @@ impl JobExecutor {
             SubtaskRequest::Origins { region, part } => {
                 answer_part(&self.store, &subtask.region(region), *part, observer)?
             }
+            SubtaskRequest::ErrorSlab { map, number, count } => {
+                let map = ErrorMapQuestion::of(machine, map);
+                error_map_subtasks::compute_slab(&map, [*number, *count], observer)?
+            }
+            SubtaskRequest::ErrorSurface(map) => {
+                let map = ErrorMapQuestion::of(machine, map);
+                error_map_subtasks::compute_surface(&map, parameters.max_triangles(), observer)?
+            }
         };
         self.computations.count();
         self.store.put_blob(id, SUBTASK, computed)
     }
 
-    /// Merges a map from the results of its subtasks, and computes those that the store has evicted.
-    fn dexterity(
+    /// Merges an answer from the results of its subtasks, and computes those that the store has evicted.
+    fn merged(
         &self,
         question: &Question,
-        map: &DexterityQuestion,
         parameters: JobParameters,
         observer: &dyn Observer,
     ) -> Result<(), OperationError> {
-        if self.store.complete_record(map.id, &MAP).is_some() {
+        let subtasks = self.subtasks(question);
+        if subtasks.is_empty() {
             return Ok(());
         }
-        let subtasks = Subtask::of_map(map);
-        let results = subtasks.iter().enumerate().map(|(i, subtask)| {
-            self.subtask(subtask, parameters, &equal_section(observer, i, subtasks.len()))
-        });
-        let results = results.collect::<Result<Vec<Bytes>, OperationError>>()?;
-        let Some((volumes, slabs)) = results.split_last() else { return Err(OperationError::Internal) };
-        let merged = merge_map(map, slabs, volumes, observer)?;
-        let [reachable, dexterous] = &merged.meshes;
-        for (name, bytes) in MAP.into_iter().zip([pack_mesh(reachable)?, pack_mesh(dexterous)?, merged.cells])
-        {
-            self.store.put_blob(map.id, name, bytes)?;
+        let parts = self.parts(&subtasks, parameters, observer)?;
+        match question {
+            Question::Dexterity(map) => dexterity_job::merge_and_store(&self.store, map, &parts, observer),
+            Question::ErrorMap(map) => error_map_job::merge_and_store(&self.store, map, &parts, observer),
+            Question::Origins(region) => merge_region(&self.store, region, &parts, observer),
+            _ => Err(OperationError::Internal),
         }
-        self.store.put_record(question, &merged.summary, None)
     }
 
-    /// Merges a region of origins from the results of its parts, and computes those that the store has evicted.
-    fn origins(
+    /// The results of subtasks.
+    fn parts(
         &self,
-        region: &OriginsQuestion,
+        subtasks: &[Subtask],
         parameters: JobParameters,
         observer: &dyn Observer,
-    ) -> Result<(), OperationError> {
-        if self.store.complete_record(region.id, &[MESH]).is_some() {
-            return Ok(());
-        }
-        let subtasks = Subtask::of_region(region);
-        let parts = subtasks.iter().enumerate().map(|(i, subtask)| {
-            self.subtask(subtask, parameters, &equal_section(observer, i, subtasks.len()))
-        });
-        let parts = parts.collect::<Result<Vec<Bytes>, OperationError>>()?;
-        merge_region(&self.store, region, &parts, observer)
+    ) -> Result<Vec<Bytes>, OperationError> {
+        let part =
+            |(i, subtask)| self.subtask(subtask, parameters, &equal_section(observer, i, subtasks.len()));
+        subtasks.iter().enumerate().map(part).collect()
     }
 
     /// The subtasks from which a question's answer is merged; none if the answer is stored.
@@ -214,7 +209,8 @@ impl JobExecutor {
             | Question::Placement(_)
             | Question::Subtask(_) => return Vec::new(),
             Question::Family(family) => (Subtask::of_family(family), &[]),
-            Question::Dexterity(map) => (Subtask::of_map(map), &MAP),
+            Question::Dexterity(map) => (Subtask::of_map(map), &DEXTERITY_MAP),
+            Question::ErrorMap(map) => (Subtask::of_error_map(map), &ERROR_MAP),
             Question::Origins(region) => (Subtask::of_region(region), &[MESH]),
         };
         if self.store.complete_record(question.id(), blobs).is_some() { Vec::new() } else { subtasks }

@@ -6,11 +6,13 @@ use serde_json::{Value, json};
 use verne_mesh::{Mesh, glb, ply, stl};
 
 use crate::operations::dexterity_question::DexterityQuestion;
+use crate::operations::error_map_question::ErrorMapQuestion;
 use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::origins_question::OriginsQuestion;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::dexterity::SetName;
 use crate::wire::error::OperationError;
+use crate::wire::error_map::ErrorName;
 use crate::wire::format::MeshFormat;
 use crate::wire::limit::Unchecked;
 use crate::wire::result_id::ResultId;
@@ -56,6 +58,20 @@ impl<'a> MeshDescription<'a> {
             frame: FrameName::Part,
             request: json!(question.request),
             not_checked: Unchecked::beside(question.request.table_clearance.is_some()),
+            machine: &question.machine,
+            id: question.id,
+        }
+    }
+
+    /// The surface of a workspace in bands of an error.
+    pub(crate) fn of_errors(question: &'a ErrorMapQuestion, error: ErrorName) -> Self {
+        let workspace = &question.request.workspace;
+        Self {
+            kind: error.name(),
+            name: format!("{} over a workspace of {}", error.name(), question.machine.id.name),
+            frame: workspace.kind.frame(),
+            request: json!(question.request),
+            not_checked: workspace.not_checked(),
             machine: &question.machine,
             id: question.id,
         }

@@ -1,4 +1,4 @@
-//! A question that a job answers: a workspace, a family of workspaces, a dexterity map, a tool path, a
+//! A question that a job answers: a workspace, a family of workspaces, a dexterity map, an error map, a tool path, a
 //! placement, a region of origins, or a subtask.
 
 use std::sync::Arc;
@@ -8,6 +8,7 @@ use verne_jobs::Submission;
 use verne_solver::workspace::Observer;
 
 use crate::operations::dexterity_question::DexterityQuestion;
+use crate::operations::error_map_question::ErrorMapQuestion;
 use crate::operations::family_question::FamilyQuestion;
 use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::origins_question::OriginsQuestion;
@@ -37,6 +38,8 @@ pub(crate) enum Question {
     Family(FamilyQuestion),
     /// A dexterity map.
     Dexterity(DexterityQuestion),
+    /// An error map.
+    ErrorMap(Box<ErrorMapQuestion>),
     /// A tool path.
     Toolpath(Box<ToolpathQuestion>),
     /// A window.
@@ -56,6 +59,7 @@ impl Question {
             Self::Workspace(question) => question.id,
             Self::Family(question) => question.id,
             Self::Dexterity(question) => question.id,
+            Self::ErrorMap(question) => question.id,
             Self::Toolpath(question) => question.id,
             Self::Window(question) => question.id,
             Self::Placement(question) => question.id,
@@ -70,6 +74,7 @@ impl Question {
             Self::Workspace(_) => QuestionKind::Workspace,
             Self::Family(_) => QuestionKind::Family,
             Self::Dexterity(_) => QuestionKind::Dexterity,
+            Self::ErrorMap(_) => QuestionKind::ErrorMap,
             Self::Toolpath(_) => QuestionKind::Toolpath,
             Self::Window(_) => QuestionKind::Window,
             Self::Placement(_) => QuestionKind::Placement,
@@ -89,6 +94,7 @@ impl Question {
             Self::Workspace(question) => (question.triangles(observer)?, 1),
             Self::Family(family) => (family.triangles(observer)?, family.count()),
             Self::Dexterity(question) => return Ok(question.cost()),
+            Self::ErrorMap(question) => return question.cost(max_triangles, observer),
             Self::Toolpath(question) => return Ok(question.cost),
             Self::Window(question) => return Ok(question.cost()),
             Self::Placement(question) => return Ok(question.cost()),
@@ -105,6 +111,7 @@ impl Question {
             Self::Workspace(question) => (&question.machine, CanonicalRequest::Workspace(question.request)),
             Self::Family(family) => (&family.machine, CanonicalRequest::Family(family.request.clone())),
             Self::Dexterity(map) => (&map.machine, CanonicalRequest::Dexterity(map.request)),
+            Self::ErrorMap(map) => (&map.machine, CanonicalRequest::ErrorMap(Box::new(map.request))),
             Self::Toolpath(path) => {
                 (&path.machine, CanonicalRequest::Toolpath(Box::new(path.request.clone())))
             }
@@ -147,6 +154,9 @@ impl Question {
             CanonicalRequest::Workspace(request) => Self::Workspace(WorkspaceQuestion::of(machine, request)),
             CanonicalRequest::Family(request) => Self::Family(FamilyQuestion::of(machine, request)),
             CanonicalRequest::Dexterity(request) => Self::Dexterity(DexterityQuestion::of(machine, request)),
+            CanonicalRequest::ErrorMap(request) => {
+                Self::ErrorMap(Box::new(ErrorMapQuestion::of(machine, &request)))
+            }
             CanonicalRequest::Toolpath(request) => Self::Toolpath(Box::new(toolpath(machine, *request))),
             CanonicalRequest::Window(request) => {
                 let CanonicalWindow { toolpath: path, parameter, from, to } = *request;
@@ -186,6 +196,7 @@ mod tests {
 
     use super::Question;
     use crate::operations::dexterity_question::DexterityQuestion;
+    use crate::operations::error_map_question::ErrorMapQuestion;
     use crate::operations::family_question::FamilyQuestion;
     use crate::operations::machine_registry::MachineRegistry;
     use crate::operations::question_text::{JobParameters, QuestionHeader};
@@ -204,13 +215,18 @@ mod tests {
         let part = json!({"kind": "part", "phi1": 0.1, "table_clearance": 0});
         let family = json!({"kind": "tool", "tool_length": [50, 0.3]});
         let map = json!({"phi1": {"from": -20, "to": 20.1}, "cell": 100});
+        let errors = json!({"kind": "part", "tool_length": 0.3, "cell": 100, "parameter_tolerances":
+            {"L1": 0.1, "tilt_zero": 0.003}});
+        let errors = ErrorMapQuestion::new(&request(errors), &machines).unwrap();
         let family = FamilyQuestion::new(&request(family), &machines).unwrap();
         let map = DexterityQuestion::new(&request(map), &machines).unwrap();
         let subtasks = Subtask::of_family(&family).into_iter().chain(Subtask::of_map(&map));
+        let subtasks = subtasks.chain(Subtask::of_error_map(&errors));
         let mut questions: Vec<Question> = subtasks.map(Question::Subtask).collect();
         questions.push(Question::Workspace(WorkspaceQuestion::new(&request(part), &machines).unwrap()));
         questions.push(Question::Family(family));
         questions.push(Question::Dexterity(map));
+        questions.push(Question::ErrorMap(Box::new(errors)));
         let parameters = JobParameters { max_triangles: 10, cost: 0.1, mesh_format: Some(MeshFormat::Glb) };
         for question in questions {
             let text = question.to_text(Some(parameters)).unwrap();

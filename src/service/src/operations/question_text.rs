@@ -12,6 +12,7 @@ use crate::wire::answer::MachineId;
 use crate::wire::canonical_toolpath::CanonicalToolpath;
 use crate::wire::dexterity::CanonicalDexterity;
 use crate::wire::error::OperationError;
+use crate::wire::error_map::CanonicalErrorMap;
 use crate::wire::family::CanonicalFamily;
 use crate::wire::format::MeshFormat;
 use crate::wire::machine::MachineObject;
@@ -21,9 +22,9 @@ use crate::wire::result_id::ResultId;
 use crate::wire::window::CanonicalWindow;
 use crate::wire::workspace::CanonicalWorkspace;
 
-/// The kind of a result: `workspace`; `family`, a table of workspaces; `dexterity`, a map; `toolpath`; `window` of a
-/// parameter of a program; `placement` of a program; `origins`, the region of its origins; `subtask`, a part of a
-/// family, of a map or of a region.
+/// The kind of a result: `workspace`; `family`, a table of workspaces; `dexterity`, a map; `error_map`; `toolpath`;
+/// `window` of a parameter of a program; `placement` of a program; `origins`, the region of its origins; `subtask`, a
+/// part of a family, of a map or of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum QuestionKind {
@@ -33,6 +34,8 @@ pub(crate) enum QuestionKind {
     Family,
     /// A dexterity map.
     Dexterity,
+    /// An error map.
+    ErrorMap,
     /// A tool path.
     Toolpath,
     /// A window of a parameter of a program.
@@ -54,7 +57,7 @@ impl QuestionKind {
     /// Whether the result is about a program, and so has its path below /toolpath.
     pub(crate) fn is_of_toolpath(self) -> bool {
         match self {
-            Self::Workspace | Self::Family | Self::Dexterity | Self::Subtask => false,
+            Self::Workspace | Self::Family | Self::Dexterity | Self::ErrorMap | Self::Subtask => false,
             Self::Toolpath | Self::Window | Self::Placement | Self::Origins => true,
         }
     }
@@ -65,6 +68,7 @@ impl QuestionKind {
             Self::Workspace => "workspace",
             Self::Family => "family",
             Self::Dexterity => "dexterity",
+            Self::ErrorMap => "error_map",
             Self::Toolpath => "toolpath",
             Self::Window => "window",
             Self::Placement => "placement",
@@ -124,6 +128,7 @@ pub(crate) enum CanonicalRequest {
     Workspace(CanonicalWorkspace),
     Family(CanonicalFamily),
     Dexterity(CanonicalDexterity),
+    ErrorMap(Box<CanonicalErrorMap>),
     Toolpath(Box<CanonicalToolpath>),
     Window(Box<CanonicalWindow>),
     Placement(Box<CanonicalPlacement>),

@@ -18,7 +18,7 @@ const RECORD: &str = "record";
 /// The blob with the mesh of a workspace.
 pub(crate) const MESH: &str = "mesh";
 
-/// The blob with the points of a dexterity map.
+/// The blob with the points of a dexterity map or of an error map.
 pub(crate) const CELLS: &str = "cells";
 
 /// The record of a result.

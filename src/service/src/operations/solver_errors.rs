@@ -5,7 +5,7 @@ use verne_solver::workspace::WorkspaceError;
 
 use crate::wire::error::{FieldError, OperationError};
 
-/// Most points of a dexterity map's grid: their intervals are a file of some 50 MB then.
+/// Most points of a map's grid: the intervals of a dexterity map are a file of some 50 MB then.
 pub(crate) const MAX_GRID_POINTS: usize = 2_000_000;
 
 /// Maps an error of the solver's workspace functions to the field that caused it.
@@ -44,7 +44,7 @@ fn tolerance(detail: impl Into<String>) -> (String, String) {
     ("/tolerance".to_owned(), detail.into())
 }
 
-/// The error for a dexterity map whose grid has too many points.
+/// The error for a map whose grid has too many points.
 pub(crate) fn too_many_grid_points(points: impl std::fmt::Display) -> OperationError {
     let detail = format!("makes a grid of {points} points; the limit is {MAX_GRID_POINTS}");
     OperationError::Fields(vec![FieldError::new("/cell", detail)])

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::operations::dexterity_question::DexterityQuestion;
+use crate::operations::error_map_question::ErrorMapQuestion;
 use crate::operations::family_question::FamilyQuestion;
 use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::origins::OriginsPart;
@@ -12,6 +13,7 @@ use crate::operations::origins_question::OriginsQuestion;
 use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::wire::dexterity::CanonicalDexterity;
+use crate::wire::error_map::CanonicalErrorMap;
 use crate::wire::origins::CanonicalOrigins;
 use crate::wire::result_id::ResultId;
 use crate::wire::workspace::CanonicalWorkspace;
@@ -25,18 +27,21 @@ const SLAB_COST: f64 = 2.0;
 /// Most slabs of a map.
 const MAX_SLABS: f64 = 64.0;
 
-/// Seconds of one core that a slab of a region of origins should take, and most slabs of a region: each of them finds
-/// the limiting places of the program.
-const REGION_SLAB_COST: f64 = 8.0;
+/// Seconds of one core that a slab of a region of origins should take, and most slabs of a region: those that begin
+/// together find the limiting places of the program several times.
+const REGION_SLAB_COST: f64 = 1.0;
 const MAX_REGION_SLABS: f64 = 16.0;
 
-/// The coarse grid's fraction of a region's work, about.
-const COARSE_FRACTION: f64 = 0.25;
+/// The grid's fraction of a region's work, about; the rest is the refinement of its surface.
+const GRID_FRACTION: f64 = 0.25;
 
 /// The volumes' fraction of a map's work, about.
 const VOLUMES_FRACTION: f64 = 0.2;
 
-/// A subtask of a family, of a dexterity map or of a region of origins.
+/// The surface's fraction of an error map's work, about.
+const SURFACE_FRACTION: f64 = 0.2;
+
+/// A subtask of a family, of a map or of a region of origins.
 #[derive(Clone, Debug)]
 pub(crate) struct Subtask {
     /// The machine.
@@ -69,6 +74,17 @@ pub(crate) enum SubtaskRequest {
         /// The part.
         part: OriginsPart,
     },
+    /// One of `count` slabs of an error map.
+    ErrorSlab {
+        /// The map.
+        map: Box<CanonicalErrorMap>,
+        /// The slab's number, from 0.
+        number: u32,
+        /// How many slabs the map has.
+        count: u32,
+    },
+    /// The surface of an error map.
+    ErrorSurface(Box<CanonicalErrorMap>),
 }
 
 impl Subtask {
@@ -94,15 +110,26 @@ impl Subtask {
             .collect()
     }
 
-    /// The slabs of a region of origins, then its coarse grid.
+    /// The slabs of a region of origins.
     pub(crate) fn of_region(question: &OriginsQuestion) -> Vec<Self> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 16")]
-        let count = (question.cost() / REGION_SLAB_COST).clamp(1.0, MAX_REGION_SLABS) as u32;
-        let slabs = (0..count).map(|number| OriginsPart::Slab { number, count });
+        let count = (GRID_FRACTION * question.cost() / REGION_SLAB_COST).clamp(1.0, MAX_REGION_SLABS) as u32;
+        let slabs = (0..count).map(|number| OriginsPart { number, count });
         let of_part = |part| SubtaskRequest::Origins { region: Box::new(question.request()), part };
         slabs
-            .chain([OriginsPart::Coarse])
             .map(|part| Self { machine: Arc::clone(&question.toolpath.machine), request: of_part(part) })
+            .collect()
+    }
+
+    /// The slabs of an error map, then its surface.
+    pub(crate) fn of_error_map(question: &ErrorMapQuestion) -> Vec<Self> {
+        let map = Box::new(question.request);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 64")]
+        let count = (question.grid_cost() / SLAB_COST).clamp(1.0, MAX_SLABS) as u32;
+        let slabs = (0..count).map(|number| SubtaskRequest::ErrorSlab { map: map.clone(), number, count });
+        slabs
+            .chain([SubtaskRequest::ErrorSurface(map.clone())])
+            .map(|request| Self { machine: Arc::clone(&question.machine), request })
             .collect()
     }
 
@@ -122,12 +149,12 @@ impl Subtask {
             }
             SubtaskRequest::Volumes(map) => (b"v", DexterityQuestion::of(machine, *map).id, [0, 0]),
             SubtaskRequest::Origins { region, part } => {
-                let numbers = match part {
-                    OriginsPart::Slab { number, count } => [*number, *count],
-                    OriginsPart::Coarse => [0, 0],
-                };
-                (b"o", self.region(region).id, numbers)
+                (b"o", self.region(region).id, [part.number, part.count])
             }
+            SubtaskRequest::ErrorSlab { map, number, count } => {
+                (b"e", ErrorMapQuestion::of(machine, map).id, [*number, *count])
+            }
+            SubtaskRequest::ErrorSurface(map) => (b"f", ErrorMapQuestion::of(machine, map).id, [0, 0]),
         };
         let mut hasher = blake3::Hasher::new();
         hasher.update(HASH_PREFIX).update(kind).update(id.job().as_bytes());
@@ -138,15 +165,18 @@ impl Subtask {
     /// Estimated work, seconds of one core, of one of `count` subtasks of a question whose work is `total`.
     pub(crate) fn cost(&self, total: f64, count: u32) -> f64 {
         match self.request {
-            SubtaskRequest::Member(_) | SubtaskRequest::Origins { part: OriginsPart::Slab { .. }, .. } => {
-                total / f64::from(count.max(1))
-            }
+            SubtaskRequest::Member(_) => total / f64::from(count.max(1)),
+            SubtaskRequest::Origins { .. } => total * GRID_FRACTION / f64::from(count.max(1)),
             SubtaskRequest::Slab { number, count, .. } => {
                 let [from, to] = [number, number + 1].map(|cut| f64::from(cut) / f64::from(count));
                 total * (1.0 - VOLUMES_FRACTION) * (work_below(to) - work_below(from))
             }
+            SubtaskRequest::ErrorSlab { number, count, .. } => {
+                let [from, to] = [number, number + 1].map(|cut| f64::from(cut) / f64::from(count));
+                total * (1.0 - SURFACE_FRACTION) * (work_below(to) - work_below(from))
+            }
             SubtaskRequest::Volumes(_) => total * VOLUMES_FRACTION,
-            SubtaskRequest::Origins { part: OriginsPart::Coarse, .. } => total * COARSE_FRACTION,
+            SubtaskRequest::ErrorSurface(_) => total * SURFACE_FRACTION,
         }
     }
 }

@@ -4,6 +4,8 @@ pub(crate) mod answer;
 pub(crate) mod answer_format;
 pub(crate) mod batch;
 pub(crate) mod dexterity;
+pub(crate) mod error_budget;
+pub(crate) mod error_map;
 pub(crate) mod files;
 pub(crate) mod health;
 pub(crate) mod jobs;
@@ -11,7 +13,9 @@ pub(crate) mod key;
 pub(crate) mod kinematics;
 pub(crate) mod limit_words;
 pub(crate) mod machine;
+pub(crate) mod map_files;
 pub(crate) mod one_or_batch;
+pub(crate) mod program_arguments;
 pub(crate) mod progress;
 pub(crate) mod result_pipe;
 pub(crate) mod service_address;
@@ -35,6 +39,8 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::http::router::document;
 use crate::process::cli::answer::to_json;
 use crate::process::cli::dexterity::DexterityCommand;
+use crate::process::cli::error_budget::ErrorBudgetCommand;
+use crate::process::cli::error_map::ErrorMapCommand;
 use crate::process::cli::health::HealthCommand;
 use crate::process::cli::jobs::JobsCommand;
 use crate::process::cli::key::KeyCommand;
@@ -83,6 +89,14 @@ enum Command {
     Workspace(WorkspaceCommand),
     /// Compute a dexterity map: the inclinations that reach each point of the part.
     Dexterity(Box<DexterityCommand>),
+    /// Compute how far the tool may be off at a pose for tolerances of the machine's parameters; with --batch for each
+    /// row of a file.
+    ///
+    /// The columns of a file are x, y, z and phi1, phi2 or i, j, k. The exit status is 3 if the pose, or a row, is not
+    /// `ok`.
+    ErrorBudget(Box<ErrorBudgetCommand>),
+    /// Compute how far the tool may be off over a workspace, for tolerances of the machine's parameters.
+    ErrorMap(Box<ErrorMapCommand>),
     /// Plan the joint motion of a program: its rows (-o FILE), and a report on the limits that it breaks.
     ///
     /// The exit status is 3 if the machine cannot run the program.
@@ -171,6 +185,7 @@ impl Cli {
             Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, terminal),
             Command::Dexterity(command) => command.run(out, terminal),
+            Command::ErrorMap(command) => command.run(out, terminal),
             Command::Machine(command) => command.run(out, terminal),
             Command::Jobs(command) => command.run(out, terminal),
             Command::ToolpathOrigins(command) => command.run(out, terminal),
@@ -180,6 +195,7 @@ impl Cli {
             }
             Command::Completions(command) => command.run(Self::command_line(), out),
             Command::Man(command) => command.run(Self::command_line(), out),
+            Command::ErrorBudget(command) => return error_budget::run(*command, out, err, terminal),
             Command::Toolpath(command) => return command.run(out, err, terminal),
             Command::ToolpathWindow(command) => return command.run(out, terminal),
             Command::Kinematics(command) => return command.run(out, err, terminal),

@@ -6,9 +6,8 @@ use utoipa::{IntoParams, ToSchema};
 use verne_solver::workspace::dexterity::Grid;
 
 use crate::wire::answer::MachineId;
-use crate::wire::degrees::to_degrees;
+use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::fixed_array::{Counts, FixedArray, Triple};
-use crate::wire::format::MeshFormat;
 use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::result_id::ResultId;
@@ -111,19 +110,6 @@ impl SetName {
     }
 }
 
-/// Parameters of GET /workspace/{id}/mesh.
-#[derive(Debug, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields)]
-#[into_params(parameter_in = Query)]
-pub(crate) struct StoredMeshQuery {
-    /// Return the mesh in this format. It overrides Accept.
-    #[param(inline, nullable = false)]
-    pub format: Option<MeshFormat>,
-    /// Point set of a dexterity map. The default is `reachable`.
-    #[param(inline, nullable = false)]
-    pub set: Option<SetName>,
-}
-
 /// Parameters of GET /workspace/{id}/cells.
 #[derive(Debug, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields)]
@@ -189,7 +175,7 @@ pub(crate) struct DexterityLinks {
     pub cells: String,
 }
 
-/// Equally spaced points of the part frame. Point (i, j, k) is `origin` + step (i, j, k), turned about Z by `turn`; its
+/// Equally spaced points. Point (i, j, k) is `origin` + step (i, j, k), turned about Z by `turn`; its
 /// number is (i · counts[1] + j) · counts[2] + k.
 #[derive(Clone, Debug, Serialize, Deserialize, ToSchema)]
 #[schema(as = PointGrid)]
@@ -202,8 +188,20 @@ pub(crate) struct GridObject {
     /// Number of points along each axis; 0 if no point is reachable.
     #[schema(inline)]
     pub counts: Counts,
-    /// Rotation about Z, which is phi2, degrees.
+    /// Rotation about Z, degrees: phi2 in a dexterity map, otherwise 0.
     pub turn: f64,
+}
+
+impl GridObject {
+    /// The place of a point, by its number, mm.
+    #[expect(clippy::cast_precision_loss, reason = "a grid has far fewer points")]
+    pub(crate) fn position(&self, point: usize) -> [f64; 3] {
+        let [_, y, z] = self.counts.0.map(|count| count.max(1) as usize);
+        let steps = [point / (y * z), point / z % y, point % z];
+        let [x, y, z] = std::array::from_fn(|axis| self.origin.0[axis] + self.step * steps[axis] as f64);
+        let (sin, cos) = from_degrees(self.turn).sin_cos();
+        [cos * x - sin * y, sin * x + cos * y, z]
+    }
 }
 
 impl From<&Grid> for GridObject {

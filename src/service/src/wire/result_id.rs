@@ -65,7 +65,7 @@ impl ResultId {
         hasher.finalize().into()
     }
 
-    /// The path of a workspace, a family or a dexterity map.
+    /// The path of a workspace, a family or a map.
     pub(crate) fn path(self) -> String {
         format!("/workspace/{self}")
     }

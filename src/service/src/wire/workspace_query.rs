@@ -5,6 +5,8 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use crate::wire::alphas::Alphas;
+use crate::wire::dexterity::SetName;
+use crate::wire::error_map::ErrorName;
 use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::machine_ref::{MachineRef, REFERENCE, reference_name};
 use crate::wire::sweep::Sweep;
@@ -103,4 +105,20 @@ pub(crate) struct SliceQuery {
     /// Return the slice in this format. It overrides Accept.
     #[param(inline, nullable = false)]
     pub format: Option<SliceFormat>,
+}
+
+/// Parameters of GET /workspace/{id}/mesh.
+#[derive(Debug, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(crate) struct StoredMeshQuery {
+    /// Return the mesh in this format. It overrides Accept.
+    #[param(inline, nullable = false)]
+    pub format: Option<MeshFormat>,
+    /// Point set of a dexterity map. The default is `reachable`.
+    #[param(inline, nullable = false)]
+    pub set: Option<SetName>,
+    /// Error of an error map that the colours show. The default is `tip_worst`.
+    #[param(inline, nullable = false)]
+    pub error: Option<ErrorName>,
 }

@@ -10,6 +10,8 @@ mod lengths;
 mod machines;
 /// All solutions by brute force, from the plain data of a machine, and tests of the oracle itself.
 mod oracle;
+#[path = "../support/questions.rs"]
+mod questions;
 #[path = "../support/random.rs"]
 mod random;
 /// The published reference sets of `tests/reference`.
@@ -20,9 +22,11 @@ mod requests;
 // Tests.
 mod arbitrary_numbers;
 mod axis;
+mod certificates;
 mod common_lift;
 mod conditioning;
 mod degenerate_angles;
+mod error_budget;
 mod family_edge_round_trip;
 mod family_edge_sets;
 mod interference;
@@ -32,6 +36,7 @@ mod level_leg;
 mod linear_delta;
 mod margins;
 mod parallel_singularity;
+mod parameter_rates;
 mod proportional_machine;
 mod proportions;
 mod reference_sets;

@@ -22,6 +22,8 @@ mod topology;
 mod components;
 /// Grids, regions and volumes of dexterity maps.
 mod dexterity;
+/// Grids, surfaces and largest values of error maps.
+mod error_map;
 /// Workspaces of linear deltas against closed forms.
 mod linear_delta;
 /// Machines whose strokes are many times as long as the legs, and the estimate of triangles.

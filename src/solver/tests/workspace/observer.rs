@@ -36,7 +36,7 @@ impl Observer for CallLimit {
 }
 
 /// Stops a computation at calls from the first to the last, and returns their number.
-fn stops_at_calls(name: &str, run: impl Fn(&dyn Observer) -> Result<(), WorkspaceError>) -> usize {
+pub(crate) fn stops_at_calls(name: &str, run: impl Fn(&dyn Observer) -> Result<(), WorkspaceError>) -> usize {
     let all = CallLimit::new(usize::MAX);
     run(&all).unwrap();
     let all = all.count();

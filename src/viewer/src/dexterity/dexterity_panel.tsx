@@ -3,6 +3,7 @@
 import { Choice, NumberField } from "../panels/fields";
 import { JobProgress } from "../panels/job_progress";
 import { wanted } from "../state/store";
+import { CELLS } from "../state/view";
 import { cubicMetres, degrees, mm, number } from "../words/numbers";
 import "./dexterity.css";
 import {
@@ -13,11 +14,11 @@ import {
   outdated,
   possible,
   run,
+  set,
   settings,
   shown,
   visible,
   type DexterityMap,
-  type MapSettings,
 } from "./dexterity_state";
 import { CLASSES, countsOf } from "./reached_share";
 
@@ -54,7 +55,6 @@ export function DexterityPanel() {
 
 function SettingFields() {
   const { from, to, cell } = settings.value;
-  const set = (part: Partial<MapSettings>) => (settings.value = { ...settings.peek(), ...part });
   const angle = { unit: "°", min: -36000, max: 36000, step: 5 };
   return (
     <div class="row three">
@@ -76,8 +76,8 @@ function SettingFields() {
         label="Distance between points"
         symbol="Points every"
         unit="mm"
-        min={10}
-        max={1000}
+        min={CELLS.least}
+        max={CELLS.greatest}
         step={5}
         value={cell}
         commit={(cell) => set({ cell })}

@@ -4,7 +4,8 @@ import { batch, computed, effect, signal, untracked } from "@preact/signals";
 import type { DexterityBody, DexteritySummary, Schemas } from "verne-client";
 import { verne } from "../api/client";
 import { JobRun } from "../state/job_run";
-import { changeWorkspace, machine, overTable, tool, workspaceAngles } from "../state/store";
+import { change, changeWorkspace, machine, overTable, tool, view, workspaceAngles } from "../state/store";
+import type { DexterityView } from "../state/view";
 import { layersOf, type Layer } from "./reached_share";
 
 export interface DexterityMap {
@@ -12,16 +13,10 @@ export interface DexterityMap {
   layers: Layer[];
 }
 
-export interface MapSettings {
-  /** The range of inclinations, degrees. */
-  from: number;
-  to: number;
-  /** Distance between neighbouring points, mm. */
-  cell: number;
-}
-
 export const run = new JobRun();
-export const settings = signal<MapSettings>({ from: -20, to: 20, cell: 40 });
+export const settings = computed(() => view.value.dexterity);
+export const set = (part: Partial<DexterityView>) =>
+  change({ dexterity: { ...view.peek().dexterity, ...part } });
 export const map = signal<DexterityMap | null>(null);
 export const shown = signal(true);
 /** Whether all layers are drawn, or the one at `height`. */

@@ -1,9 +1,9 @@
 /** The part of the page for dexterity maps. Its code is loaded when the section is opened. */
 
-import { signal } from "@preact/signals";
+import { effect, signal } from "@preact/signals";
 import { failureOf } from "../api/client";
 import type { Stage } from "../scene/stage";
-import { failure } from "../state/store";
+import { change, failure, view } from "../state/store";
 
 const loaded = signal<typeof import("./dexterity_panel") | null>(null);
 const stage = signal<Stage | null>(null);
@@ -28,11 +28,22 @@ async function load(): Promise<void> {
   }
 }
 
+/** Loads the code when the section is opened, by hand or by a link. */
+export function keepDexterityPanel(): void {
+  effect(() => {
+    if (view.value.dexterity.open) void load();
+  });
+}
+
 export function DexteritySection() {
   const Panel = loaded.value?.DexterityPanel;
+  const { dexterity } = view.value;
   return (
     <section aria-labelledby="dexterity">
-      <details onToggle={(event) => event.currentTarget.open && void load()}>
+      <details
+        open={dexterity.open}
+        onToggle={({ currentTarget: { open } }) => change({ dexterity: { ...view.peek().dexterity, open } })}
+      >
         <summary>
           <h2 id="dexterity">Dexterity map</h2>
         </summary>

@@ -2,7 +2,7 @@
 
 import type { FamilySummary } from "verne-client";
 import { degrees, mm, number } from "../words/numbers";
-import type { Parameter } from "./family_request";
+import type { FamilyParameter } from "../state/view";
 
 export interface Member {
   /** The value of the parameter, mm or degrees. */
@@ -14,7 +14,7 @@ export interface Member {
   reason: string | null;
 }
 
-export function membersOf({ members }: FamilySummary, parameter: Parameter): Member[] {
+export function membersOf({ members }: FamilySummary, parameter: FamilyParameter): Member[] {
   return members.map((member) => {
     const { [parameter]: value } = member.request;
     const volume = ("volume" in member && member.volume) ?? null;
@@ -42,11 +42,11 @@ export function columnsOf(members: readonly Member[]): [number[], (number | null
   ];
 }
 
-export function valueInWords(parameter: Parameter, value: number): string {
+export function valueInWords(parameter: FamilyParameter, value: number): string {
   return parameter === "phi1" ? degrees(value) : mm(value);
 }
 
-export const NAMES: Readonly<Record<Parameter, string>> = { tool_length: "tool length", phi1: "φ₁" };
+export const NAMES: Readonly<Record<FamilyParameter, string>> = { tool_length: "tool length", phi1: "φ₁" };
 
 /** A volume with its error; the last digit of the error is rounded up, so that the bound still holds. */
 export function volumeInWords({ volume, error, reason }: Member): string {

@@ -3,11 +3,12 @@
 import { Choice, NumberField } from "../panels/fields";
 import { JobProgress } from "../panels/job_progress";
 import { wanted } from "../state/store";
+import { FAMILY_COUNTS, type FamilyParameter, type ValueRange } from "../state/view";
 import { degrees, mm } from "../words/numbers";
 import "./family.css";
 import { NAMES, valueInWords, volumeInWords } from "./family_members";
 import { FamilyPlot } from "./family_plot";
-import { GREATEST_COUNT, LEAST_COUNT, parametersOf, type Parameter, type Range } from "./family_request";
+import { parametersOf } from "./family_request";
 import {
   choose,
   compute,
@@ -20,6 +21,7 @@ import {
   possible,
   ranges,
   run,
+  setRange,
   showMember,
   type Family,
 } from "./family_state";
@@ -27,7 +29,7 @@ import {
 const CHOICES = [
   ["tool_length", "tool length"],
   ["phi1", "φ₁"],
-] as const satisfies readonly (readonly [Parameter, string])[];
+] as const satisfies readonly (readonly [FamilyParameter, string])[];
 
 export function FamilyPanel() {
   const { kind } = wanted.value;
@@ -59,12 +61,8 @@ export function FamilyPanel() {
   );
 }
 
-function RangeFields({ over, range }: { over: Parameter; range: Range }) {
-  // Read when it is set: two fields can change before the next picture.
-  const set = (part: Partial<Range>) => {
-    const now = ranges.peek();
-    ranges.value = { ...now, [over]: { ...now[over], ...part } };
-  };
+function RangeFields({ over, range }: { over: FamilyParameter; range: ValueRange }) {
+  const set = (part: Partial<ValueRange>) => setRange(over, part);
   const length = over === "tool_length";
   const ends = length
     ? { unit: "mm", min: 0, max: 1e7, step: 10 }
@@ -91,8 +89,8 @@ function RangeFields({ over, range }: { over: Parameter; range: Range }) {
         hint="The number of workspaces, both ends included"
         unit=""
         decimals={0}
-        min={LEAST_COUNT}
-        max={GREATEST_COUNT}
+        min={FAMILY_COUNTS.least}
+        max={FAMILY_COUNTS.greatest}
         value={range.count}
         commit={(count) => set({ count: Math.round(count) })}
       />

@@ -1,26 +1,7 @@
 /** The request for a family: one workspace for each value of one parameter. */
 
 import type { MachineRef, WorkspaceKind, WorkspaceRequest } from "verne-client";
-
-/** The parameters over which the page shows families. */
-export type Parameter = "tool_length" | "phi1";
-
-/** Values at equal distances; mm for the tool length, degrees for phi1. */
-export interface Range {
-  from: number;
-  to: number;
-  /** The number of values, both ends included. */
-  count: number;
-}
-
-/** Fewest and most workspaces of one family on the page. The service takes up to 1000. */
-export const LEAST_COUNT = 2;
-export const GREATEST_COUNT = 101;
-
-export const RANGES: Readonly<Record<Parameter, Range>> = {
-  tool_length: { from: 0, to: 300, count: 13 },
-  phi1: { from: -40, to: 40, count: 17 },
-};
+import type { FamilyParameter, ValueRange } from "../state/view";
 
 /** The settings of the page that all members of a family have in common. */
 export interface Common {
@@ -34,24 +15,28 @@ export interface Common {
 }
 
 /** The parameters that change the workspace of a kind. */
-export function parametersOf(kind: WorkspaceKind): readonly Parameter[] {
+export function parametersOf(kind: WorkspaceKind): readonly FamilyParameter[] {
   if (kind === "platform") return [];
   return kind === "tool" ? ["tool_length"] : ["tool_length", "phi1"];
 }
 
 /** The values of a range in ascending order, rounded to a thousandth as the page's own angles are. */
-export function valuesOf({ from, to, count }: Range): number[] {
+export function valuesOf({ from, to, count }: ValueRange): number[] {
   const [least, greatest] = from < to ? [from, to] : [to, from];
   const values = Array.from({ length: count }, (_, i) => least + ((greatest - least) * i) / (count - 1));
   return [...new Set(values.map((value) => Math.round(value * 1000) / 1000 + 0))];
 }
 
 /** Why a family of a range cannot be computed; null if it can be. */
-export function faultOf({ from, to }: Range): string | null {
+export function faultOf({ from, to }: ValueRange): string | null {
   return from === to ? "The first and the last value are equal: a family needs at least two values." : null;
 }
 
-export function familyRequest(common: Common, parameter: Parameter, range: Range): WorkspaceRequest {
+export function familyRequest(
+  common: Common,
+  parameter: FamilyParameter,
+  range: ValueRange,
+): WorkspaceRequest {
   const { machine, kind, tolerance, toolLength, angles, overTable } = common;
   const request: WorkspaceRequest = { machine, kind, tolerance, tool_length: toolLength };
   if (kind === "part") Object.assign(request, { ...angles, ...overTable });

@@ -4,28 +4,39 @@ import { batch, computed, effect, signal, untracked } from "@preact/signals";
 import { verne } from "../api/client";
 import { JobRun } from "../state/job_run";
 import { change, machine, overTable, tool, view, wanted, workspaceAngles } from "../state/store";
+import type { FamilyParameter, FamilyView, ValueRange } from "../state/view";
 import { membersOf, type Member } from "./family_members";
-import { familyRequest, faultOf, parametersOf, RANGES, type Common, type Parameter } from "./family_request";
+import { familyRequest, faultOf, parametersOf, type Common } from "./family_request";
 
 export interface Family {
-  parameter: Parameter;
+  parameter: FamilyParameter;
   common: Common;
   members: Member[];
 }
 
 export const run = new JobRun();
-export const ranges = signal(RANGES);
+const settings = computed(() => view.value.family);
+export const ranges = computed(() => settings.value.ranges);
 export const family = signal<Family | null>(null);
 /** The member that is pointed at: its place in the family. */
 export const pointedMember = signal<number | null>(null);
 
-const chosen = signal<Parameter>("tool_length");
 /** The parameter of the next family; null where the workspace depends on none. */
 export const parameter = computed(() => {
   const possible = parametersOf(wanted.value.kind);
-  return possible.includes(chosen.value) ? chosen.value : (possible[0] ?? null);
+  const chosen = settings.value.parameter;
+  return possible.includes(chosen) ? chosen : (possible[0] ?? null);
 });
-export const choose = (next: Parameter) => (chosen.value = next);
+export const choose = (next: FamilyParameter) => set({ parameter: next });
+
+export function setRange(over: FamilyParameter, part: Partial<ValueRange>): void {
+  const before = ranges.peek();
+  set({ ranges: { ...before, [over]: { ...before[over], ...part } } });
+}
+
+function set(part: Partial<FamilyView>): void {
+  change({ family: { ...view.peek().family, ...part } });
+}
 
 const common = computed<Common | null>(() => {
   const known = machine.value;

@@ -12,10 +12,10 @@ import {
   Points,
   PointsMaterial,
 } from "three";
-import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { OriginsSummary } from "verne-client";
 import { inWords, verne } from "../api/client";
 import { baseFromTable, SCENE_FROM_BASE, sceneFromPartGlb } from "../geometry/frames";
+import { readGlb } from "../geometry/glb";
 import { followPalette } from "../scene/palette";
 import type { Stage } from "../scene/stage";
 import { label } from "../scene/triads";
@@ -91,16 +91,15 @@ export class OriginsRegion {
     this.mark.visible = region !== null;
     this.clear();
     if (region && region.triangles > 0) {
-      const file = await verne.file(`${region.links.mesh}.glb`);
-      const { scene } = await new GLTFLoader().parseAsync(file, "");
+      const { middle, pieces } = readGlb(await verne.file(`${region.links.mesh}.glb`));
       if (this.wanted !== region.id) return;
       this.clear();
-      scene.traverse((node) => {
-        if (!(node instanceof Mesh)) return;
-        node.material = this.material;
-        node.renderOrder = 12;
-      });
-      this.surface.add(scene);
+      for (const { geometry } of pieces) {
+        const piece = new Mesh(geometry, this.material);
+        piece.position.copy(middle);
+        piece.renderOrder = 12;
+        this.surface.add(piece);
+      }
       this.stage.canvas.dataset["origins"] = region.id;
     }
     this.stage.draw();

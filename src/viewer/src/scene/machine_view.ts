@@ -7,7 +7,6 @@ import { machine, position, tool, type InUse } from "../state/store";
 import { bars } from "../words/margins";
 import type { Materials } from "./materials";
 import { Mechanism, sliderPlace, unitOf } from "./mechanism";
-import type { Palette } from "./palette";
 import type { Stage } from "./stage";
 import { Surroundings } from "./surroundings";
 import { label, Triad } from "./triads";
@@ -25,21 +24,19 @@ export class MachineView {
   /** In the base frame, mm. */
   readonly group = new Group();
   private readonly bodies = new Group();
-  private readonly baseTriad = new Triad(["x", "y", "z down"], [260, 260, 260]);
-  private readonly partTriad = new Triad(["X", "Y", "Z up"], [390, 390, 220]);
+  private readonly baseTriad: Triad;
+  private readonly partTriad: Triad;
   private built: Bodies | null = null;
 
   constructor(
     private readonly stage: Stage,
     private readonly materials: Materials,
   ) {
+    this.baseTriad = new Triad(["x", "y", "z down"], [260, 260, 260], materials);
+    this.partTriad = new Triad(["X", "Y", "Z up"], [390, 390, 220], materials);
     this.partTriad.group.matrixAutoUpdate = false;
     this.group.add(this.bodies, this.baseTriad.group, this.partTriad.group);
     effect(() => this.follow());
-  }
-
-  paint(palette: Palette): void {
-    for (const triad of [this.baseTriad, this.partTriad]) triad.paint(palette);
   }
 
   /** Without perspective, what stands between the camera and the machine is seen through. */

@@ -15,6 +15,9 @@ import type { Palette } from "./palette";
 /** Edges lie on the faces: faces step back a little. */
 const FACE = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
 
+/** As the arrows at the tip, which are three's: equal kinds of materials share a program, and one translated costs time. */
+const PLAIN = { transparent: true, fog: false };
+
 export class Materials {
   readonly frame = new MeshLambertMaterial(FACE);
   readonly metal = new MeshLambertMaterial(FACE);
@@ -24,13 +27,15 @@ export class Materials {
   readonly tool = new MeshLambertMaterial(FACE);
   readonly warn = new MeshLambertMaterial(FACE);
   readonly bad = new MeshLambertMaterial(FACE);
-  readonly marker = new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.9 });
-  readonly knob = new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.95 });
-  readonly guide = new LineBasicMaterial({ depthTest: false, transparent: true, opacity: 0.6 });
-  readonly edge = new LineBasicMaterial({ transparent: true, opacity: 0.45 });
-  readonly slot = new LineBasicMaterial();
-  readonly grid = new LineBasicMaterial({ transparent: true, opacity: 0.55 });
-  readonly cutLine = new LineBasicMaterial({ depthTest: false, transparent: true });
+  readonly marker = new MeshBasicMaterial({ ...PLAIN, depthTest: false, opacity: 0.9 });
+  readonly knob = new MeshBasicMaterial({ ...PLAIN, depthTest: false, opacity: 0.95 });
+  readonly guide = new LineBasicMaterial({ ...PLAIN, depthTest: false, opacity: 0.6 });
+  readonly edge = new LineBasicMaterial({ ...PLAIN, opacity: 0.45 });
+  readonly slot = new LineBasicMaterial(PLAIN);
+  readonly grid = new LineBasicMaterial({ ...PLAIN, opacity: 0.55 });
+  readonly axisLine = new LineBasicMaterial(PLAIN);
+  readonly axisHead = new MeshBasicMaterial(PLAIN);
+  readonly cutLine = new LineBasicMaterial({ ...PLAIN, depthTest: false });
   /** Hatched, as drawings show cuts: no colour of a limit looks like it. */
   readonly cutFill = new MeshBasicMaterial({ side: DoubleSide });
   /** A column between the camera and the machine. */
@@ -54,6 +59,8 @@ export class Materials {
     this.edge.color = palette.ink;
     this.slot.color = palette.ink;
     this.grid.color = palette.grid;
+    this.axisLine.color = palette.ink;
+    this.axisHead.color = palette.ink;
     this.cutLine.color = palette["cut-line"];
     this.cutFill.map?.dispose();
     this.cutFill.map = hatch(palette.cut, palette["cut-line"]);

@@ -9,6 +9,7 @@ import {
   Scene,
   Vector3,
   WebGLRenderer,
+  type Object3D,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Camera } from "../state/view";
@@ -32,6 +33,7 @@ export class Stage {
   private taken: PerspectiveCamera | OrthographicCamera = this.perspective;
   private aspect = 1;
   private asked = false;
+  private open = false;
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -78,9 +80,20 @@ export class Stage {
     }
   }
 
+  /** Until `begin`, pictures that are asked for are not drawn. */
+  begin(): void {
+    this.open = true;
+    this.draw();
+  }
+
+  /** Lets the graphics processor translate the programs that bodies need, without waiting for it. */
+  prepare(bodies: Object3D): void {
+    this.renderer.compile(bodies, this.camera, this.scene);
+  }
+
   /** Asks for a picture. */
   draw(): void {
-    if (this.asked) return;
+    if (this.asked || !this.open) return;
     this.asked = true;
     requestAnimationFrame((now) => {
       this.asked = false;

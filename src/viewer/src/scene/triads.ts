@@ -1,31 +1,29 @@
 /** Axes with names: which way is which, z down in the base frame above all. */
 
-import { ArrowHelper, Color, Group, Vector3 } from "three";
+import { ArrowHelper, Group, Vector3 } from "three";
 import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
-import type { Palette } from "./palette";
+import type { Materials } from "./materials";
 
 /** Length of an arrow's head. */
 const HEAD = 40;
 
 export class Triad {
   readonly group = new Group();
-  private readonly arrows: ArrowHelper[];
 
-  constructor(names: [string, string, string], lengths: [number, number, number]) {
+  constructor(
+    names: readonly [string, string, string],
+    lengths: readonly [number, number, number],
+    { axisLine, axisHead }: Materials,
+  ) {
     const axes = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
-    this.arrows = axes.map(
-      (axis, i) => new ArrowHelper(axis, new Vector3(), lengths[i], 0x888888, HEAD, HEAD * 0.45),
-    );
     axes.forEach((axis, i) => {
+      const arrow = new ArrowHelper(axis, new Vector3(), lengths[i], 0, HEAD, HEAD * 0.45);
+      arrow.line.material = axisLine;
+      arrow.cone.material = axisHead;
       const text = label(names[i] ?? "");
       text.position.copy(axis).multiplyScalar((lengths[i] ?? 0) + HEAD);
-      this.group.add(text);
+      this.group.add(arrow, text);
     });
-    this.group.add(...this.arrows);
-  }
-
-  paint(palette: Palette): void {
-    for (const arrow of this.arrows) arrow.setColor(new Color(palette.ink));
   }
 }
 

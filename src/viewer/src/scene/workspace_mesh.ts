@@ -11,13 +11,12 @@ import {
   Plane,
   Vector3,
   type BufferGeometry,
-  type MeshStandardMaterial,
   type Raycaster,
 } from "three";
-import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { WorkspaceSummary } from "verne-client";
 import { verne } from "../api/client";
 import type { Surface } from "../state/store";
+import { readGlb, type GlbPiece } from "../geometry/glb";
 import { shares } from "../geometry/shares";
 
 /** As it is, and coarser for machines that cannot move it so. */
@@ -50,12 +49,16 @@ const FADED = 0.07;
 const ISOLATED = 0.9;
 const GREY = new Color(0x8a8f96);
 
+/** The materials of a piece's sides, transparent as they are at first. */
+export function pieceMaterials(): MeshLambertMaterial[] {
+  return SIDES.map(({ side }) => new MeshLambertMaterial({ side, transparent: true }));
+}
+
 export class WorkspaceMesh {
   readonly group = new Group();
   private readonly grades = { fine: new Group(), coarse: new Group() };
   private readonly pieces: Record<Grade, Piece[]> = { fine: [], coarse: [] };
   private readonly shown: Record<Grade, string | null> = { fine: null, coarse: null };
-  private readonly loader = new GLTFLoader();
   private look: Look = { opaque: false, outdated: false, isolated: null };
   private readonly plane = new Plane();
   /** In the GLB's own frame, metres: what lies below it is shown. */
@@ -79,21 +82,12 @@ export class WorkspaceMesh {
       this.clear(grade);
       return [];
     }
-    const loaded = await this.loader.parseAsync(await verne.mesh(summary.id), "");
+    const { middle, palette, pieces } = readGlb(await verne.mesh(summary.id));
     if (this.shown[grade] !== summary.id) return null;
     this.clear(grade);
-    loaded.scene.updateMatrixWorld(true);
-    const found: Mesh<BufferGeometry, MeshStandardMaterial>[] = [];
-    loaded.scene.traverse((node) => {
-      if (node instanceof Mesh) found.push(node as Mesh<BufferGeometry, MeshStandardMaterial>);
-    });
-    const palette = (found[0]?.userData["palette"] ?? []) as Omit<Surface, "share">[];
-    for (const piece of found) this.add(grade, piece, palette);
+    for (const piece of pieces) this.add(grade, piece, middle, palette[piece.tag]?.name ?? "");
     this.paint();
-    return shares(
-      found.map((piece) => piece.geometry),
-      palette,
-    );
+    return shares(pieces, palette);
   }
 
   /** The limit whose piece is nearest along a ray; null where there is none. */
@@ -126,16 +120,10 @@ export class WorkspaceMesh {
     this.turnPlane();
   }
 
-  private add(
-    grade: Grade,
-    piece: Mesh<BufferGeometry, MeshStandardMaterial>,
-    palette: { name: string }[],
-  ): void {
-    const name = palette[piece.geometry.userData["tag"] as number]?.name ?? "";
-    const colour = piece.material.color;
-    for (const [order, { side }] of SIDES.entries()) {
-      const mesh = new Mesh(piece.geometry, new MeshLambertMaterial({ side }));
-      piece.getWorldPosition(mesh.position);
+  private add(grade: Grade, { geometry, colour }: GlbPiece, middle: Vector3, name: string): void {
+    for (const [order, material] of pieceMaterials().entries()) {
+      const mesh = new Mesh(geometry, material);
+      mesh.position.copy(middle);
       mesh.renderOrder = 10 + order;
       this.grades[grade].add(mesh);
       this.pieces[grade].push({ mesh, colour, name });

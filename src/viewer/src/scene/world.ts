@@ -3,7 +3,7 @@
 import { effect } from "@preact/signals";
 import { Group } from "three";
 import { SCENE_FROM_BASE } from "../geometry/frames";
-import { ghosts, machine, pointed, position, tool } from "../state/store";
+import { followed, ghosts, machine, pointed, position, tool } from "../state/store";
 import { FacePointer } from "./face_pointer";
 import { listenForGhosts } from "./ghost_pointer";
 import { Ghosts } from "./ghosts";
@@ -13,6 +13,7 @@ import { Materials } from "./materials";
 import { Measure } from "./measure";
 import { followPalette } from "./palette";
 import { picture } from "./picture";
+import { samples } from "./samples";
 import { Stage } from "./stage";
 import { TipControl } from "./tip_control";
 import { Viewpoint } from "./viewpoint";
@@ -52,7 +53,6 @@ export class World {
     );
     followPalette((palette) => {
       materials.paint(palette);
-      machineView.paint(palette);
       stage.scene.background = palette.background;
       stage.draw();
     });
@@ -60,6 +60,10 @@ export class World {
       const { geometry } = machine.value?.definition ?? {};
       if (geometry) otherPositions.show(geometry, ghosts.value, position.value, tool.value, pointed.value);
       stage.draw();
+    });
+    stage.prepare(samples(materials));
+    effect(() => {
+      if (followed.value) stage.begin();
     });
     listenForGhosts(canvas, otherPositions);
     new FacePointer(stage, workspaceView);

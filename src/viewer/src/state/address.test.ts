@@ -30,13 +30,44 @@ test("a view comes back from its address", async () => {
     },
     section: 312.5,
     camera: { eye: [3, 2, 1], target: [0, -1.1, 0], height: 2.25 },
+    family: {
+      open: true,
+      parameter: "phi1",
+      ranges: { ...INITIAL.family.ranges, phi1: { from: -12.5, to: 30, count: 5 } },
+    },
+    dexterity: { open: true, from: -10, to: 35.5, cell: 80 },
     program: { id: "0a1b", name: "dôme.cls", settings: { setup: { x: 1, y: 2, z: 3, a: 0, b: 0, c: 90 } } },
   };
   expect(await fromAddress(`#${await toAddress(view)}`)).toEqual({ view, unread: [] });
 });
 
+test("a section that is closed needs no words", async () => {
+  const { family, dexterity } = INITIAL;
+  const changed = {
+    ...INITIAL,
+    family: { ...family, parameter: "phi1" as const },
+    dexterity: { ...dexterity, cell: 80 },
+  };
+  expect(await toAddress(changed)).toBe("");
+  const opened = { ...INITIAL, family: { ...family, open: true }, dexterity: { ...dexterity, open: true } };
+  expect(await toAddress(opened)).toBe("family=tool,0,300,13&dexterity=-20,20,40");
+});
+
 test("a broken address shows the first view, and its entries are named", async () => {
   const broken =
-    "joints=1,2&tool=-4&radius=x&clearance=-1&ghosts=all&workspace=moon&section=&camera=a,b,c,d,e,f&own=!!&colour=red";
+    "joints=1,2&tool=-4&radius=x&clearance=-1&ghosts=all&workspace=moon&section=&camera=a,b,c,d,e,f&own=!!&colour=red&dexterity=0,1,2";
   expect(await fromAddress(`#${broken}`)).toEqual({ view: INITIAL, unread: broken.split("&") });
+});
+
+test.each([
+  "mass,0,1,5",
+  "tool,0,1",
+  "tool,0,1,1",
+  "tool,0,1,2.5",
+  "tool,,1,5",
+  "phi1,0,x,5",
+  "phi1,0,1,102",
+  "tool,-1,50,4",
+])("a family of %s cannot be read", async (words) => {
+  expect(await fromAddress(`#family=${words}`)).toEqual({ view: INITIAL, unread: [`family=${words}`] });
 });

@@ -1,6 +1,7 @@
 /** The view in the address, after the #: only what differs from the first view. */
 
 import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
+import { asDexterity, asFamily, dexterityNumbers, familyWords } from "./section_words";
 import { INITIAL, type Camera, type Ghosts, type Joints, type ProgramView, type View } from "./view";
 import { packed, unpacked } from "./packed";
 
@@ -27,6 +28,8 @@ export async function toAddress(view: View): Promise<string> {
     ["tolerance", ws.tolerance === base.tolerance ? null : String(ws.tolerance)],
     ["section", view.section === null ? null : numbers([view.section], 3)],
     ["program", view.program && (await packed(view.program))],
+    ["family", view.family.open ? familyWords(view.family) : null],
+    ["dexterity", view.dexterity.open ? dexterityNumbers(view.dexterity) : null],
     ["camera", view.camera && cameraNumbers(view.camera)],
   ];
   const said = entries.filter((entry): entry is [string, string] => entry[1] !== null);
@@ -44,11 +47,10 @@ export async function fromAddress(hash: string): Promise<Said> {
   const said = new Entries(hash);
   const base = INITIAL.workspace;
   const shown = said.text("workspace") !== "hidden";
-  const own = said.text("own");
   const phi = said.numbers("phi", 2);
   const view: View = {
     machine: said.text("machine") ?? INITIAL.machine,
-    own: own === null ? null : said.check("own", asMachine(await unpacked(own))),
+    own: said.check("own", asMachine(await unpacked(said.text("own")))),
     joints: asJoints(said.numbers("joints", 5)),
     mode: asPose(said.numbers("mode", 4)),
     tool: said.positive("tool") ?? INITIAL.tool,
@@ -67,7 +69,9 @@ export async function fromAddress(hash: string): Promise<Said> {
     },
     section: said.numbers("section", 1)?.[0] ?? null,
     camera: asCamera(said.numbers("camera", 7) ?? said.numbers("camera", 6)),
-    program: said.check("program", asProgram(await unpacked(said.text("program") ?? ""))),
+    family: said.check("family", asFamily(said.text("family"))) ?? INITIAL.family,
+    dexterity: said.check("dexterity", asDexterity(said.numbers("dexterity", 3))) ?? INITIAL.dexterity,
+    program: said.check("program", asProgram(await unpacked(said.text("program")))),
   };
   return { view, unread: said.unread() };
 }

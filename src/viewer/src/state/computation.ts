@@ -55,6 +55,7 @@ const cut = computed(() => {
 });
 
 let stop = new AbortController();
+let asking = false;
 
 export function keepWorkspace(): void {
   effect(() => {
@@ -65,7 +66,9 @@ export function keepWorkspace(): void {
       return;
     }
     if (workspace.peek() && answered.peek() === asked) return;
-    const timer = setTimeout(() => void ask(asked), REST);
+    // The first one is not dragged.
+    const timer = setTimeout(() => void ask(asked), asking ? REST : 0);
+    asking = true;
     return () => clearTimeout(timer);
   });
   keepStandIn();

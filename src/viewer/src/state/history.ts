@@ -5,12 +5,8 @@ import { failureOf } from "../api/client";
 import { loadMachine } from "./machines";
 import { stay } from "./motion";
 import { change, failure, machine, view } from "./store";
+import { differing, type Snapshot } from "./step";
 import type { Joints, View } from "./view";
-
-type Snapshot = Pick<
-  View,
-  "machine" | "own" | "joints" | "mode" | "tool" | "radius" | "clearance" | "program"
->;
 
 /** Changes of the same fields that follow each other faster are one step, ms. */
 const PAUSE = 700;
@@ -60,16 +56,16 @@ export function redo(): void {
 
 function record(next: Snapshot): void {
   const before = current;
-  if (before && same(before, next)) return;
+  const changes = before ? differing(before, next) : "";
+  if (before && changes === "") return;
   const now = performance.now();
-  const differing = before ? different(before, next) : "";
   if (before && next.joints && passed.has(next.joints) && next.program === before.program) {
     current = next;
     return;
   }
-  const follows = differing === fields && now - changed < PAUSE && past.peek().length > 0;
+  const follows = changes === fields && now - changed < PAUSE && past.peek().length > 0;
   current = next;
-  fields = differing;
+  fields = changes;
   changed = now;
   if (!before) return;
   if (!follows) past.value = [...past.peek(), before].slice(-MOST);
@@ -99,15 +95,6 @@ async function restore(otherMachine: boolean): Promise<void> {
 
 function snapshot({ machine, own, joints, mode, tool, radius, clearance, program }: View): Snapshot {
   return { machine, own, joints, mode, tool, radius, clearance, program };
-}
-
-function same(a: Snapshot, b: Snapshot): boolean {
-  return different(a, b) === "";
-}
-
-function different(a: Snapshot, b: Snapshot): string {
-  const names = Object.keys(a) as (keyof Snapshot)[];
-  return names.filter((name) => JSON.stringify(a[name]) !== JSON.stringify(b[name])).join();
 }
 
 /** Text that is typed has an undo of its own. */

@@ -5,7 +5,7 @@ import { ProblemError } from "verne-client";
 import type { Said } from "./address";
 import { home, listMachines, loadMachine } from "./machines";
 import { arrive } from "./motion";
-import { change, failure, machine, notice, view } from "./store";
+import { change, failure, followed, machine, notice, view } from "./store";
 import { INITIAL, type Joints, type View } from "./view";
 
 /** Letters of an entry that a notice quotes. */
@@ -25,6 +25,7 @@ export async function follow(said: Said): Promise<void> {
       void follow(said);
     });
   }
+  followed.value = true;
   notice.value = notices.length > 0 ? `Not all of the link can be shown. ${notices.join(" ")}` : null;
 }
 

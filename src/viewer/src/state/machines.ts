@@ -1,7 +1,7 @@
 /** Which machine is in use: a published one, or one that was dropped on the page. */
 
 import { batch } from "@preact/signals";
-import { unwrap, type Machine, type MachineRef } from "verne-client";
+import { unwrap, type Answer, type Machine, type MachineRef } from "verne-client";
 import { verne } from "../api/client";
 import { change, refusal, view, ghosts, machine, published, workspace, type InUse } from "./store";
 import { arrive, stay } from "./motion";
@@ -13,18 +13,12 @@ export async function listMachines(): Promise<void> {
 
 /** Loads the view's machine. Nothing says yet where it stands. */
 export async function loadMachine({ machine: name, own }: View): Promise<void> {
-  if (own) {
-    use(await examined(own, own));
-    return;
-  }
-  const found = unwrap(await verne.api.GET("/machines/{name}", { params: { path: { name } } }));
-  use(await examined(name, found.definition));
+  use(own ? await examined(own) : await publishedMachine(name));
 }
 
 /** Takes a published machine, from its home. */
 export async function takePublished(name: string): Promise<void> {
-  const found = unwrap(await verne.api.GET("/machines/{name}", { params: { path: { name } } }));
-  const next = await examined(name, found.definition);
+  const next = await publishedMachine(name);
   change({ machine: name, own: null, joints: null, mode: null });
   use(next);
   stay();
@@ -32,7 +26,7 @@ export async function takePublished(name: string): Promise<void> {
 
 /** Takes a machine of one's own, from its home; the service's faults are thrown. */
 export async function takeOwn(own: Machine): Promise<void> {
-  const next = await examined(own, own);
+  const next = await examined(own);
   change({ own, joints: null, mode: null });
   use(next);
   stay();
@@ -40,7 +34,7 @@ export async function takeOwn(own: Machine): Promise<void> {
 
 /** Takes a changed machine, which stands where it stood if it can; the service's faults are thrown. */
 export async function changeMachine(own: Machine): Promise<void> {
-  const next = await examined(own, own);
+  const next = await examined(own);
   const { joints } = view.peek();
   change({ own });
   use(next);
@@ -62,10 +56,27 @@ export function home(): Joints | null {
   return machine.peek()?.home.joints ?? null;
 }
 
-/** Home is where everything is symmetric, with the sliders about the middle of their strokes. */
-async function examined(ref: MachineRef, definition: Machine): Promise<InUse> {
+async function examined(own: Machine): Promise<InUse> {
+  return inUse(own, own, await symmetric(own));
+}
+
+async function publishedMachine(name: string): Promise<InUse> {
+  // Neither request waits for the other: the first picture waits for both.
+  const [found, answer] = await Promise.all([
+    verne.api.GET("/machines/{name}", { params: { path: { name } } }),
+    symmetric(name),
+  ]);
+  return inUse(name, unwrap(found).definition, answer);
+}
+
+/** The posture in which everything is symmetric. */
+async function symmetric(ref: MachineRef): Promise<Answer> {
   const body = { machine: ref, frame: "platform" as const, pose: { x: 0, y: 0, z: 0 } };
-  const answer = unwrap(await verne.api.POST("/ik", { body }));
+  return unwrap(await verne.api.POST("/ik", { body }));
+}
+
+/** Home is the symmetric posture, with the sliders about the middle of their strokes. */
+function inUse(ref: MachineRef, definition: Machine, answer: Answer): InUse {
   const home = answer.solutions[0];
   const rho = home?.joints?.rho ?? [0, 0, 0];
   const { stroke } = definition.limits;

@@ -9,8 +9,9 @@ export async function packed(value: unknown): Promise<string> {
   return btoa(text).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/** Null for what was not packed here. */
-export async function unpacked(text: string): Promise<unknown> {
+/** Null for nothing, and for what was not packed here. */
+export async function unpacked(text: string | null): Promise<unknown> {
+  if (text === null) return null;
   try {
     const letters = atob(text.replaceAll("-", "+").replaceAll("_", "/"));
     const bytes = Uint8Array.from(letters, (letter) => letter.charCodeAt(0));

@@ -62,6 +62,8 @@ export const drag = computed(() => view.value.drag);
 export const ghostKind = computed(() => view.value.ghosts);
 export const camera = computed(() => view.value.camera);
 
+/** Whether what the first address asks for has been found, or has failed: before, there is nothing to draw. */
+export const followed = signal(false);
 export const published = signal<Schemas["MachineEntry"][]>([]);
 export const machine = signal<InUse | null>(null);
 export const position = signal<Position | null>(null);

@@ -29,7 +29,43 @@ export interface View {
   section: number | null;
   camera: Camera | null;
   program: ProgramView | null;
+  family: FamilyView;
+  dexterity: DexterityView;
 }
+
+/** The section for families of workspaces, with its settings. */
+export interface FamilyView {
+  open: boolean;
+  parameter: FamilyParameter;
+  ranges: Readonly<Record<FamilyParameter, ValueRange>>;
+}
+
+/** The parameters over which the page shows families. */
+export type FamilyParameter = "tool_length" | "phi1";
+
+/** Values at equal distances; mm for the tool length, degrees for phi1. */
+export interface ValueRange {
+  from: number;
+  to: number;
+  /** The number of values, both ends included. */
+  count: number;
+}
+
+/** Fewest and most workspaces of one family on the page. The service takes up to 1000. */
+export const FAMILY_COUNTS = { least: 2, greatest: 101 };
+
+/** The section for dexterity maps, with its settings. */
+export interface DexterityView {
+  open: boolean;
+  /** The range of inclinations, degrees. */
+  from: number;
+  to: number;
+  /** Distance between neighbouring points, mm. */
+  cell: number;
+}
+
+/** Least and greatest distance between the points of a map, mm. */
+export const CELLS = { least: 10, greatest: 1000 };
 
 /** A program that the service keeps. */
 export interface ProgramView {
@@ -79,4 +115,10 @@ export const INITIAL: View = {
   section: null,
   camera: null,
   program: null,
+  family: {
+    open: false,
+    parameter: "tool_length",
+    ranges: { tool_length: { from: 0, to: 300, count: 13 }, phi1: { from: -40, to: 40, count: 17 } },
+  },
+  dexterity: { open: false, from: -20, to: 20, cell: 40 },
 };

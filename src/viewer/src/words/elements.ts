@@ -25,8 +25,10 @@ export function boundary(constraint: Constraint, element: string): string {
       return "rods of leg 1 cross";
     case "leg_length":
       return `${leg(element)} at full stretch`;
-    case "serial_singularity":
-      return `${rods(element)} across its guideway`;
+    case "serial_singularity": {
+      const named = rods(element);
+      return `${named} across ${named.startsWith("rods") ? "their" : "its"} guideway`;
+    }
     case "parallel_singularity":
       return "platform no longer held";
     case "tilt":

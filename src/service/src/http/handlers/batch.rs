@@ -27,18 +27,18 @@ use crate::wire::query::point_into_query;
 use crate::wire::row_query::{ContainsRowsQuery, FkRowsQuery, IkRowsQuery};
 use crate::wire::workspace::WorkspaceRequest;
 
-fn json(body: Bytes) -> Response {
+pub(crate) fn json(body: Bytes) -> Response {
     ([(CONTENT_TYPE, "application/json")], body).into_response()
 }
 
 /// The JSON body of a batch.
-async fn document(request: Request, state: &SharedState) -> Result<BatchBody, HttpError> {
+pub(crate) async fn document(request: Request, state: &SharedState) -> Result<BatchBody, HttpError> {
     refuse_parameters(&request)?;
     BatchBody::from_request(request, state).await
 }
 
 /// The error of what stands in the query.
-fn in_query(error: OperationError) -> HttpError {
+pub(crate) fn in_query(error: OperationError) -> HttpError {
     point_into_query(error).into()
 }
 

@@ -15,7 +15,7 @@ use crate::http::extractors::{JsonBody, PathParameter, QueryString};
 use crate::http::handlers::results::record;
 use crate::http::job_document::JobObject;
 use crate::http::negotiation::Accept;
-use crate::http::openapi::body_schemas::{Binary, Text};
+use crate::http::openapi::body_schemas::{Binary, MapCells, Text};
 use crate::http::openapi::problem_responses::{CellsProblems, DexterityProblems};
 use crate::http::result_or_job::ResultOrJob;
 use crate::http::result_representation::summary_or_job;
@@ -24,11 +24,11 @@ use crate::http::wait_policy::WaitPolicy;
 use crate::limits::response_memory::UnsharedBytes;
 use crate::operations::compute_pool::run_on_pool;
 use crate::operations::dexterity_question::DexterityQuestion;
-use crate::operations::dexterity_table::DexterityTable;
+use crate::operations::map_table::MapTable;
 use crate::operations::question::Question;
 use crate::operations::question_text::QuestionKind;
 use crate::operations::results::CELLS;
-use crate::wire::dexterity::{CellsQuery, DexterityBody, DexterityCells, DexteritySummary};
+use crate::wire::dexterity::{CellsQuery, DexterityBody, DexteritySummary};
 use crate::wire::error::OperationError;
 use crate::wire::result_id::ResultId;
 use crate::wire::row_format::RowFormat;
@@ -62,17 +62,20 @@ pub(crate) async fn post_dexterity(
     summary.respond(&state, wait_policy, &conditions)
 }
 
-/// The points of a dexterity map
+/// The points of a map
 ///
-/// Returns the intervals of phi1 at each point. For JSON the service supports strong ETags, conditional requests and
-/// byte ranges. As a table (Arrow, CSV or NDJSON) the answer has a row for each interval: the number of the point, its
-/// x, y and z in the part frame, and `from` and `to`.
+/// Returns the intervals of phi1 at each point of a dexterity map, or the errors at each point of an error map. For
+/// JSON the service supports strong ETags, conditional requests and byte ranges. As a table (Arrow, CSV or NDJSON) the
+/// answer has a row for each interval of a dexterity map: the number of the point, its x, y and z in the part frame,
+/// and `from` and `to`. For an error map it has a row for each point inside the workspace: the number of the point, its
+/// x, y and z, `tip_rms`, `tip_worst`, `axis_rms` and `axis_worst`.
 #[utoipa::path(
     get, path = "/workspace/{id}/cells", operation_id = "get_dexterity_cells", tag = "workspace",
-    params(("id" = String, Path, description = "The id from an answer of /workspace/dexterity."), CellsQuery),
+    params(("id" = String, Path, description = "The id from an answer of /workspace/dexterity or \
+            /workspace/error-budget."), CellsQuery),
     responses(
         (status = 200, description = "The points.", content(
-            (DexterityCells = "application/json"), (Text = "application/x-ndjson"), (Text = "text/csv"),
+            (MapCells = "application/json"), (Text = "application/x-ndjson"), (Text = "text/csv"),
             (Binary = "application/vnd.apache.arrow.stream"),
         )),
         (status = 202, description = "The service evicted the points. This job computes them again.",
@@ -94,7 +97,7 @@ pub(crate) async fn get_cells(
         None => accept.choose(RowFormat::ALL.map(|format| (format.media(), format)))?,
     };
     let id = record.id;
-    if record.kind != QuestionKind::Dexterity {
+    if !matches!(record.kind, QuestionKind::Dexterity | QuestionKind::ErrorMap) {
         return Err(LookupError::Grid(id.to_string()).into());
     }
     let find = || state.results.find_blob(id, CELLS);
@@ -102,7 +105,7 @@ pub(crate) async fn get_cells(
     let cells = state.blob_or_job(&question, &wait_policy, None, find).await?;
     let cells = match (cells, format.columns()) {
         (ResultOrJob::Result(_), Some(format)) => {
-            let mut response = respond_table(&state, id, format, &conditions).await?;
+            let mut response = respond_table(&state, (id, record.kind), format, &conditions).await?;
             wait_policy.state_preference(&mut response);
             return Ok(response);
         }
@@ -116,7 +119,7 @@ pub(crate) async fn get_cells(
 /// The stored points as a table, which is written while it is sent.
 async fn respond_table(
     state: &SharedState,
-    id: ResultId,
+    (id, kind): (ResultId, QuestionKind),
     format: Format,
     conditions: &Conditions,
 ) -> Result<Response, HttpError> {
@@ -125,7 +128,7 @@ async fn respond_table(
         etag: entity_tag(&blake3::hash(name.as_bytes()), None)?,
         vary: "accept",
         media: format.media(),
-        file_name: format!("dexterity-{id:.8}.{}", format.name()),
+        file_name: format!("{}-{id:.8}.{}", kind.name().replace('_', "-"), format.name()),
     };
     let about = match text.begin(conditions) {
         Ok(about) => about,
@@ -134,7 +137,7 @@ async fn respond_table(
     let stored = state.results.blob(id, CELLS).await.ok_or(OperationError::Internal)?.bytes;
     // The points are parsed: some times their stored bytes.
     let memory = 3 * stored.len() as u64;
-    let table = run_on_pool(move |_| DexterityTable::new(&stored, format)).await?;
+    let table = run_on_pool(move |_| MapTable::new(kind, &stored, format)).await?;
     let pieces = stream::try_unfold(table, |mut table| async move {
         let piece =
             run_on_pool(move |_| table.next().map(|piece| piece.map(|piece| (Bytes::from(piece), table))));

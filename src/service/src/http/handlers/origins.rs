@@ -16,7 +16,7 @@ use crate::http::openapi::body_schemas::{Binary, MeshObject, Text};
 use crate::http::openapi::problem_responses::{RegionProblems, ToolpathProblems};
 use crate::http::result_or_job::ResultOrJob;
 use crate::http::result_representation::{
-    Surface, mesh_format, mesh_or_job, slice_file, slice_format, summary_or_job,
+    MeshSelection, Surface, mesh_format, mesh_or_job, slice_file, slice_format, summary_or_job,
 };
 use crate::http::state::{AppState, SharedState};
 use crate::http::wait_policy::WaitPolicy;
@@ -99,7 +99,7 @@ pub(crate) async fn get_origins_mesh(
 ) -> Result<Response, HttpError> {
     let format = mesh_format(&accept, query.format)?;
     let record = region(&state, id).await?;
-    let surface = Surface::of(record.id, record.kind, None)?;
+    let surface = Surface::of(record.id, record.kind, MeshSelection::default())?;
     let question = || state.results.questions.get_or_read(record.id, &record.question);
     let mesh = mesh_or_job(&state, &surface, format, &wait_policy, question).await?;
     mesh.map(|mesh| mesh.cached(IMMUTABLE)).respond(&state, wait_policy, &conditions)
@@ -152,9 +152,7 @@ pub(crate) async fn get_origins_slice(
 
 /// The record of a stored region of origins.
 async fn region(state: &AppState, id: String) -> Result<Record, LookupError> {
-    let admits =
-        |kind| matches!(kind, QuestionKind::Origins | QuestionKind::Toolpath | QuestionKind::Placement);
-    let record = stored_of_toolpath(state, id, admits).await?;
+    let record = stored_of_toolpath(state, id, QuestionKind::is_of_toolpath).await?;
     match record.kind {
         QuestionKind::Origins => Ok(record),
         _ => Err(LookupError::Region(record.id.to_string())),

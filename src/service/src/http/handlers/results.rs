@@ -11,7 +11,7 @@ use crate::http::negotiation::Accept;
 use crate::http::openapi::body_schemas::{Binary, MeshObject, Summary, Text};
 use crate::http::openapi::problem_responses::{MeshProblems, SliceProblems, SummaryProblems};
 use crate::http::result_representation::{
-    Surface, mesh_format, mesh_or_job, slice_file, slice_format, summary,
+    MeshSelection, Surface, mesh_format, mesh_or_job, slice_file, slice_format, summary,
 };
 use crate::http::state::{AppState, SharedState};
 use crate::http::wait_policy::WaitPolicy;
@@ -20,11 +20,10 @@ use crate::operations::question::Question;
 use crate::operations::question_text::QuestionKind;
 use crate::operations::results::{Record, hashed};
 use crate::operations::slice::answer_slice;
-use crate::wire::dexterity::StoredMeshQuery;
 use crate::wire::error::OperationError;
 use crate::wire::query::point_into_query;
 use crate::wire::slice::SliceObject;
-use crate::wire::workspace_query::SliceQuery;
+use crate::wire::workspace_query::{SliceQuery, StoredMeshQuery};
 
 /// Summary of a computed workspace
 ///
@@ -35,7 +34,7 @@ use crate::wire::workspace_query::SliceQuery;
     get, path = "/workspace/{id}", operation_id = "get_workspace_summary", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace.")),
     responses(
-        (status = 200, description = "The summary of a workspace or a dexterity map, or the table of a family.", body =
+        (status = 200, description = "The summary of a workspace or a map, or the table of a family.", body =
             Summary),
         SummaryProblems
     )
@@ -57,8 +56,9 @@ pub(crate) async fn get_summary(
 /// The mesh of a computed workspace
 ///
 /// Returns a watertight mesh within the tolerance of the true surface. Each triangle has the constraint that is active
-/// there. The path without the extension selects the format by `format` or Accept; its default is GLB. The service
-/// supports strong ETags, conditional requests and byte ranges.
+/// there; in an error map it has the band of the greatest error at its corners. The path without the extension selects
+/// the format by `format` or Accept; its default is GLB. The service supports strong ETags, conditional requests and
+/// byte ranges.
 #[utoipa::path(
     get, path = "/workspace/{id}/mesh", operation_id = "get_workspace_mesh", tag = "workspace",
     params(("id" = String, Path, description = "The id from an answer of /workspace."), StoredMeshQuery),
@@ -85,7 +85,7 @@ pub(crate) async fn get_mesh(
     if record.kind == QuestionKind::Origins {
         return Err(LookupError::Result(record.id.to_string()).into());
     }
-    let surface = Surface::of(record.id, record.kind, query.set)?;
+    let surface = Surface::of(record.id, record.kind, MeshSelection { set: query.set, error: query.error })?;
     let question = || state.results.questions.get_or_read(record.id, &record.question);
     let mesh = mesh_or_job(&state, &surface, format, &wait_policy, question).await?;
     mesh.map(|mesh| mesh.cached(IMMUTABLE)).respond(&state, wait_policy, &conditions)

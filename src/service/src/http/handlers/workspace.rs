@@ -13,7 +13,7 @@ use crate::http::negotiation::Accept;
 use crate::http::openapi::body_schemas::{Binary, WorkspaceAnswer};
 use crate::http::openapi::problem_responses::{WorkspaceBodyProblems, WorkspaceQueryProblems};
 use crate::http::result_or_job::ResultOrJob;
-use crate::http::result_representation::{Surface, mesh_or_job, summary_or_job};
+use crate::http::result_representation::{MeshSelection, Surface, mesh_or_job, summary_or_job};
 use crate::http::state::{AppState, SharedState};
 use crate::http::wait_policy::WaitPolicy;
 use crate::operations::family_question::FamilyQuestion;
@@ -123,7 +123,7 @@ async fn representation_or_job(
     match format {
         None => summary_or_job(state, &question, wait_policy).await,
         Some(format) => {
-            let surface = Surface::of(question.id(), question.kind(), None)?;
+            let surface = Surface::of(question.id(), question.kind(), MeshSelection::default())?;
             mesh_or_job(state, &surface, format, wait_policy, || Ok(question)).await
         }
     }

@@ -26,11 +26,14 @@ pub(crate) struct JobEvent {
     id: String,
 }
 
-/// The summary of a workspace, a family or a dexterity map.
+/// The summary of a workspace, a family, a dexterity map or an error map.
 pub(crate) struct Summary;
 
 /// The summary of a workspace or a family.
 pub(crate) struct WorkspaceAnswer;
+
+/// The points of a dexterity map or of an error map.
+pub(crate) struct MapCells;
 
 /// The report on a tool path, or another answer about a program.
 pub(crate) struct ToolpathResult;
@@ -72,11 +75,19 @@ fn one_of(names: &[&str]) -> OneOfBuilder {
 
 impl PartialSchema for Summary {
     fn schema() -> RefOr<Schema> {
-        one_of(&["WorkspaceSummary", "FamilySummary", "DexteritySummary"]).into()
+        one_of(&["WorkspaceSummary", "FamilySummary", "DexteritySummary", "ErrorMapSummary"]).into()
     }
 }
 
 impl ToSchema for Summary {}
+
+impl PartialSchema for MapCells {
+    fn schema() -> RefOr<Schema> {
+        one_of(&["DexterityCells", "ErrorCells"]).into()
+    }
+}
+
+impl ToSchema for MapCells {}
 
 impl PartialSchema for ToolpathResult {
     fn schema() -> RefOr<Schema> {

@@ -11,6 +11,7 @@ use crate::http::openapi::example::{Example, PROGRAM, get, json_of, post, value_
 use crate::http::openapi::examples::toolpaths::of_toolpaths;
 use crate::http::openapi::machine_schema::machine_schema;
 use crate::operations::contains::answer_contains;
+use crate::operations::error_budget::answer_error_budget;
 use crate::operations::forward::answer_fk;
 use crate::operations::forward_batch::answer_fk_batch;
 use crate::operations::inverse::answer_ik;
@@ -57,7 +58,8 @@ fn of_service(machines: &MachineRegistry) -> Vec<Example> {
 
 fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
     let fk = parse_query::<FkQuery>("rho=674,685,250").and_then(FkQuery::into_request);
-    let ik = parse_query::<IkQuery>("frame=platform&x=-240&y=-86&z=1000").and_then(IkQuery::into_request);
+    let ik = parse_query::<IkQuery>("frame=platform&x=-240&y=-86&z=1000&certified=true")
+        .and_then(IkQuery::into_request);
     vec![
         get(
             "/fk",
@@ -66,13 +68,13 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
         ),
         get(
             "/ik",
-            json!({"frame": "platform", "x": -240, "y": -86, "z": 1000}),
+            json!({"frame": "platform", "x": -240, "y": -86, "z": 1000, "certified": true}),
             Some(json_of(ik.and_then(|request| answer_ik(&request, machines)))),
         ),
         post(
             "/fk",
             json!({"machine": "verne", "joints": {"rho": [674, 685, 250], "theta1": 0, "theta2": 0},
-                   "tool_length": 50, "table_clearance": 0, "solutions": "working"}),
+                   "tool_length": 50, "table_clearance": 0, "solutions": "working", "certified": true}),
             |body| parse_body(body).and_then(|request| answer_fk(&request, machines)),
         ),
         post(
@@ -96,6 +98,14 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
                              [0, 0, 900, 0, 0], [1, 2], [5000, 0, 0, 0, 0]]}),
             |body| value_of(answer_ik_batch(body, machines, ROWS)),
         ),
+        post(
+            "/error-budget",
+            json!({"frame": "part", "tool_length": 50,
+                   "parameter_tolerances": {"L1": 0.02, "L2": 0.02, "L3": 0.02, "o1": 0.005, "o2": 0.005, "o3": 0.005,
+                                            "tilt_zero": 0.001},
+                   "poses": [[100, 50, 150, 0, 0], [100, 50, 150, 30, 90], [0, 0, 900, 0, 0]]}),
+            |body| value_of(answer_error_budget(body, machines, ROWS, &Unobserved)),
+        ),
     ]
 }
 
@@ -109,6 +119,8 @@ fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {
     let of_job = || json!({"id": id});
     let of_slice = || json!({"id": id, "z": 300, "alpha": "0"});
     let dexterity = json!({"tool_length": 50, "phi1": {"from": -20, "to": 20}, "cell": 200});
+    let errors = json!({"kind": "part", "tool_length": 50, "cell": 200, "tolerance": 50,
+                        "parameter_tolerances": {"L1": 0.02, "L2": 0.02, "L3": 0.02, "tilt_zero": 0.001}});
     vec![
         get("/workspace", request.clone(), Some(summary.clone())),
         post("/workspace", request, |_| Ok(&summary)),
@@ -117,6 +129,13 @@ fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {
             method: "post",
             path: "/workspace/dexterity",
             request: dexterity,
+            file: None,
+            answer: None,
+        },
+        Example {
+            method: "post",
+            path: "/workspace/error-budget",
+            request: errors,
             file: None,
             answer: None,
         },

@@ -85,6 +85,8 @@ problems! {
     WorkspaceBodyProblems: BODY, JOB, &[Code::NoMesh];
     /// Problems of a dexterity map.
     DexterityProblems: BODY, JOB;
+    /// Problems of an error map.
+    ErrorMapProblems: BODY, JOB, &[Code::NoMesh];
     /// Problems of the summary of a stored result.
     SummaryProblems: RESULT;
     /// Problems of a slice of a stored result.
@@ -92,7 +94,7 @@ problems! {
     /// Problems of a mesh of a stored result. If the store evicted the mesh, a job computes it again, which needs a
     /// role.
     MeshProblems: RESULT, JOB, &[Code::NoMesh, Code::Forbidden];
-    /// Problems of the points of a dexterity map.
+    /// Problems of the points of a map.
     CellsProblems: RESULT, JOB, &[Code::NoCells, Code::Forbidden];
     /// Problems of a program in the body.
     ProgramBodyProblems: PROGRAM_BODY;

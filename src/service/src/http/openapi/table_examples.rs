@@ -5,11 +5,14 @@ use verne_rows::Format;
 use verne_solver::workspace::Unobserved;
 
 use crate::operations::contains_columns::ContainsColumns;
+use crate::operations::error_budget_columns::ErrorBudgetColumns;
 use crate::operations::forward_columns::ForwardColumns;
 use crate::operations::inverse_columns::InverseColumns;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::row_stream::{RowAnswer, RowStream};
 use crate::wire::error::OperationError;
+use crate::wire::error_budget::ErrorBudgetRowsQuery;
+use crate::wire::machine_ref::MachineRef;
 use crate::wire::query_string::parse_query;
 use crate::wire::row_query::{ContainsRowsQuery, FkRowsQuery, IkRowsQuery};
 
@@ -23,6 +26,9 @@ pub(crate) fn write_table_examples(document: &mut Value) {
     let fk = parse_query::<FkRowsQuery>("").and_then(|query| ForwardColumns::new(&query.into(), &machines));
     let contains = parse_query::<ContainsRowsQuery>("");
     let contains = contains.and_then(|query| ContainsColumns::new(&query.into(), &machines));
+    let budget = parse_query::<ErrorBudgetRowsQuery>("parameter_tolerances={\"L1\":0.02}")
+        .and_then(|query| ErrorBudgetColumns::new(&query.into_request(MachineRef::default())?, &machines));
+    write(document, "/error-budget", budget, "x,y,z,i,j,k\n100,50,150,0,0,1\n");
     write(document, "/ik/batch", ik, "id,x,y,z,i,j,k\nA,100,50,150,0,0,1\nB,100,,150,0,0,1\n");
     write(document, "/fk/batch", fk, "rho1,rho2,rho3,theta1,theta2\n674,685,250,0,0\n");
     write(document, "/workspace/contains", contains, "x,y,z\n100,50,1200\n0,0,5000\n");

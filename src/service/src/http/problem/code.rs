@@ -94,7 +94,7 @@ problems! {
         Lookup(LookupError::Slice(_)) => LookupError::Slice("1f2e".to_owned());
     NoRegion, "no_region", NOT_FOUND, "Only a region of origins has a mesh and slices.";
         Lookup(LookupError::Region(_)) => LookupError::Region("1f2e".to_owned());
-    NoCells, "no_cells", NOT_FOUND, "Only a dexterity map has a grid of points.";
+    NoCells, "no_cells", NOT_FOUND, "Only a dexterity map and an error map have a grid of points.";
         Lookup(LookupError::Grid(_)) => LookupError::Grid("1f2e".to_owned());
     JobNotFound, "job_not_found", NOT_FOUND, "No job record has this id.";
         Lookup(LookupError::Job(_)) => LookupError::Job("1f2e".to_owned());

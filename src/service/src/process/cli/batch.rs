@@ -1,4 +1,5 @@
-//! `--batch` of `verne ik`, `verne fk` and `verne contains`: answers the rows of a file while it reads them.
+//! `--batch` of `verne ik`, `verne fk`, `verne error-budget` and `verne contains`: answers the rows of a file while it
+//! reads them.
 
 mod summary;
 
@@ -11,6 +12,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use verne_rows::Format;
 
 use crate::operations::contains_columns::ContainsColumns;
+use crate::operations::error_budget_columns::ErrorBudgetColumns;
 use crate::operations::forward_columns::ForwardColumns;
 use crate::operations::inverse_columns::InverseColumns;
 use crate::operations::machine_registry::MachineRegistry;
@@ -22,6 +24,7 @@ use crate::process::cli::files::{destination, is_standard, name_of, refuse_equal
 use crate::process::cli::progress::ReadProgress;
 use crate::wire::batch::{FkBatchNumbers, IkBatchNumbers};
 use crate::wire::error::OperationError;
+use crate::wire::error_budget::ErrorBudgetRowsQuery;
 use crate::wire::machine_ref::MachineRef;
 use crate::wire::row_query::{ContainsRowsQuery, FkRowsQuery, IkRowsQuery};
 use crate::wire::workspace::WorkspaceRequest;
@@ -89,6 +92,17 @@ impl BatchQuery for ContainsRowsQuery {
     fn into_answer(self, machine: MachineRef) -> Result<Box<dyn RowAnswer>, OperationError> {
         let request = WorkspaceRequest { machine, ..self.into() };
         Ok(Box::new(ContainsColumns::new(&request, &MachineRegistry::default())?))
+    }
+}
+
+impl BatchQuery for ErrorBudgetRowsQuery {
+    fn machine(&self) -> &str {
+        &self.machine
+    }
+
+    fn into_answer(self, machine: MachineRef) -> Result<Box<dyn RowAnswer>, OperationError> {
+        let request = self.into_request(machine)?;
+        Ok(Box::new(ErrorBudgetColumns::new(&request, &MachineRegistry::default())?))
     }
 }
 

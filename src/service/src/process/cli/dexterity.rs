@@ -1,20 +1,20 @@
 //! `verne dexterity`: computes a dexterity map without a server.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde_json::Value;
 
 use crate::operations::dexterity_map::{DexterityMap, compute_map};
 use crate::operations::dexterity_question::DexterityQuestion;
-use crate::operations::dexterity_table::DexterityTable;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::mesh_files::{MeshDescription, write_mesh};
+use crate::operations::question_text::QuestionKind;
 use crate::process::cli::answer::{machine, with_flags};
 use crate::process::cli::answer_format::AnswerFormat;
 use crate::process::cli::files::refuse_equal_files;
+use crate::process::cli::map_files::{format_of, write_cells};
 use crate::process::cli::progress::TerminalProgress;
 use crate::process::cli::terminal::Terminal;
 use crate::process::cli::words::workspaces;
@@ -22,7 +22,6 @@ use crate::wire::dexterity::{DexterityBody, Inclinations, SetName};
 use crate::wire::format::MeshFormat;
 use crate::wire::machine_ref::REFERENCE;
 use crate::wire::parse::parse_body;
-use crate::wire::row_format::RowFormat;
 
 /// The command.
 #[derive(Debug, Args)]
@@ -72,9 +71,9 @@ impl DexterityCommand {
         refuse_equal_files(&[("the machine", machine_file)], &[("--output", output), ("--cells", cells)])?;
         // Before the computation: the extension may be unknown.
         let mesh_format =
-            output.map(|path| format("--output", path, ".glb, .stl, .ply or .json")).transpose()?;
+            output.map(|path| format_of("--output", path, ".glb, .stl, .ply or .json")).transpose()?;
         let cells_format =
-            cells.map(|path| format("--cells", path, ".json, .csv, .ndjson or .arrow")).transpose()?;
+            cells.map(|path| format_of("--cells", path, ".json, .csv, .ndjson or .arrow")).transpose()?;
         let body = DexterityBody {
             machine: machine(&self.machine)?,
             tool_length: self.tool_length,
@@ -92,7 +91,7 @@ impl DexterityCommand {
             write_set(&question, &map, self.set, format, path)?;
         }
         if let (Some(path), Some(format)) = (cells, cells_format) {
-            write_cells(&map, format, path)?;
+            write_cells(QuestionKind::Dexterity, &map.cells, format, path)?;
         }
         let summary: Value = parse_body(&map.summary).map_err(with_flags)?;
         self.format.write(&summary, workspaces::dexterity, out, terminal)
@@ -108,12 +107,6 @@ fn inclinations(text: &str) -> Result<Inclinations, String> {
     }
 }
 
-/// The format that the extension of a file names.
-fn format<F: ValueEnum>(flag: &str, path: &Path, known: &str) -> Result<F, String> {
-    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    F::from_str(extension, true).map_err(|_| format!("{flag} {} must end in {known}", path.display()))
-}
-
 fn write_set(
     question: &DexterityQuestion,
     map: &DexterityMap,
@@ -125,17 +118,4 @@ fn write_set(
     let mesh = if set == SetName::Reachable { reachable } else { dexterous };
     let file = write_mesh(&MeshDescription::of_set(question, set), mesh, format).map_err(with_flags)?;
     std::fs::write(path, file).map_err(|error| format!("{}: {error}", path.display()))
-}
-
-fn write_cells(map: &DexterityMap, format: RowFormat, path: &Path) -> Result<(), String> {
-    let unwritable = |error: std::io::Error| format!("{}: {error}", path.display());
-    let Some(format) = format.columns() else {
-        return std::fs::write(path, &map.cells).map_err(unwritable);
-    };
-    let mut table = DexterityTable::new(&map.cells, format).map_err(with_flags)?;
-    let mut file = BufWriter::new(File::create(path).map_err(unwritable)?);
-    while let Some(piece) = table.next().map_err(with_flags)? {
-        file.write_all(&piece).map_err(unwritable)?;
-    }
-    file.flush().map_err(unwritable)
 }

@@ -3,6 +3,7 @@
 use super::Rectangle;
 use super::classification::{Class, all_limits, classify, parallelograms_apart};
 use crate::machine::Machine;
+use crate::random::{self, Random};
 use crate::workspace::domain::{Domain, Limit, LimitSet};
 use crate::workspace::request::{Kind, Request};
 
@@ -10,11 +11,8 @@ use crate::workspace::request::{Kind, Request};
 mod lengths;
 #[path = "../../../tests/support/machines.rs"]
 mod machines;
-#[path = "../../../tests/support/random.rs"]
-mod random;
 
 use machines::spread;
-use random::Random;
 
 /// Any machine, also with thin rods and with any tilting range.
 fn any_machine(numbers: &mut Random) -> Option<Machine> {

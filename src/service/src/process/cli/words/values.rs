@@ -24,6 +24,20 @@ pub(crate) fn decimal(number: f64) -> String {
     if text == "-0.000" { "0.000".to_owned() } else { text }
 }
 
+/// A number with four significant digits.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "of a logarithm, and not negative"
+)]
+pub(crate) fn significant(number: f64) -> String {
+    if number == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = (3 - number.abs().log10().floor() as i32).max(0) as usize;
+    format!("{number:.digits$}")
+}
+
 /// `1 solution`, `2 solutions`.
 pub(crate) fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
@@ -37,11 +51,15 @@ pub(crate) fn not_checked(answer: &Value) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{counted, decimal};
+    use super::{counted, decimal, significant};
 
     #[test]
     fn numbers_are_rounded_and_nouns_counted() {
         assert_eq!([decimal(-1e-9), decimal(1.23456), decimal(-250.0)], ["0.000", "1.235", "-250.000"]);
+        assert_eq!(
+            [0.0, 0.012_345, -1234.56, 1e-5].map(significant),
+            ["0", "0.01235", "-1235", "0.00001000"]
+        );
         assert_eq!([counted(1, "job"), counted(0, "job")], ["1 job", "0 jobs"]);
     }
 }

@@ -1,0 +1,131 @@
+//! `verne error-map`: computes an error map without a server.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::Value;
+
+use crate::operations::error_map::{ErrorMap, compute_error_map};
+use crate::operations::error_map_question::ErrorMapQuestion;
+use crate::operations::machine_registry::MachineRegistry;
+use crate::operations::mesh_files::{MeshDescription, write_mesh};
+use crate::operations::question_text::QuestionKind;
+use crate::process::cli::answer::{machine, with_flags};
+use crate::process::cli::answer_format::AnswerFormat;
+use crate::process::cli::files::refuse_equal_files;
+use crate::process::cli::map_files::{format_of, write_cells};
+use crate::process::cli::progress::TerminalProgress;
+use crate::process::cli::terminal::Terminal;
+use crate::process::cli::words::error_budgets;
+use crate::wire::error_map::{ErrorMapBody, ErrorName, default_cell, default_tolerance};
+use crate::wire::format::MeshFormat;
+use crate::wire::json_text::JsonText;
+use crate::wire::machine_ref::REFERENCE;
+use crate::wire::parameter_tolerances::ParameterTolerances;
+use crate::wire::parse::parse_body;
+use crate::wire::strict_object::StrictObject;
+use crate::wire::workspace::KindName;
+
+/// The command.
+#[derive(Debug, Args)]
+pub(crate) struct ErrorMapCommand {
+    /// Name of the machine, or the path of a machine file.
+    #[arg(long, default_value = REFERENCE)]
+    machine: String,
+    /// Point and frame of the positions and of the errors.
+    #[arg(long, default_value = "platform")]
+    kind: KindName,
+    /// Distance from P to the tool end, mm. Kind `platform` ignores it.
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    tool_length: f64,
+    /// Least height of the tool's end circle and of the platform's six joints over the table (the plane Z = 0 of the
+    /// part frame), mm. Only kind `part` has it. The default is the limit of the machine; if the machine has none,
+    /// verne does not check the table.
+    #[arg(long, allow_hyphen_values = true)]
+    table_clearance: Option<f64>,
+    /// Radius of the tool's end circle, which is perpendicular to the tool's axis, mm. Only --table-clearance uses it.
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    tool_radius: f64,
+    /// Inclination of the tool in the part frame, degrees. Only kind `part` uses it.
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    phi1: f64,
+    /// Azimuth of the tool in the part frame, degrees. Only kind `part` uses it.
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    phi2: f64,
+    /// The tolerances of the parameters as JSON, mm and degrees, such as `{"L1":0.02,"tilt_zero":0.001}`.
+    #[arg(long, value_name = "JSON")]
+    parameter_tolerances: JsonText<StrictObject<ParameterTolerances>>,
+    /// Distance between neighbouring points of the grid, mm.
+    #[arg(long, default_value_t = default_cell(), allow_hyphen_values = true)]
+    cell: f64,
+    /// Greatest distance between the mesh and the true surface of the workspace, in both directions, mm.
+    #[arg(long, default_value_t = default_tolerance(), allow_hyphen_values = true)]
+    tolerance: f64,
+    /// Write the mesh of the workspace, in bands of --error, to this file: .glb, .stl, .ply or .json.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// The error that the colours of the mesh of --output show.
+    #[arg(long, value_enum, default_value = "tip_worst", requires = "output")]
+    error: ErrorName,
+    /// Write the errors at each point of the grid inside the workspace to this file: .json, or a row for each point as
+    /// .csv, .ndjson or .arrow.
+    #[arg(long, value_name = "FILE")]
+    cells: Option<PathBuf>,
+    #[command(flatten)]
+    format: AnswerFormat,
+}
+
+impl ErrorMapCommand {
+    /// Writes the files, and the summary to `out`.
+    pub(crate) fn run(self, out: &mut impl Write, terminal: Option<Terminal>) -> Result<(), String> {
+        let (output, cells) = (self.output.as_deref(), self.cells.as_deref());
+        let machine_file = Some(Path::new(&self.machine)).filter(|path| path.is_file());
+        refuse_equal_files(&[("the machine", machine_file)], &[("--output", output), ("--cells", cells)])?;
+        // Before the computation: the extension may be unknown.
+        let mesh_format =
+            output.map(|path| format_of("--output", path, ".glb, .stl, .ply or .json")).transpose()?;
+        let cells_format =
+            cells.map(|path| format_of("--cells", path, ".json, .csv, .ndjson or .arrow")).transpose()?;
+        let question =
+            ErrorMapQuestion::new(&self.body()?, &MachineRegistry::default()).map_err(with_flags)?;
+        let progress = TerminalProgress::new();
+        let map = compute_error_map(&question, &progress).map_err(with_flags)?;
+        drop(progress);
+        if let (Some(path), Some(format)) = (output, mesh_format) {
+            write_surface(&question, &map, self.error, format, path)?;
+        }
+        if let (Some(path), Some(format)) = (cells, cells_format) {
+            write_cells(QuestionKind::ErrorMap, &map.cells, format, path)?;
+        }
+        let summary: Value = parse_body(&map.summary).map_err(with_flags)?;
+        self.format.write(&summary, error_budgets::map, out, terminal)
+    }
+
+    fn body(&self) -> Result<ErrorMapBody, String> {
+        Ok(ErrorMapBody {
+            machine: machine(&self.machine)?,
+            kind: self.kind,
+            tool_length: self.tool_length,
+            table_clearance: self.table_clearance,
+            tool_radius: self.tool_radius,
+            phi1: self.phi1,
+            phi2: self.phi2,
+            parameter_tolerances: self.parameter_tolerances.0.0,
+            cell: self.cell,
+            tolerance: self.tolerance,
+        })
+    }
+}
+
+fn write_surface(
+    question: &ErrorMapQuestion,
+    map: &ErrorMap,
+    error: ErrorName,
+    format: MeshFormat,
+    path: &Path,
+) -> Result<(), String> {
+    let mesh = &map.meshes[error as usize];
+    let file = write_mesh(&MeshDescription::of_errors(question, error), mesh, format).map_err(with_flags)?;
+    std::fs::write(path, file).map_err(|error| format!("{}: {error}", path.display()))
+}
