@@ -1,8 +1,9 @@
 //! Two coordinates t and θ of the configurations of leg I, for the search over boxes.
 //!
-//! X1 = r sin θ and m = r cos θ with r² = L1² - ℓ², and t is φ, or another function of it where leg I does not reach
-//! all φ. On the level branch y takes the place of m, and w1 = L1 cos t, r = L1 sin t: there t = 0 is a place that
-//! no curve meets but by chance.
+//! X1 = r sin θ and m = r cos θ with r² = L1² - ℓ², and φ is a function of t: φ = π/2 + δ sinh t with δ² = 1 - (r1/R1)²,
+//! because the angles of leg I bend within δ of π/2; or a function with a stationary end where leg I does not reach all
+//! φ. On the level branch y takes the place of m, and w1 = L1 cos t, r = L1 sin t: there t = 0 is a place that no curve
+//! meets but by chance.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -16,56 +17,85 @@ use crate::workspace::zero;
 /// By how much the range of t on the level branch is longer than needed.
 const BEYOND: f64 = 0.0618;
 
-/// The coordinates, and their range: it holds all configurations or their mirror images.
+/// φ as a function of t.
+#[derive(Clone, Copy, Debug)]
+enum Angle {
+    /// φ = t.
+    Same,
+    /// φ = π/2 + δ sinh t.
+    Stretched(f64),
+    /// φ = end - (end - low)(1 - t)².
+    Ending { low: f64, end: f64 },
+}
+
+/// The coordinates, and the range of t: it holds all configurations or their mirror images.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chart {
-    /// The least φ and, if leg I does not reach further, the greatest. φ is then end - (end - low)(1 - t)².
-    low: f64,
-    end: Option<f64>,
-    /// The range of t.
+    angle: Angle,
     pub(super) range: Interval,
 }
 
 impl Chart {
     /// `None` if leg I reaches nowhere.
     pub(super) fn new(shape: &Shape) -> Option<Self> {
-        let [low, high] = match shape.branch {
-            Branch::Only => [0.0, PI],
-            // Further than w1 = 0, which is a curve itself and must not be an edge.
-            Branch::Level => [0.0, FRAC_PI_2 + BEYOND],
-            Branch::Crossed => [FRAC_PI_2, PI],
-        };
-        if shape.branch == Branch::Level {
-            return Some(Self { low, end: None, range: Interval::new(low, high) });
-        }
         let square = |phi: f64| shape.squares[0] - shape.angles(phi).arm[0].powi(2);
-        if square(high) > 0.0 {
-            return Some(Self { low, end: None, range: Interval::new(low, high) });
-        }
+        let low = match shape.branch {
+            // Further than w1 = 0, which is a curve itself and must not be an edge.
+            Branch::Level => {
+                return Some(Self { angle: Angle::Same, range: Interval::new(0.0, FRAC_PI_2 + BEYOND) });
+            }
+            Branch::Only => 0.0,
+            Branch::Crossed => FRAC_PI_2,
+        };
         if square(low) <= 0.0 {
             return None;
         }
-        let at = zero(square(low), square(high), 1e-16, |t| square(low + t * (high - low)));
-        Some(Self { low, end: Some(low + at * (high - low)), range: Interval::UNIT })
+        if square(PI) <= 0.0 {
+            let at = zero(square(low), square(PI), 1e-16, |t| square(low + t * (PI - low)));
+            let angle = Angle::Ending { low, end: low + at * (PI - low) };
+            return Some(Self { angle, range: Interval::UNIT });
+        }
+        if shape.branch == Branch::Crossed {
+            return Some(Self { angle: Angle::Same, range: Interval::new(low, PI) });
+        }
+        let ratio = shape.r1 / shape.R1;
+        let bend = ((1.0 - ratio) * (1.0 + ratio)).sqrt();
+        let range = Interval::around((FRAC_PI_2 / bend).asinh());
+        Some(Self { angle: Angle::Stretched(bend), range })
     }
 
     /// φ at t and its derivative.
     fn phi(&self, t: f64) -> [f64; 2] {
-        match self.end {
-            None => [t, 1.0],
-            Some(end) => {
-                let reach = end - self.low;
+        match self.angle {
+            Angle::Same => [t, 1.0],
+            Angle::Stretched(bend) => [(FRAC_PI_2 + bend * t.sinh()).clamp(0.0, PI), bend * t.cosh()],
+            Angle::Ending { low, end } => {
+                let reach = end - low;
                 [end - reach * (1.0 - t) * (1.0 - t), 2.0 * reach * (1.0 - t)]
             }
         }
     }
 
+    /// The range of the derivative of φ.
+    fn rate(&self, t: Interval) -> Interval {
+        let [a, b] = [t.low, t.high].map(|t| self.phi(t)[1]);
+        let least = if matches!(self.angle, Angle::Stretched(_)) && t.low < 0.0 && t.high > 0.0 {
+            self.phi(0.0)[1]
+        } else {
+            a.min(b)
+        };
+        Interval::new(least, a.max(b))
+    }
+
     /// t and θ of a configuration.
     pub(super) fn coordinates(&self, shape: &Shape, q: &Configuration) -> [f64; 2] {
-        let t = match (shape.branch, self.end) {
-            (Branch::Level, _) => (q[2] / shape.squares[0].sqrt()).clamp(-1.0, 1.0).acos(),
-            (_, None) => q[2],
-            (_, Some(end)) => 1.0 - ((end - q[2]) / (end - self.low)).max(0.0).sqrt(),
+        let t = match self.angle {
+            Angle::Same if shape.branch == Branch::Level => {
+                (q[2] / shape.squares[0].sqrt()).clamp(-1.0, 1.0).acos()
+            }
+            Angle::Same => q[2],
+            Angle::Stretched(bend) => ((q[2] - FRAC_PI_2) / bend).asinh(),
+            Angle::Ending { low, end } => 1.0 - ((end - q[2]) / (end - low)).max(0.0).sqrt(),
         };
         [t, q[0].atan2(q[1])]
     }
@@ -108,9 +138,9 @@ impl Chart {
             let (r, w1) = (sin_t.times(length), cos_t.times(length));
             return Place::level(shape, [r * sin, r * cos, w1]);
         }
-        let ends = [t.low, t.high].map(|t| self.phi(t));
-        let rate = Interval::new(ends[0][1].min(ends[1][1]), ends[0][1].max(ends[1][1]));
-        let angles = shape.angle_ranges(Interval::new(ends[0][0], ends[1][0].max(ends[0][0])));
+        let [low, high] = [t.low, t.high].map(|t| self.phi(t)[0]);
+        let rate = self.rate(t);
+        let angles = shape.angle_ranges(Interval::new(low, high.max(low)));
         let angles = angles.map(|[value, slope]| Jet { value, slopes: [slope * rate, Interval::ZERO] });
         let r = self.radius(shape, t, &angles.arm);
         Place::new(shape, [r * sin, r * cos], angles)
@@ -120,21 +150,19 @@ impl Chart {
     fn radius(&self, shape: &Shape, t: Interval, arm: &Jet) -> Jet {
         let root = |arm: f64| (shape.squares[0] - arm * arm).max(0.0).sqrt();
         let value = Interval::new(root(arm.value.high), root(arm.value.low));
-        let slope = match self.end {
-            None => -(arm.value * arm.slopes[0] * value.reciprocal()),
-            Some(end) => {
-                // With r² = (end - φ) K, where K is a mean of 2 ℓ dℓ/dφ from φ to the end, and end - φ = reach (1 - t)²:
-                // dr/dt = -2 ℓ dℓ/dφ √(reach / K).
-                let from = self.phi(t.low)[0];
-                let to = self.phi(t.high)[0].max(from);
-                let [beyond, here] =
-                    [Interval::new(from, end.max(from)), Interval::new(from, to)].map(|phi| {
-                        let [arm, rate] = shape.angle_ranges(phi).arm;
-                        (arm * rate).times(2.0)
-                    });
-                let least = Interval::new(beyond.low.max(1e-12), beyond.high.max(1e-12));
-                -(here * least.reciprocal().times(end - self.low).root())
-            }
+        let slope = if let Angle::Ending { low, end } = self.angle {
+            // With r² = (end - φ) K, where K is a mean of 2 ℓ dℓ/dφ from φ to the end, and end - φ = reach (1 - t)²:
+            // dr/dt = -2 ℓ dℓ/dφ √(reach / K).
+            let from = self.phi(t.low)[0];
+            let to = self.phi(t.high)[0].max(from);
+            let [beyond, here] = [Interval::new(from, end.max(from)), Interval::new(from, to)].map(|phi| {
+                let [arm, rate] = shape.angle_ranges(phi).arm;
+                (arm * rate).times(2.0)
+            });
+            let least = Interval::new(beyond.low.max(1e-12), beyond.high.max(1e-12));
+            -(here * least.reciprocal().times(end - low).root())
+        } else {
+            -(arm.value * arm.slopes[0] * value.reciprocal())
         };
         Jet { value, slopes: [slope, Interval::ZERO] }
     }

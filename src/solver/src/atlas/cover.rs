@@ -18,6 +18,8 @@ use crate::workspace::Observer;
 
 /// Boxes along φ and θ at the start.
 const START: [u32; 2] = [4, 8];
+/// By how much edges are off the planes of symmetry, on which whole curves may lie.
+const SHIFT: f64 = 0.0618;
 /// Most boxes, and most parts of edges, that are examined.
 pub(super) const MOST: usize = 400_000;
 /// Boxes between two questions to the observer.
@@ -75,7 +77,7 @@ impl Search<'_> {
             }
             let Some(enclosure) = Enclosure::of(self, &cell) else { continue };
             let size = enclosure.image_size();
-            let is_settled = enclosure.tangent_has_a_sign() && 2.0 * size <= self.window_side();
+            let is_settled = enclosure.tangent_has_a_sign() && 4.0 * size <= self.window_side();
             if is_settled || size < self.tolerance {
                 self.edges(&cell, &mut found);
             } else {
@@ -92,17 +94,19 @@ impl Search<'_> {
     fn first_cells(&self) -> Vec<Cell> {
         let parts = |range: Interval, count: u32| {
             let step = (range.high - range.low) / f64::from(count);
-            let end = move |i: u32| if i == count { range.high } else { range.low + step * f64::from(i) };
+            let end = move |i: u32| match i {
+                0 => range.low,
+                i if i == count => range.high,
+                i => range.low + step * (f64::from(i) + SHIFT),
+            };
             (0..count).map(move |i| Interval::new(end(i), end(i + 1)))
         };
-        let side = |level: bool| if level { LegSide::Level } else { LegSide::Either };
-        let sides =
-            [side(self.system.target == Target::LegTwo), side(self.system.target == Target::LegThree)];
+        let side = |target| if self.system.target == target { LegSide::Level } else { LegSide::Either };
+        let sides = [side(Target::LegTwo), side(Target::LegThree)];
         let [columns, rows] = START;
+        let turn = Interval::around(PI).plus(SHIFT);
         parts(self.chart.range, columns)
-            .flat_map(|t| {
-                parts(Interval::around(PI), rows).map(move |theta| Cell { ranges: [t, theta], sides })
-            })
+            .flat_map(|t| parts(turn, rows).map(move |theta| Cell { ranges: [t, theta], sides }))
             .collect()
     }
 

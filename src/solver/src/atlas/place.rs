@@ -88,6 +88,17 @@ impl<'a, T: Scalar> Place<'a, T> {
         (self.x1.square() + across).plus(-self.shape.squares[0])
     }
 
+    /// Zero where two angles of leg I merge: the platform's y is stationary along leg I's motion at constant X1. On the
+    /// branches of R1 = r1 that is where they meet.
+    pub(super) fn leg_one_fold(&self) -> T {
+        let Some((LegOneAngles { cos_phi, sin_phi, arm, cos_psi, .. }, m)) = self.angles else { return self.w1 };
+        if self.shape.branch == Branch::Crossed {
+            return cos_phi;
+        }
+        (m.square() * cos_phi * cos_psi).times(self.shape.R1)
+            - (arm.square() * sin_phi.square()).times(self.shape.r1)
+    }
+
     /// The coordinates in the plane of an atlas, in units of the longest dimension, without the heights of legs II and
     /// III; the second number is the factor of these.
     pub(super) fn image(&self, space: Space) -> ([T; 2], f64) {

@@ -113,9 +113,7 @@ pub(super) fn traced<'a>(
                     let path = Path::Zeros(system);
                     let mut nodes = path.refined(&chain, &fineness);
                     mark_ends(&mut nodes, ends);
-                    if space == Space::Joints && kind.is_none() {
-                        mark_tangencies(&system, &mut nodes);
-                    }
+                    mark_tangencies(&system, &mut nodes);
                     arcs.push(Arc { kind, path, nodes, closed });
                 }
             }
@@ -167,6 +165,7 @@ fn components(
             starts.extend(found.iter().map(|q| system.mirrored(q)));
         }
     }
+    if std::env::var("V").is_ok() { eprintln!("{:?} {:?} starts {}", system.target, system.shape.branch, starts.len()); }
     let mut chains: Vec<Chain> = Vec::new();
     for start in starts {
         if system.reserve(&start) < 0.0 || !beyond[1].contains(system.image(&start)) {
@@ -176,7 +175,7 @@ fn components(
             .iter()
             .any(|(chain, _, _)| chain.windows(2).any(|pair| system.contains([&pair[0], &pair[1]], &start)));
         if !is_known {
-            chains.push(component(system, &start, &beyond[1]));
+            let c = component(system, &start, &beyond[1]); if std::env::var("V").is_ok() { eprintln!("chain {} closed {} ends {:?} first {:?} last {:?} from {start:?}", c.0.len(), c.1, c.2, c.0[0], c.0[c.0.len()-1]); } chains.push(c);
         }
     }
     Ok(chains)
@@ -214,18 +213,25 @@ fn mark_ends(nodes: &mut [ArcNode], [start, end]: [End; 2]) {
     }
 }
 
-/// Inserts the points at which `det_P` is zero: there the curve touches that of `det_P`.
+/// Inserts the points at which the curve touches that on which the plane is covered anew: leg I's fold, or the curve
+/// of `det_P`.
 fn mark_tangencies(system: &System<'_>, nodes: &mut Vec<ArcNode>) {
+    if system.target.is_critical() || system.target == Target::Constraint {
+        return;
+    }
     let critical = System { target: Target::Parallel, ..*system };
-    // The factor that is left out for e1 = e2 is zero at the ends of curves only.
-    let determinant = |q: &Configuration| critical.linearised(q).0[3];
+    let fold = |q: &Configuration| match system.space {
+        Space::Platform => system.shape.place(q).leg_one_fold(),
+        // The factor that is left out for e1 = e2 is zero at the ends of curves only.
+        Space::Joints => critical.linearised(q).0[3],
+    };
     let path = Path::Zeros(*system);
     let mut i = 0;
     while i + 1 < nodes.len() {
         let [a, b] = [nodes[i], nodes[i + 1]];
-        let product = determinant(&a.q) * determinant(&b.q);
+        let product = fold(&a.q) * fold(&b.q);
         if product < 0.0
-            && let Some(q) = system.zero_between([&a.q, &b.q], determinant)
+            && let Some(q) = system.zero_between([&a.q, &b.q], fold)
         {
             nodes.insert(i + 1, ArcNode { mark: Some(PointKind::Tangency), ..path.node(q) });
             i += 1;
