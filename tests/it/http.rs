@@ -3,6 +3,7 @@
 mod admission;
 mod bad_input;
 mod batch;
+mod certificates;
 mod client_quotas;
 mod continuous_batch;
 mod cross_origin_requests;

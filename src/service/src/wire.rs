@@ -7,6 +7,7 @@ pub(crate) mod answer;
 pub(crate) mod batch;
 pub(crate) mod bounded_list;
 pub(crate) mod canonical_toolpath;
+pub(crate) mod certificate;
 pub(crate) mod code_list;
 pub(crate) mod constraint;
 pub(crate) mod contains;

@@ -5,7 +5,7 @@
 //! machine*, AIM 2007 ([arXiv:0707.3507](https://arxiv.org/abs/0707.3507)). Lengths are millimetres, angles radians.
 //! z points **down** in the base frame, and up from the table in the part frame. All functions are pure. None panics
 //! and none returns a NaN. The solver checks every posture by Eqs (3)-(6) before it returns it. The workspace is
-//! derived in [`workspace`].
+//! derived in [`workspace`]. [`certificate`] proves solutions.
 //!
 #![doc = include_str!("kinematics.md")]
 //!
@@ -23,6 +23,7 @@ extern crate self as verne_solver;
 mod random;
 
 pub mod axis;
+pub mod certificate;
 mod clearance;
 mod error;
 pub mod error_budget;

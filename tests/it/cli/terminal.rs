@@ -3,7 +3,7 @@
 use serde_json::Value;
 use verne_service::Terminal;
 
-use super::{Ran, answering, json, run_on};
+use super::{Ran, answering, json, run_on, verne};
 
 const WIDE: Terminal = Terminal { width: 120, colours: false };
 
@@ -43,6 +43,20 @@ fn solutions_are_the_rows_of_a_table() {
     let line = "fk --rho 674,685,250 --solutions all";
     let solutions = json(line)["solutions"].as_array().unwrap().len();
     assert!(on_terminal(line).starts_with(&format!("verne: {solutions} solutions\n")));
+}
+
+#[test]
+fn proofs_are_a_column_and_a_sentence() {
+    let text = on_terminal("ik --x 100 --y 50 --z 300 --phi2 0 --certified");
+    assert!(text.contains("It is proved that there are no other solutions."), "{text}");
+    assert!(text.contains("proof") && text.contains("within ") && text.contains("e-1"), "{text}");
+    let free = on_terminal("ik --x 100 --y 50 --z 300 --certified");
+    assert!(free.contains("It is not proved that there are no other solutions: phi2 is free"), "{free}");
+    let plain = on_terminal("ik --x 100 --y 50 --z 300 --phi2 0");
+    assert!(!plain.contains("proof") && !plain.contains("proved"), "{plain}");
+    let certified = json("fk --rho 674,685,250 --solutions all --certified");
+    assert_eq!(certified["completeness"]["complete"], true);
+    assert!(verne("ik --batch poses.csv --certified").unwrap_err().contains("--certified"));
 }
 
 #[test]

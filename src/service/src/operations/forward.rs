@@ -1,6 +1,7 @@
 //! `/fk`: the poses of platform, tool and part for given joints.
 
-use verne_solver::{forward, forward_working};
+use verne_solver::certificate::{Scope, certify_forward};
+use verne_solver::{Posture, forward, forward_working};
 
 use crate::operations::jacobians::characteristic_length;
 use crate::operations::machine_registry::MachineRegistry;
@@ -11,7 +12,7 @@ use crate::wire::answer::Answer;
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::FieldErrors;
 use crate::wire::jacobian::check_jacobian;
-use crate::wire::request::{FkRequest, SolutionFilter};
+use crate::wire::request::FkRequest;
 
 /// Answers a request for poses.
 pub(crate) fn answer_fk(request: &FkRequest, machines: &MachineRegistry) -> Result<Answer, OperationError> {
@@ -23,13 +24,14 @@ pub(crate) fn answer_fk(request: &FkRequest, machines: &MachineRegistry) -> Resu
         faults.proportion(&format!("/joints/rho/{i}"), rho, &machine);
     }
     faults.into_result()?;
-    let complete = |posture| SolvedPosture { posture, table, requested: None, windings: None };
+    let complete = |posture| SolvedPosture { posture, table, requested: None, windings: None, proof: None };
+    let scope = request.solutions.scope();
+    let certify =
+        request.certified.then_some(|found: &[Posture]| certify_forward(&machine, rho, found, scope));
     let mut set = SolutionSet::default();
-    match request.solutions {
-        SolutionFilter::All => set.add(forward(&machine, rho), complete),
-        SolutionFilter::Working | SolutionFilter::Feasible => {
-            set.add(forward_working(&machine, rho).map(|posture| [posture]), complete);
-        }
+    match scope {
+        Scope::All => set.add(forward(&machine, rho), certify, complete),
+        Scope::Working => set.add(forward_working(&machine, rho).map(|posture| [posture]), certify, complete),
     }
     let tool = request.tool();
     let builder = AnswerBuilder {

@@ -1,5 +1,7 @@
 //! `/ik`: the joints that bring the machine to a pose.
 
+use arrayvec::ArrayVec;
+use verne_solver::certificate::{Scope, certify_part, certify_platform, certify_tool};
 use verne_solver::{
     Machine, Point, Posture, part, part_every_working, platform, platform_working, tool, tool_every_working,
 };
@@ -8,7 +10,7 @@ use crate::operations::jacobians::characteristic_length;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::nearest::check_near;
 use crate::operations::requested_orientation::{
-    RequestedOrientations, check_no_orientation, requested_orientations,
+    RequestedOrientations, check_no_orientation, enclosed_orientations, requested_orientations,
 };
 use crate::operations::solutions::{AnswerBuilder, SolutionSet, SolvedPosture};
 use crate::operations::table_angles::ToolOrientation;
@@ -16,7 +18,7 @@ use crate::wire::answer::Answer;
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::FieldErrors;
 use crate::wire::jacobian::check_jacobian;
-use crate::wire::request::{Frame, IkRequest, SolutionFilter};
+use crate::wire::request::{Frame, IkRequest};
 
 /// Answers a request for joints.
 pub(crate) fn answer_ik(request: &IkRequest, machines: &MachineRegistry) -> Result<Answer, OperationError> {
@@ -86,30 +88,51 @@ fn in_part(
     point: Point,
     requested: &RequestedOrientations,
 ) -> SolutionSet {
+    let (scope, length) = (request.solutions.scope(), request.tool_length);
+    let solve = if scope == Scope::All { part } else { part_every_working };
+    let enclosed = if request.certified {
+        enclosed_orientations(&request.pose, request.near.as_ref())
+    } else {
+        ArrayVec::new()
+    };
     let mut set = SolutionSet::default();
-    for &[phi1, phi2] in &requested.each {
+    for (i, &[phi1, phi2]) in requested.each.iter().enumerate() {
         let orientation = ToolOrientation::of_radians([phi1, phi2]);
         let target = orientation.at(point);
         let windings = Some(orientation.windings(machine));
         let complete = |posture: Posture| {
             let table = orientation.table(machine, posture.pose.alpha, request.near.as_ref());
-            SolvedPosture { posture, table: Some(table), requested: Some([phi1, phi2]), windings }
+            let requested = Some([phi1, phi2]);
+            SolvedPosture { posture, table: Some(table), requested, windings, proof: None }
         };
-        let solve = if request.solutions == SolutionFilter::All { part } else { part_every_working };
-        set.add(solve(machine, &target, request.tool_length), complete);
+        let certify = enclosed.get(i).map(|enclosed| {
+            move |found: &[Posture]| certify_part(machine, point, enclosed, length, found, scope)
+        });
+        set.add(solve(machine, &target, length), certify, complete);
     }
     set
 }
 
 fn in_base(machine: &Machine, request: &IkRequest, point: Point) -> SolutionSet {
-    let (all, length) = (request.solutions == SolutionFilter::All, request.tool_length);
-    let complete = |posture| SolvedPosture { posture, table: None, requested: None, windings: None };
+    let (scope, length) = (request.solutions.scope(), request.tool_length);
+    let complete =
+        |posture| SolvedPosture { posture, table: None, requested: None, windings: None, proof: None };
+    let of_tool = request.frame == Frame::Tool;
+    let certify = request.certified.then_some(|found: &[Posture]| {
+        if of_tool {
+            certify_tool(machine, point, length, found, scope)
+        } else {
+            certify_platform(machine, point, found, scope)
+        }
+    });
     let mut set = SolutionSet::default();
-    match (request.frame == Frame::Tool, all) {
-        (true, true) => set.add(tool(machine, point, length), complete),
-        (true, false) => set.add(tool_every_working(machine, point, length), complete),
-        (false, true) => set.add(platform(machine, point), complete),
-        (false, false) => set.add(platform_working(machine, point).map(|posture| [posture]), complete),
+    match (of_tool, scope) {
+        (true, Scope::All) => set.add(tool(machine, point, length), certify, complete),
+        (true, Scope::Working) => set.add(tool_every_working(machine, point, length), certify, complete),
+        (false, Scope::All) => set.add(platform(machine, point), certify, complete),
+        (false, Scope::Working) => {
+            set.add(platform_working(machine, point).map(|posture| [posture]), certify, complete);
+        }
     }
     set
 }

@@ -2,9 +2,11 @@
 
 use arrayvec::ArrayVec;
 use verne_solver::axis::{Preimages, preimages};
+use verne_solver::certificate::EnclosedOrientation;
 
-use crate::wire::degrees::from_degrees;
+use crate::wire::degrees::{from_degrees, radians_around};
 use crate::wire::field_errors::FieldErrors;
+use crate::wire::fixed_array::FixedArray;
 use crate::wire::request::{Near, TargetPose};
 
 /// The requested orientations: one, or the two that have the same tool axis.
@@ -23,12 +25,33 @@ impl RequestedOrientations {
 
     /// The member of the family with theta2 of `near`, or with theta2 = 0.
     fn family(phi1: f64, near: Option<&Near>) -> Self {
-        let theta2 = match near {
-            Some(Near::Joints(joints)) => joints.theta2.unwrap_or(0.0),
-            _ => 0.0,
-        };
-        Self { free: true, ..Self::one(phi1, 0.0 - from_degrees(theta2)) }
+        Self { free: true, ..Self::one(phi1, 0.0 - from_degrees(theta2_of_family(near))) }
     }
+}
+
+/// theta2 of the member of a family of solutions, degrees.
+fn theta2_of_family(near: Option<&Near>) -> f64 {
+    match near {
+        Some(Near::Joints(joints)) => joints.theta2.unwrap_or(0.0),
+        _ => 0.0,
+    }
+}
+
+/// Bounds of the orientations of [`requested_orientations`], in the same order: of the angles in degrees, or of the
+/// axis, that the request states. An axis near the table's own counts as the table's own.
+pub(crate) fn enclosed_orientations(
+    pose: &TargetPose,
+    near: Option<&Near>,
+) -> ArrayVec<EnclosedOrientation, 2> {
+    if let Some(both) = pose.axis.and_then(|axis| EnclosedOrientation::of_axis(axis.0)) {
+        return both.into();
+    }
+    let along_axis = pose.axis.map(|FixedArray([_, _, k])| if k > 0.0 { 0.0 } else { 180.0 });
+    let phi1 = along_axis.or(pose.phi1).unwrap_or(0.0);
+    // theta2 = -phi2; a free phi2 is that of the family's member.
+    let is_free = phi1 % 180.0 == 0.0;
+    let phi2 = pose.phi2.unwrap_or_else(|| if is_free { 0.0 - theta2_of_family(near) } else { 0.0 });
+    EnclosedOrientation::within(radians_around(phi1), radians_around(phi2)).into_iter().collect()
 }
 
 /// The orientations of a pose in frame `part`. Adds a fault if the pose determines none, or contradicts itself.

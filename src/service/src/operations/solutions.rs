@@ -3,6 +3,7 @@
 
 use std::cmp::Ordering;
 
+use verne_solver::certificate::{Certification, PostureBox, Unproved};
 use verne_solver::{
     Clearance, Constraint, Element, KinematicsError, Machine, Margin, Margins, PartPose, Posture,
     TableAngles, jacobian, part_pose, tool_point,
@@ -12,7 +13,8 @@ use crate::operations::jacobians::jacobian_object;
 use crate::operations::machine_registry::IdentifiedMachine;
 use crate::operations::nearest::squared_distance;
 use crate::operations::table_angles::TablePosition;
-use crate::wire::answer::{Answer, Free, ModeObject, PartObject, Reason, Solution};
+use crate::wire::answer::{Answer, Free, ModeObject, PartObject, PlatformObject, Reason, Solution};
+use crate::wire::certificate::{CertificateObject, IncompleteReason};
 use crate::wire::error::{FieldError, OperationError};
 use crate::wire::field_errors::too_far;
 use crate::wire::fixed_array::FixedArray;
@@ -32,6 +34,8 @@ pub(crate) struct SolvedPosture {
     pub(crate) requested: Option<[f64; 2]>,
     /// How many windings of theta2 are within its range, if the request has an orientation.
     pub(crate) windings: Option<Windings>,
+    /// What is proved, if the request asks for it.
+    pub(crate) proof: Option<Result<PostureBox, Unproved>>,
 }
 
 /// The solver's postures for all orientations of a request.
@@ -40,18 +44,37 @@ pub(crate) struct SolutionSet {
     pub(crate) postures: Vec<SolvedPosture>,
     /// The first refusal.
     pub(crate) refusal: Option<KinematicsError>,
+    /// Whether there are no others, if the request asks for a proof.
+    completeness: Option<Result<(), IncompleteReason>>,
 }
 
 impl SolutionSet {
-    /// Adds the postures of one call of the solver.
-    pub(crate) fn add(
+    /// Adds the postures of one call of the solver, with their proofs if `certify` is given.
+    pub(crate) fn add<P: AsRef<[Posture]>>(
         &mut self,
-        outcome: Result<impl IntoIterator<Item = Posture>, KinematicsError>,
+        outcome: Result<P, KinematicsError>,
+        certify: Option<impl FnOnce(&[Posture]) -> Certification>,
         complete: impl Fn(Posture) -> SolvedPosture,
     ) {
-        match outcome {
-            Ok(postures) => self.postures.extend(postures.into_iter().map(complete)),
-            Err(refusal) => _ = self.refusal.get_or_insert(refusal),
+        let postures = outcome.as_ref().map_or(&[][..], AsRef::as_ref);
+        self.postures.extend(postures.iter().copied().map(complete));
+        if let Some(certify) = certify {
+            let proved = match &outcome {
+                Ok(_) | Err(KinematicsError::Unreachable(_)) => {
+                    let Certification { boxes, complete } = certify(postures);
+                    let first = self.postures.len() - postures.len();
+                    for (solved, found) in self.postures[first..].iter_mut().zip(boxes) {
+                        solved.proof = Some(found);
+                    }
+                    complete.map_err(Into::into)
+                }
+                // Other refusals are errors of the request.
+                Err(_) => Err(IncompleteReason::SelfMotion),
+            };
+            self.completeness = Some(self.completeness.unwrap_or(Ok(())).and(proved));
+        }
+        if let Err(refusal) = outcome {
+            self.refusal.get_or_insert(refusal);
         }
     }
 }
@@ -102,18 +125,23 @@ impl AnswerBuilder<'_> {
         let free = if self.free { vec![Free::Phi2] } else { Vec::new() };
         let not_checked = Unchecked::beside(self.clearance.is_some());
         let machine = self.machine.id.clone();
-        Ok(Answer { machine, solutions, not_checked, free, reason, constraint })
+        let of_family = if self.free { Err(IncompleteReason::FreePhi2) } else { Ok(()) };
+        let completeness = set.completeness.map(|complete| complete.and(of_family).into());
+        Ok(Answer { machine, solutions, completeness, not_checked, free, reason, constraint })
     }
 
     fn solution(&self, solved: &SolvedPosture, index: usize, margins: &Margins) -> Solution {
         let posture = &solved.posture;
+        let platform = PlatformObject::from(posture.pose);
+        let certificate =
+            solved.proof.as_ref().map(|proof| CertificateObject::new(proof, platform.alpha, self.joints));
         Solution {
             joints: self.joints.then(|| Joints {
                 rho: FixedArray(posture.rho),
                 theta1: solved.table.map(|table| table.degrees[0]),
                 theta2: solved.table.map(|table| table.degrees[1]),
             }),
-            platform: posture.pose.into(),
+            platform,
             tool: tool_point(&posture.pose, self.tool_length).into(),
             part: solved.table.map(|table| self.part(solved, table.angles)),
             windings: solved.windings,
@@ -125,6 +153,7 @@ impl AnswerBuilder<'_> {
             conditioning: jacobian::conditioning(self.machine, posture).into(),
             jacobian: self.jacobian(solved),
             residual: posture.residual,
+            certificate,
         }
     }
 

@@ -6,6 +6,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 use verne_solver::{PartPose, PlatformPose, Point, Posture, Side, axis};
 
+use crate::wire::certificate::{CertificateObject, CompletenessObject};
 use crate::wire::degrees::to_degrees;
 use crate::wire::fixed_array::{FixedArray, Triple};
 use crate::wire::jacobian::JacobianObject;
@@ -32,6 +33,10 @@ pub(crate) struct Answer {
     pub machine: MachineId,
     /// Working solutions first, then in order of alpha, then of rho; with `near`, in order of distance from it.
     pub solutions: Vec<Solution>,
+    /// Whether it is proved that there are no other solutions. Only with `certified` in the request.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub completeness: Option<CompletenessObject>,
     /// Conditions that the service did not check.
     #[schema(value_type = Vec<Unchecked>)]
     pub not_checked: &'static [Unchecked],
@@ -110,6 +115,10 @@ pub(crate) struct Solution {
     pub jacobian: Option<JacobianObject>,
     /// Largest error of a rod length when the solution is inserted into Eqs (3)-(6), mm.
     pub residual: f64,
+    /// What is proved of the solution. Only with `certified` in the request.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(nullable = false)]
+    pub certificate: Option<CertificateObject>,
 }
 
 /// Pose of the platform in the base frame.
@@ -123,7 +132,7 @@ pub(crate) struct PlatformObject {
     /// z, mm. It points down.
     z: f64,
     /// Rotation about x, degrees.
-    alpha: f64,
+    pub alpha: f64,
 }
 
 /// A point, mm.

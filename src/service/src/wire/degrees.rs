@@ -70,6 +70,30 @@ fn nearest_with_radians(degrees: f64, radians: f64) -> Option<f64> {
     None
 }
 
+/// Doubles by which a bound is moved outwards after a conversion. The conversion multiplies by a rounded factor and
+/// rounds once: together by less than two doubles.
+const OUTWARDS: usize = 3;
+
+/// Bounds in degrees of an angle with these bounds in radians; `degrees`, which stand for such an angle, are inside.
+pub(crate) fn enclosing_degrees([low, high]: [f64; 2], degrees: f64) -> [f64; 2] {
+    [below(low.to_degrees()).min(degrees), above(high.to_degrees()).max(degrees)]
+}
+
+/// Bounds in radians, within half a turn of zero, of the direction of an angle in degrees. Zero is exact.
+pub(crate) fn radians_around(degrees: f64) -> [f64; 2] {
+    let rest = degrees - 360.0 * whole_turns(degrees);
+    let radians = from_degrees(rest);
+    if rest == 0.0 { [0.0; 2] } else { [below(radians), above(radians)] }
+}
+
+fn below(number: f64) -> f64 {
+    (0..OUTWARDS).fold(number, |bound, _| bound.next_down())
+}
+
+fn above(number: f64) -> f64 {
+    (0..OUTWARDS).fold(number, |bound, _| bound.next_up())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,5 +143,24 @@ mod tests {
     fn angles_that_no_degrees_give_keep_their_digits() {
         let radians = 0.123_456_789_012_345_68;
         assert!((from_degrees(to_degrees(radians)) - radians).abs() <= f64::EPSILON * radians);
+    }
+
+    /// Products of doubles, with their rounding errors, tell whether degrees times π/180 is within bounds.
+    #[test]
+    fn bounds_contain_the_angle() {
+        // π/180 and what its double lacks.
+        let (unit, rest) = (std::f64::consts::PI / 180.0, 2.939_165_160_166_455e-19);
+        for i in -20_000..20_000 {
+            let degrees = f64::from(i) * 0.009;
+            let [low, high] = radians_around(degrees);
+            let product = degrees * unit;
+            let error = degrees.mul_add(unit, -product) + degrees * rest;
+            let above_low = (product - low) + error;
+            let below_high = (high - product) - error;
+            assert!(above_low >= 0.0 && below_high >= 0.0 && high - low <= 2e-15, "{degrees}");
+            let back = enclosing_degrees([low, high], degrees);
+            assert!(back[0] <= degrees && degrees <= back[1] && back[1] - back[0] < 2e-13, "{degrees}");
+        }
+        assert_eq!(radians_around(-720.0), [0.0; 2]);
     }
 }

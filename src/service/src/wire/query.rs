@@ -61,6 +61,11 @@ pub(crate) struct FkQuery {
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 1e-3, maximum = 1e7, nullable = false)]
     pub characteristic_length: Option<f64>,
+    /// Whether to prove the solutions: each has its `certificate`, and the answer its `completeness`.
+    #[serde(default)]
+    #[arg(long)]
+    #[param(default = false)]
+    pub certified: bool,
     /// Sort the solutions by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2.
     #[arg(long, allow_hyphen_values = true)]
     #[param(inline, style = Form, explode = false, nullable = false)]
@@ -142,6 +147,11 @@ pub(crate) struct IkQuery {
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 1e-3, maximum = 1e7, nullable = false)]
     pub characteristic_length: Option<f64>,
+    /// Whether to prove the solutions: each has its `certificate`, and the answer its `completeness`.
+    #[serde(default)]
+    #[arg(long)]
+    #[param(default = false)]
+    pub certified: bool,
     /// Sort the solutions by distance from these joints: rho1,rho2,rho3 or rho1,rho2,rho3,theta1,theta2. theta1 and
     /// theta2 of the solutions are on the windings within their ranges that are nearest to these.
     #[arg(long, allow_hyphen_values = true)]
@@ -166,6 +176,7 @@ impl FkQuery {
             solutions: self.solutions,
             jacobian: self.jacobian,
             characteristic_length: self.characteristic_length,
+            certified: self.certified,
         })
     }
 }
@@ -185,6 +196,7 @@ impl IkQuery {
             solutions: self.solutions,
             jacobian: self.jacobian,
             characteristic_length: self.characteristic_length,
+            certified: self.certified,
         })
     }
 }

@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
+use verne_solver::certificate::Scope;
 
 use crate::wire::fixed_array::Triple;
 use crate::wire::machine_ref::MachineRef;
@@ -45,6 +46,10 @@ pub(crate) struct FkRequest {
     #[serde(default)]
     #[schema(minimum = 1e-3, maximum = 1e7)]
     pub characteristic_length: Option<f64>,
+    /// Whether to prove the solutions: each has its `certificate`, and the answer its `completeness`.
+    #[serde(default)]
+    #[schema(default = false)]
+    pub certified: bool,
     /// Sort the solutions by distance from these joints or this pose.
     #[serde(default, deserialize_with = "optional_strict_object")]
     pub near: Option<Near>,
@@ -89,6 +94,10 @@ pub(crate) struct IkRequest {
     #[serde(default)]
     #[schema(minimum = 1e-3, maximum = 1e7)]
     pub characteristic_length: Option<f64>,
+    /// Whether to prove the solutions: each has its `certificate`, and the answer its `completeness`.
+    #[serde(default)]
+    #[schema(default = false)]
+    pub certified: bool,
     /// Sort the solutions by distance from these joints or this pose.
     #[serde(default, deserialize_with = "optional_strict_object")]
     pub near: Option<Near>,
@@ -177,6 +186,16 @@ pub(crate) enum SolutionFilter {
     Feasible,
     /// Every solution of the equations.
     All,
+}
+
+impl SolutionFilter {
+    /// The solutions for which the solver is asked.
+    pub(crate) fn scope(self) -> Scope {
+        match self {
+            Self::All => Scope::All,
+            Self::Working | Self::Feasible => Scope::Working,
+        }
+    }
 }
 
 /// Reference for the order of the solutions: joints, or a pose of the platform in the base frame.

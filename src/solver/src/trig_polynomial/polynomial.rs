@@ -1,15 +1,28 @@
 //! Trigonometric polynomials in the Fourier basis.
 
+use std::ops::{Add, Mul, Sub};
+
 use crate::fast_math::sin_cos;
+
+/// A coefficient: a number, or an interval that contains it.
+pub(crate) trait Coefficient:
+    Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
+}
+
+impl<T> Coefficient for T where
+    T: Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
+}
 
 /// `cos[0] + Σ (cos[n] cos nθ + sin[n] sin nθ)` of degree M - 1; `sin[0]` is zero.
 ///
 /// The Fourier basis keeps products exact in form, is invariant under rotation, and bounds every
 /// derivative by its coefficients alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct TrigPolynomial<const M: usize> {
-    pub(crate) cos: [f64; M],
-    pub(crate) sin: [f64; M],
+pub(crate) struct TrigPolynomial<const M: usize, T = f64> {
+    pub(crate) cos: [T; M],
+    pub(crate) sin: [T; M],
 }
 
 /// Value and slope at one angle.
@@ -21,30 +34,31 @@ pub(crate) struct ValueAndSlope {
 
 /// `constant + cos · cos θ + sin · sin θ`.
 #[inline(always)]
-pub(crate) fn linear(constant: f64, cos: f64, sin: f64) -> TrigPolynomial<2> {
-    TrigPolynomial { cos: [constant, cos], sin: [0.0, sin] }
+pub(crate) fn linear<T: Coefficient>(constant: T, cos: T, sin: T) -> TrigPolynomial<2, T> {
+    TrigPolynomial { cos: [constant, cos], sin: [T::from(0.0), sin] }
 }
 
-impl TrigPolynomial<2> {
+impl<T: Coefficient> TrigPolynomial<2, T> {
     /// The product of two polynomials of the first degree.
     #[inline]
-    pub(crate) fn times(&self, other: &Self) -> TrigPolynomial<3> {
+    pub(crate) fn times(&self, other: &Self) -> TrigPolynomial<3, T> {
         let ([a0, a1], [_, b1]) = (self.cos, self.sin);
         let ([c0, c1], [_, d1]) = (other.cos, other.sin);
-        let (cc, ss) = (0.5 * a1 * c1, 0.5 * b1 * d1);
+        let half = T::from(0.5);
+        let (cc, ss) = (half * a1 * c1, half * b1 * d1);
         TrigPolynomial {
             cos: [a0 * c0 + cc + ss, a0 * c1 + a1 * c0, cc - ss],
-            sin: [0.0, a0 * d1 + b1 * c0, 0.5 * (a1 * d1 + b1 * c1)],
+            sin: [T::from(0.0), a0 * d1 + b1 * c0, half * (a1 * d1 + b1 * c1)],
         }
     }
 }
 
-impl TrigPolynomial<3> {
+impl<T: Coefficient> TrigPolynomial<3, T> {
     /// The product with `constant + cos · cos θ`.
     #[inline]
-    pub(crate) fn times_even(&self, constant: f64, cos: f64) -> TrigPolynomial<4> {
+    pub(crate) fn times_even(&self, constant: T, cos: T) -> TrigPolynomial<4, T> {
         let ([a0, a1, a2], [_, b1, b2]) = (self.cos, self.sin);
-        let half = 0.5 * cos;
+        let half = T::from(0.5) * cos;
         TrigPolynomial {
             cos: [
                 constant * a0 + half * a1,
@@ -52,27 +66,28 @@ impl TrigPolynomial<3> {
                 constant * a2 + half * a1,
                 half * a2,
             ],
-            sin: [0.0, constant * b1 + half * b2, constant * b2 + half * b1, half * b2],
+            sin: [T::from(0.0), constant * b1 + half * b2, constant * b2 + half * b1, half * b2],
         }
     }
 
     /// The square.
     #[inline]
-    pub(crate) fn squared(&self) -> TrigPolynomial<5> {
+    pub(crate) fn squared(&self) -> TrigPolynomial<5, T> {
         let ([a0, a1, a2], [_, b1, b2]) = (self.cos, self.sin);
-        let (even1, even2) = (0.5 * (a1 * a1 + b1 * b1), 0.5 * (a2 * a2 + b2 * b2));
+        let [half, two] = [0.5, 2.0].map(T::from);
+        let (even1, even2) = (half * (a1 * a1 + b1 * b1), half * (a2 * a2 + b2 * b2));
         TrigPolynomial {
             cos: [
                 a0 * a0 + even1 + even2,
-                2.0 * a0 * a1 + a1 * a2 + b1 * b2,
-                2.0 * a0 * a2 + 0.5 * (a1 * a1 - b1 * b1),
+                two * a0 * a1 + a1 * a2 + b1 * b2,
+                two * a0 * a2 + half * (a1 * a1 - b1 * b1),
                 a1 * a2 - b1 * b2,
-                0.5 * (a2 * a2 - b2 * b2),
+                half * (a2 * a2 - b2 * b2),
             ],
             sin: [
-                0.0,
-                2.0 * a0 * b1 + a1 * b2 - a2 * b1,
-                2.0 * a0 * b2 + a1 * b1,
+                T::from(0.0),
+                two * a0 * b1 + a1 * b2 - a2 * b1,
+                two * a0 * b2 + a1 * b1,
                 a1 * b2 + a2 * b1,
                 a2 * b2,
             ],
@@ -80,27 +95,30 @@ impl TrigPolynomial<3> {
     }
 }
 
-impl<const M: usize> TrigPolynomial<M> {
-    const ZERO: Self = Self { cos: [0.0; M], sin: [0.0; M] };
-
+impl<const M: usize, T: Coefficient> TrigPolynomial<M, T> {
     /// `self + factor · other`.
     #[inline]
-    pub(crate) fn plus(mut self, factor: f64, other: &Self) -> Self {
+    pub(crate) fn plus(mut self, factor: T, other: &Self) -> Self {
         for n in 0..M {
-            self.cos[n] += factor * other.cos[n];
-            self.sin[n] += factor * other.sin[n];
+            self.cos[n] = self.cos[n] + factor * other.cos[n];
+            self.sin[n] = self.sin[n] + factor * other.sin[n];
         }
         self
     }
 
     /// The same polynomial seen as one of a higher degree.
     #[inline]
-    pub(crate) fn raised<const R: usize>(&self) -> TrigPolynomial<R> {
-        let mut raised = TrigPolynomial::<R>::ZERO;
+    pub(crate) fn raised<const R: usize>(&self) -> TrigPolynomial<R, T> {
+        let zero = T::from(0.0);
+        let mut raised = TrigPolynomial { cos: [zero; R], sin: [zero; R] };
         raised.cos[..M].copy_from_slice(&self.cos);
         raised.sin[..M].copy_from_slice(&self.sin);
         raised
     }
+}
+
+impl<const M: usize> TrigPolynomial<M> {
+    const ZERO: Self = Self { cos: [0.0; M], sin: [0.0; M] };
 
     /// `θ ↦ self(θ + angle)`.
     pub(crate) fn turned(&self, angle: f64) -> Self {

@@ -2,30 +2,8 @@
 
 use verne_solver::{Machine, forward, forward_working, jacobian, platform_working};
 
+use crate::machines::near_the_edge;
 use crate::random::Random;
-
-const DIFFERENCES: [f64; 12] = [0.0, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 9e-3];
-
-/// A machine at a relative difference from R1 = r1, from e1 = e2, or from both.
-pub(crate) fn near_the_edge(draw: &mut Random) -> Option<Machine> {
-    let mut data = Machine::verne().data().clone();
-    let g = &mut data.geometry;
-    for length in [&mut g.L1, &mut g.L2, &mut g.L3, &mut g.R1, &mut g.r1, &mut g.R2, &mut g.r4] {
-        *length *= draw.between(0.7, 1.3);
-    }
-    for offset in [&mut g.d1, &mut g.d2] {
-        *offset *= draw.between(0.3, 1.2);
-    }
-    let difference = draw.pick(&DIFFERENCES);
-    let kind = draw.pick(&[0, 1, 2]);
-    if kind != 1 {
-        g.R1 = g.r1 * (1.0 + difference);
-    }
-    if kind != 0 {
-        g.d2 = g.D2 - (g.D1 - g.d1) + difference * g.L1;
-    }
-    Machine::new(data).ok()
-}
 
 /// Numbers of poses that the forward problem does not return at all, or not as the first posture.
 fn lost(seed: u64, poses: u32) -> [u32; 2] {

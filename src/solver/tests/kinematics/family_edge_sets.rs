@@ -11,16 +11,16 @@ use crate::reference_cases::{number, numbers, text};
 const LENGTH: f64 = 1e-8;
 const ANGLE: f64 = 1e-11;
 
-struct Case {
-    tag: String,
-    machine: Machine,
-    rho: [f64; 3],
+pub(crate) struct Case {
+    pub(crate) tag: String,
+    pub(crate) machine: Machine,
+    pub(crate) rho: [f64; 3],
     /// x, y, z, alpha and whether the solution is in the working mode.
-    solutions: Vec<([f64; 4], bool)>,
+    pub(crate) solutions: Vec<([f64; 4], bool)>,
 }
 
 #[allow(non_snake_case, reason = "the paper's symbols")]
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     let sets: Vec<Value> =
         serde_json::from_str(include_str!("../../../../tests/reference/family-edge.json")).unwrap();
     let case = |case: &Value| {

@@ -10,6 +10,8 @@ mod lengths;
 mod machines;
 /// All solutions by brute force, from the plain data of a machine, and tests of the oracle itself.
 mod oracle;
+#[path = "../support/questions.rs"]
+mod questions;
 #[path = "../support/random.rs"]
 mod random;
 /// The published reference sets of `tests/reference`.
@@ -20,6 +22,7 @@ mod requests;
 // Tests.
 mod arbitrary_numbers;
 mod axis;
+mod certificates;
 mod common_lift;
 mod conditioning;
 mod degenerate_angles;

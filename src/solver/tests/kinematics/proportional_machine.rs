@@ -14,7 +14,7 @@ fn data() -> MachineData {
     data
 }
 
-fn machine() -> Machine {
+pub(crate) fn machine() -> Machine {
     Machine::new(data()).expect("its home pose is regular")
 }
 

@@ -11,6 +11,9 @@ use verne_solver::{Machine, MachineData};
 use super::lengths::lengths;
 use super::random::Random;
 
+/// Relative differences from R1 = r1 and from e1 = e2.
+const DIFFERENCES: [f64; 12] = [0.0, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 9e-3];
+
 /// The built-in machine with a change.
 pub(crate) fn changed(change: impl FnOnce(&mut MachineData)) -> Machine {
     let mut data = Machine::verne().data().clone();
@@ -109,6 +112,27 @@ pub(crate) fn spread(random: &mut Random) -> Option<Machine> {
     limits.slider_cone = random.between(30.0, 180.0).to_radians();
     limits.platform_cone = random.between(30.0, 180.0).to_radians();
     limits.serial_margin = random.between(-0.1, 0.4).max(0.0);
+    Machine::new(data).ok()
+}
+
+/// A machine at a relative difference from R1 = r1, from e1 = e2, or from both.
+pub(crate) fn near_the_edge(draw: &mut Random) -> Option<Machine> {
+    let mut data = Machine::verne().data().clone();
+    let g = &mut data.geometry;
+    for length in [&mut g.L1, &mut g.L2, &mut g.L3, &mut g.R1, &mut g.r1, &mut g.R2, &mut g.r4] {
+        *length *= draw.between(0.7, 1.3);
+    }
+    for offset in [&mut g.d1, &mut g.d2] {
+        *offset *= draw.between(0.3, 1.2);
+    }
+    let difference = draw.pick(&DIFFERENCES);
+    let kind = draw.pick(&[0, 1, 2]);
+    if kind != 1 {
+        g.R1 = g.r1 * (1.0 + difference);
+    }
+    if kind != 0 {
+        g.d2 = g.D2 - (g.D1 - g.d1) + difference * g.L1;
+    }
     Machine::new(data).ok()
 }
 

@@ -182,6 +182,41 @@ class Margins:
 
 
 @dataclass(frozen=True, slots=True)
+class SolutionBox:
+    """Bounds of each coordinate, ``[low, high]``: the equations have exactly one solution within them."""
+
+    x: list[float]
+    """Of the platform, mm."""
+    y: list[float]
+    z: list[float]
+    alpha: list[float]
+    """Degrees. A bound may exceed 180."""
+    rho: list[list[float]] | None = None
+    """The sliders. Only the inverse problem has them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """What is proved of a solution."""
+
+    proved: bool
+    box: SolutionBox | None = None
+    """Only of a proved solution."""
+    reason: str | None = None
+    """Why it is not proved: ``merged`` or ``near_singularity``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Completeness:
+    """Whether it is proved that there are no other solutions."""
+
+    complete: bool
+    reason: str | None = None
+    """Why it is not proved: ``unproved_solution``, ``undecided``, ``undecided_mode``, ``self_motion`` or
+    ``free_phi2``."""
+
+
+@dataclass(frozen=True, slots=True)
 class Solution:
     """A posture that satisfies the equations."""
 
@@ -199,6 +234,8 @@ class Solution:
     conditioning: Conditioning
     jacobian: Jacobian | None = None
     """Only with ``jacobian=True``."""
+    certificate: Certificate | None = None
+    """Only with ``certified=True``."""
     joints: Joints | None = None
     part: PartPose | None = None
     windings: int | None = None
@@ -217,6 +254,8 @@ class ForwardResult:
     """The reason why there is no solution: ``unreachable``, ``infeasible`` or ``self_motion``."""
     constraint: Limit | None = None
     """The limit that prevents a solution."""
+    completeness: Completeness | None = None
+    """Only with ``certified=True``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,5 +270,7 @@ class InverseResult:
     """The reason why there is no solution: ``unreachable``, ``infeasible`` or ``self_motion``."""
     constraint: Limit | None = None
     """The limit that prevents a solution."""
+    completeness: Completeness | None = None
+    """Only with ``certified=True``."""
     free: list[str] | None = None
     """``["phi2"]`` if the tool is parallel to the table's own axis."""

@@ -25,6 +25,7 @@ def fk(
     near_pose: Numbers | None = None,
     jacobian: bool = False,
     characteristic_length: float | None = None,
+    certified: bool = False,
     machine: str | Machine = "verne",
 ) -> Operation[ForwardResult]:
     """Solves the forward problem: from joints to poses.
@@ -42,6 +43,7 @@ def fk(
         jacobian: Whether each solution has its ``jacobian``. It needs theta1 and theta2.
         characteristic_length: Length by which the Jacobian's lengths are divided before its singular values are
             computed, mm. By default it is R1 of the machine.
+        certified: Whether to prove the solutions: each has its ``certificate``, and the result its ``completeness``.
         machine: Name of a published machine, or a machine.
 
     Raises:
@@ -56,6 +58,7 @@ def fk(
         near=_near(near_joints, near_pose),
         jacobian=jacobian or None,
         characteristic_length=characteristic_length,
+        certified=certified or None,
         machine=machine,
     )
     response = yield from session.send(session.post("fk", body))
@@ -80,6 +83,7 @@ def ik(
     near_pose: Numbers | None = None,
     jacobian: bool = False,
     characteristic_length: float | None = None,
+    certified: bool = False,
     machine: str | Machine = "verne",
 ) -> Operation[InverseResult]:
     """Solves the inverse problem: from a pose to joints.
@@ -104,6 +108,7 @@ def ik(
         jacobian: Whether each solution has its ``jacobian``. Only frame ``part`` has it.
         characteristic_length: Length by which the Jacobian's lengths are divided before its singular values are
             computed, mm. By default it is R1 of the machine.
+        certified: Whether to prove the solutions: each has its ``certificate``, and the result its ``completeness``.
         machine: Name of a published machine, or a machine.
 
     Raises:
@@ -119,6 +124,7 @@ def ik(
         near=_near(near_joints, near_pose),
         jacobian=jacobian or None,
         characteristic_length=characteristic_length,
+        certified=certified or None,
         machine=machine,
     )
     response = yield from session.send(session.post("ik", body))

@@ -58,7 +58,8 @@ fn of_service(machines: &MachineRegistry) -> Vec<Example> {
 
 fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
     let fk = parse_query::<FkQuery>("rho=674,685,250").and_then(FkQuery::into_request);
-    let ik = parse_query::<IkQuery>("frame=platform&x=-240&y=-86&z=1000").and_then(IkQuery::into_request);
+    let ik = parse_query::<IkQuery>("frame=platform&x=-240&y=-86&z=1000&certified=true")
+        .and_then(IkQuery::into_request);
     vec![
         get(
             "/fk",
@@ -67,13 +68,13 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
         ),
         get(
             "/ik",
-            json!({"frame": "platform", "x": -240, "y": -86, "z": 1000}),
+            json!({"frame": "platform", "x": -240, "y": -86, "z": 1000, "certified": true}),
             Some(json_of(ik.and_then(|request| answer_ik(&request, machines)))),
         ),
         post(
             "/fk",
             json!({"machine": "verne", "joints": {"rho": [674, 685, 250], "theta1": 0, "theta2": 0},
-                   "tool_length": 50, "table_clearance": 0, "solutions": "working"}),
+                   "tool_length": 50, "table_clearance": 0, "solutions": "working", "certified": true}),
             |body| parse_body(body).and_then(|request| answer_fk(&request, machines)),
         ),
         post(

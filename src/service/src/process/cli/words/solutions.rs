@@ -44,7 +44,8 @@ fn page(answer: &Value, columns: &[(&str, &str)]) -> Page {
     let solutions = answer["solutions"].as_array().map(Vec::as_slice).unwrap_or_default();
     let not_checked = format!("Not checked: {}.", not_checked(answer));
     if solutions.is_empty() {
-        return Page::new(format!("{machine}: no solution")).sentence(reason(answer)).sentence(not_checked);
+        let page = Page::new(format!("{machine}: no solution")).sentence(reason(answer));
+        return with_completeness(page, answer).sentence(not_checked);
     }
     let numbers = (1..=solutions.len()).map(|number| number.to_string());
     let table = Table::default().texts("#", numbers);
@@ -54,7 +55,10 @@ fn page(answer: &Value, columns: &[(&str, &str)]) -> Page {
     let worst = |solution: &Value| limit(&solution["margins"]["worst"]);
     let table =
         table.texts("state", solutions.iter().map(state)).texts("worst limit", solutions.iter().map(worst));
+    let is_certified = !answer["completeness"].is_null();
+    let table = if is_certified { table.texts("proof", solutions.iter().map(proof)) } else { table };
     let page = Page::new(format!("{machine}: {}", counted(solutions.len(), "solution"))).table(table);
+    let page = with_completeness(page, answer);
     let free = answer["free"].as_array().is_some_and(|free| !free.is_empty());
     let page = if free { page.sentence("The pose does not determine phi2.") } else { page };
     page.sentence(format!("Lengths in mm, angles in degrees. {not_checked} All fields: --json."))
@@ -67,6 +71,36 @@ fn state(solution: &Value) -> &'static str {
         (true, false) => "infeasible",
         (false, false) => "not working",
     }
+}
+
+/// Whether a solution is proved, and to how many millimetres.
+fn proof(solution: &Value) -> String {
+    let certificate = &solution["certificate"];
+    if certificate["proved"] != true {
+        return text_at(certificate, "/reason").replace('_', " ");
+    }
+    let found = &certificate["box"];
+    let lengths =
+        ["/x", "/y", "/z", "/rho/0", "/rho/1", "/rho/2"].into_iter().filter_map(|at| found.pointer(at));
+    let widths = lengths.filter_map(|bounds| Some(bounds[1].as_f64()? - bounds[0].as_f64()?));
+    format!("within {:.0e} mm", widths.fold(0.0, f64::max))
+}
+
+/// Whether there are no other solutions.
+fn with_completeness(page: Page, answer: &Value) -> Page {
+    let completeness = &answer["completeness"];
+    if completeness.is_null() {
+        return page;
+    }
+    let because = match text_at(completeness, "/reason") {
+        "" => return page.sentence("It is proved that there are no other solutions."),
+        "unproved_solution" => "a solution is not proved",
+        "undecided_mode" => "rounding decides whether a solution is in the working mode",
+        "self_motion" => "the solutions form a curve",
+        "free_phi2" => "phi2 is free, and each has its own",
+        _ => "rounding decides, as where two solutions nearly merge",
+    };
+    page.sentence(format!("It is not proved that there are no other solutions: {because}."))
 }
 
 /// A limit with its margin.
