@@ -3,6 +3,7 @@
 import { effect } from "@preact/signals";
 import { render } from "preact";
 import { Page } from "./panels/page";
+import { keepAtlasPanel } from "./atlas/entry";
 import { keepDexterityPanel } from "./dexterity/entry";
 import { keepFamilyPanel } from "./families/entry";
 import { followLinks } from "./program/entry";
@@ -32,6 +33,7 @@ async function start(): Promise<void> {
   followLinks();
   keepFamilyPanel();
   keepDexterityPanel();
+  keepAtlasPanel();
 }
 
 /** Another tool, another height over the table or other ghosts: the same joints are solved anew. */

@@ -17,6 +17,7 @@ import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
 import { MeasurementCaption } from "./measurement_caption";
 import { Notices } from "./notices";
+import { AtlasSection } from "../atlas/entry";
 import { DexterityCaption, DexteritySection, showLayersIn } from "../dexterity/entry";
 import { FamilySection } from "../families/entry";
 import { openProgramFile, ProgramDialogs, ProgramDock, ProgramSection, showPathIn } from "../program/entry";
@@ -66,6 +67,7 @@ export function Page() {
           <WorkspacePanel />
           <FamilySection />
           <DexteritySection />
+          <AtlasSection />
         </div>
         <ProgramDock />
       </main>

@@ -1,6 +1,6 @@
 /** What is looked at: everything that a colleague needs to see the same. */
 
-import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
+import type { AtlasSpace, Machine, PlatformPose, WorkspaceKind } from "verne-client";
 import type { Settings } from "../program/settings";
 
 /** Solutions with the same sliders (assembly), the same platform position, or the same tool pose. */
@@ -31,6 +31,13 @@ export interface View {
   program: ProgramView | null;
   family: FamilyView;
   dexterity: DexterityView;
+  atlas: AtlasView;
+}
+
+/** The section for the map of solutions, with its plane. */
+export interface AtlasView {
+  open: boolean;
+  space: AtlasSpace;
 }
 
 /** The section for families of workspaces, with its settings. */
@@ -121,4 +128,5 @@ export const INITIAL: View = {
     ranges: { tool_length: { from: 0, to: 300, count: 13 }, phi1: { from: -40, to: 40, count: 17 } },
   },
   dexterity: { open: false, from: -20, to: 20, cell: 40 },
+  atlas: { open: false, space: "platform" },
 };
