@@ -15,6 +15,9 @@ import json
 import sys
 from fractions import Fraction
 
+if "--help" in sys.argv:
+    sys.exit(print(__doc__))
+
 from flint import arb, ctx, fmpq, fmpq_poly
 
 ctx.dps = 150
