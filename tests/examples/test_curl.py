@@ -67,6 +67,12 @@ class Curl(unittest.TestCase):
         some, every = (float(line.split()[-2]) for line in self.said("dexterity.sh").splitlines())
         self.assertGreater(some, every)
 
+    def test_error_budget(self):
+        first, *contributions = self.said("error_budget.sh").splitlines()
+        self.assertRegex(first, r"^tool end: rms 0\.\d+ mm, worst 0\.\d+ mm$")
+        sizes = [float(line.split()[-2]) for line in contributions]
+        self.assertEqual(sizes, sorted(sizes, reverse=True))
+
     def test_job(self):
         lines = self.said("job.sh").splitlines()
         self.assertEqual(lines[-2], "succeeded: 100 %")

@@ -81,7 +81,10 @@ async fn send_example(service: &Router, path: &str, method: &str, operation: &Va
     for parameter in operation["parameters"].as_array().into_iter().flatten() {
         let Some(example) = parameter.get("example") else { continue };
         let name = parameter["name"].as_str().unwrap();
-        let text = example.to_string().replace(['"', '[', ']'], "");
+        let text = match example.as_str() {
+            Some(text) => text.replace('"', "%22").replace('{', "%7B").replace('}', "%7D"),
+            None => example.to_string().replace(['[', ']'], ""),
+        };
         if parameter["in"] == "path" {
             uri = uri.replace(&format!("{{{name}}}"), &text);
         } else {

@@ -17,6 +17,8 @@ from verne_process import Client, Service
 
 MAP = {"tool_length": 50, "phi1": {"from": -30, "to": 30}, "cell": 120}
 FAMILY = {"kind": "part", "tool_length": [20, 40, 60], "phi1": {"from": -20, "to": 20, "step": 10}, "tolerance": 5}
+ORIGINS = {"program": {"points": [[-60, -40, 0], [60, -40, 10], [60, 50, 0, 0.2, 0.15, 1]]}, "tool_length": 100,
+           "cell": 40}
 SHARE = 0.1
 
 
@@ -30,7 +32,8 @@ def run(ports, jobs, clients, disturb=None):
     client = Client(ports[0])
     files = ["cells", "mesh?set=reachable", "mesh?set=dexterous"]
     split_answers = [whole_answer(client, "/workspace/dexterity", MAP, files),
-                     whole_answer(client, "/workspace", FAMILY, [])]
+                     whole_answer(client, "/workspace", FAMILY, []),
+                     whole_answer(client, "/toolpath/origins", ORIGINS, ["mesh.glb", "slice.json?z=300"])]
     for thread in clients_at_work.threads:
         thread.join()
     over.set()
@@ -45,7 +48,7 @@ def whole_answer(client, path, question, parts):
         try:
             replies = [client.ask("POST", path, question, Prefer="wait=20")]
             if replies[0].status == 200:
-                kept = f"/workspace/{replies[0].json()['id']}"
+                kept = replies[0].json()["links"]["self"]
                 replies += [client.ask("GET", f"{kept}/{part}") for part in parts]
             if all(reply.status == 200 for reply in replies):
                 return hashlib.sha256(b"".join(reply.body for reply in replies)).hexdigest()

@@ -31,6 +31,7 @@ pub(crate) mod dexterity_map;
 pub(crate) mod dexterity_question;
 pub(crate) mod dexterity_subtasks;
 pub(crate) mod dexterity_table;
+pub(crate) mod document_job;
 pub(crate) mod drawing;
 pub(crate) mod dwell_marks;
 pub(crate) mod error_budget;

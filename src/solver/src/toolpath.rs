@@ -38,8 +38,8 @@ pub use healing::{
 pub use joint_segment::Deviation;
 pub use motion::{Curve, Motion, MotionKind, Motions, ToolPosition, Turning};
 pub use origins::{
-    OriginRegion, OriginRequest, OriginSlab, OriginSurvey, merge_origins, origin_slab, origin_volume,
-    slice_origins,
+    ORIGIN_SAMPLES, OriginExtent, OriginRegion, OriginRequest, OriginSlab, OriginSurvey, merge_origins,
+    origin_slab, slice_origins,
 };
 pub use placement::{ActiveMargin, Placement, PlacementRequest, place};
 pub use planned_places::{PlannedPlace, PlannedPlaces};

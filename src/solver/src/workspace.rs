@@ -36,7 +36,7 @@ mod root;
 mod slice;
 mod surface;
 mod triangle_estimate;
-mod vector;
+pub(crate) mod vector;
 
 pub use agreement::agree;
 pub use contains::{Membership, contains};

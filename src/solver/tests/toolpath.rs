@@ -14,6 +14,8 @@
 //! - `timing`: times of rows.
 //! - `single_slider`: times of motions that are known in closed form.
 //! - `origins`: the region of origins against plans at random origins.
+//! - `origins_surface`: the surface of the region against the region.
+//! - `parametric`: programs with one free parameter of their set-up.
 //! - `placement`: set-ups with the greatest reserve.
 //! - `random_programs`: programs on machines unlike the built-in one.
 //! - `window`: windows of a parameter against bisection on the verdict.
@@ -44,6 +46,10 @@ mod lines;
 mod machines;
 #[path = "toolpath/origins.rs"]
 mod origins;
+#[path = "toolpath/origins_surface.rs"]
+mod origins_surface;
+#[path = "toolpath/parametric.rs"]
+mod parametric;
 #[path = "toolpath/placement.rs"]
 mod placement;
 #[path = "toolpath/pole.rs"]

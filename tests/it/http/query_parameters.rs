@@ -68,6 +68,28 @@ async fn lists_are_accepted_in_every_notation() {
 }
 
 #[tokio::test]
+async fn words_say_what_a_number_must_be() {
+    let number = "must be a number";
+    let whole = "must be a whole number, not negative";
+    for (uri, name, detail) in [
+        ("/ik?x=0&y=fifty&z=300", "y", number),
+        ("/ik?x=0&y=&z=300", "y", number),
+        ("/ik?x=0&y=1&z=300&phi1=up", "phi1", number),
+        ("/fk?rho=1,2,3&tool_length=1mm", "tool_length", number),
+        ("/fk?rho=1,2,3&jacobian=yes", "jacobian", "must be true or false"),
+        ("/workspace?tolerance=fine", "tolerance", number),
+        ("/jobs?limit=-1", "limit", whole),
+        ("/jobs?limit=", "limit", whole),
+        ("/toolpath/x/rows?from=1.5", "from", whole),
+        ("/toolpath/x/rows?from=99999999999999999999", "from", "must be a smaller whole number"),
+    ] {
+        let reply = get(uri).await;
+        reply.assert_bad_field(&format!("/query/{name}"));
+        assert_eq!(reply.json["errors"][0]["detail"], detail, "{uri}");
+    }
+}
+
+#[tokio::test]
 async fn the_alphas_of_a_slice_are_a_list() {
     let service = service().await;
     let id = get_from(&service, "/workspace?tolerance=20", &[]).await.json["id"].as_str().unwrap().to_owned();

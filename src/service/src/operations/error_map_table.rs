@@ -85,7 +85,7 @@ mod tests {
         let text = String::from_utf8(table.next().unwrap().unwrap()).unwrap();
         assert!(table.next().unwrap().is_none());
         let expected = "point,x,y,z,tip_rms,tip_worst,axis_rms,axis_worst\n\
-                        1,10.0,0.0,305.0,0.01,0.03,0.001,0.003\n2,15.0,0.0,300.0,0.02,0.04,0.002,0.004\n";
+                        1,10,0,305,0.01,0.03,0.001,0.003\n2,15,0,300,0.02,0.04,0.002,0.004\n";
         assert_eq!(text, expected);
     }
 }

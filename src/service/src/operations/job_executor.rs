@@ -13,6 +13,7 @@ use crate::operations::blocking_results::BlockingResults;
 use crate::operations::dexterity_job::{self, DEXTERITY_MAP};
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::dexterity_subtasks::{compute_slab, compute_volumes};
+use crate::operations::document_job::answer_document;
 use crate::operations::error_map_job::{self, ERROR_MAP};
 use crate::operations::error_map_question::ErrorMapQuestion;
 use crate::operations::error_map_subtasks;
@@ -21,13 +22,11 @@ use crate::operations::family_table::FamilyTable;
 use crate::operations::mesh_files::{MeshDescription, mesh_file_name, write_mesh};
 use crate::operations::observers::{ObserverFns, equal_section};
 use crate::operations::origins_job::{answer_part, merge_region};
-use crate::operations::placement::answer_placement;
 use crate::operations::question::Question;
 use crate::operations::question_text::JobParameters;
 use crate::operations::results::{MESH, Results, pack_mesh};
 use crate::operations::subtask::{Subtask, SubtaskRequest};
 use crate::operations::toolpath_job::answer_toolpath;
-use crate::operations::window::answer_window;
 use crate::operations::workspace::compute_workspace;
 use crate::operations::workspace_question::WorkspaceQuestion;
 use crate::telemetry::metrics::computations::ComputationMetrics;
@@ -66,8 +65,9 @@ impl JobExecutor {
                 self.merged(question, parameters, observer)
             }
             Question::Toolpath(path) => answer_toolpath(&self.store, path, &self.computations, observer),
-            Question::Window(asked) => answer_window(&self.store, asked, &self.computations, observer),
-            Question::Placement(asked) => answer_placement(&self.store, asked, &self.computations, observer),
+            Question::Window(_) | Question::Placement(_) => {
+                answer_document(&self.store, question, &self.computations, observer)
+            }
             Question::Subtask(subtask) => self.subtask(subtask, parameters, observer).map(drop),
         }
     }

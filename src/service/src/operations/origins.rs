@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use verne_mesh::{Mesh, Swatch};
 use verne_program::Program;
 use verne_solver::toolpath::{
-    OriginRegion, OriginRequest, OriginSlab, OriginSurvey, merge_origins, origin_slab, origin_volume,
-    slice_origins,
+    ORIGIN_SAMPLES, OriginExtent, OriginRegion, OriginRequest, OriginSlab, OriginSurvey, merge_origins,
+    origin_slab, slice_origins,
 };
 use verne_solver::workspace::dexterity::Crossing;
 use verne_solver::workspace::{Observer, Slice};
@@ -31,27 +31,29 @@ use crate::wire::workspace_summary::BoundsObject;
 /// About how far the boundary is off because the program is examined at places, mm.
 const PLACE_TOLERANCE: f64 = 0.02;
 
-/// Fraction of a part's work that finding the limiting places takes.
-const SURVEY: f64 = 0.2;
+/// Fractions of the work after which the survey, and the slabs of the grid, are finished.
+const SURVEYED: f64 = 0.1;
+const GRIDDED: f64 = 0.4;
+
+/// The part of a region that is computed by itself: one of `count` slabs of the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct OriginsPart {
+    /// The slab's number, from 0.
+    pub number: u32,
+    /// How many slabs the grid has.
+    pub count: u32,
+}
+
+/// The extent of a region as it is stored.
+#[derive(Serialize, Deserialize)]
+struct StoredExtent {
+    places: Vec<u32>,
+    bounds: Option<[[f64; 3]; 2]>,
+}
 
 /// About the bytes of a summary, and of a slice.
 const SUMMARY_BYTES: usize = 2048;
 const SLICE_BYTES: usize = 16 * 1024;
-
-/// Parts of the region that are computed by themselves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum OriginsPart {
-    /// One of `count` slabs of the grid.
-    Slab {
-        /// The slab's number, from 0.
-        number: u32,
-        /// How many slabs the grid has.
-        count: u32,
-    },
-    /// The whole grid with twice the step, for the volume.
-    Coarse,
-}
 
 /// A part as it is stored.
 #[derive(Serialize, Deserialize)]
@@ -69,48 +71,48 @@ pub(crate) struct OriginsMap {
     pub mesh: Mesh,
 }
 
-fn survey(
+/// Surveys the program. `stored` is the result of [`pack_extent`] in another part of the computation.
+pub(crate) fn survey(
     question: &OriginsQuestion,
     program: &Arc<Program>,
+    stored: Option<&[u8]>,
     observer: &dyn Observer,
 ) -> Result<OriginSurvey, OperationError> {
     let toolpath = &question.toolpath;
     let motions = toolpath.motions(program).map_err(OperationError::ProgramFaults)?;
     let motions = AdjustableMotions::new(motions, toolpath.request.setup, toolpath.one_tool_length());
-    let request = OriginRequest { cell: question.cell, tolerance: PLACE_TOLERANCE };
+    let request = OriginRequest { cell: question.cell, place_tolerance: PLACE_TOLERANCE };
     let options = toolpath.plan_options();
+    let known = stored.and_then(|bytes| postcard::from_bytes(bytes).ok());
+    let known = known.map(|StoredExtent { places, bounds }| OriginExtent { places, bounds });
     let survey =
-        OriginSurvey::new(&toolpath.machine, &motions, motions.set_up(), &request, &options, observer)
-            .map_err(workspace_error)?;
+        OriginSurvey::new(&toolpath.machine, &motions, motions.set_up(), &request, &options, known, observer);
+    let survey = survey.map_err(workspace_error)?;
     if survey.grid.nodes() > MAX_GRID_POINTS {
         return Err(too_many_grid_points(survey.grid.nodes()));
     }
     Ok(survey)
 }
 
+/// What took long in a survey, for other parts of the computation.
+pub(crate) fn pack_extent(survey: &OriginSurvey) -> Result<Vec<u8>, OperationError> {
+    let OriginExtent { places, bounds } = survey.extent().clone();
+    postcard::to_stdvec(&StoredExtent { places, bounds }).map_err(|_| OperationError::Internal)
+}
+
 /// Computes a part of a region.
 pub(crate) fn compute_part(
     question: &OriginsQuestion,
-    program: &Arc<Program>,
-    part: OriginsPart,
+    survey: &OriginSurvey,
+    OriginsPart { number, count }: OriginsPart,
     observer: &dyn Observer,
 ) -> Result<Vec<u8>, OperationError> {
-    let mut survey = survey(question, program, &section(observer, 0.0, SURVEY))?;
-    let layers = match part {
-        OriginsPart::Slab { number, count } => {
-            let first_layer = |number: u32| {
-                let layers = u64::from(survey.grid.counts[0]) * u64::from(number) / u64::from(count.max(1));
-                u32::try_from(layers).unwrap_or(u32::MAX)
-            };
-            first_layer(number)..first_layer(number + 1)
-        }
-        OriginsPart::Coarse => {
-            survey = survey.with_cell(2.0 * question.cell).map_err(workspace_error)?;
-            0..survey.grid.counts[0]
-        }
+    let first_layer = |number: u32| {
+        let layers = u64::from(survey.grid.counts[0]) * u64::from(number) / u64::from(count.max(1));
+        u32::try_from(layers).unwrap_or(u32::MAX)
     };
-    let rest = section(observer, SURVEY, 1.0);
-    let slab = origin_slab(&question.toolpath.machine, &survey, layers, &rest).map_err(workspace_error)?;
+    let layers = first_layer(number)..first_layer(number + 1);
+    let slab = origin_slab(&question.toolpath.machine, survey, layers, observer).map_err(workspace_error)?;
     let crossings = slab.crossings.into_iter().map(|crossing| (crossing.edge, crossing.at)).collect();
     let stored = StoredPart { layers: [slab.layers.start, slab.layers.end], inside: slab.inside, crossings };
     postcard::to_stdvec(&stored).map_err(|_| OperationError::Internal)
@@ -123,21 +125,18 @@ fn read_part(bytes: &[u8]) -> Result<OriginSlab, OperationError> {
     Ok(OriginSlab { layers: start..end, inside, crossings })
 }
 
-/// Merges a region from its slabs, in any order, and the coarse grid. Call it on the compute pool.
+/// Merges a region from its slabs, in any order. Call it on the compute pool.
 pub(crate) fn merge_parts(
     question: &OriginsQuestion,
-    program: &Arc<Program>,
+    survey: &OriginSurvey,
     slabs: &[impl AsRef<[u8]>],
-    coarse: &[u8],
     observer: &dyn Observer,
 ) -> Result<OriginsMap, OperationError> {
-    let survey = survey(question, program, observer)?;
     let slabs = slabs.iter().map(|slab| read_part(slab.as_ref())).collect::<Result<_, _>>()?;
-    let region = merge_origins(&survey.grid, slabs, observer).map_err(workspace_error)?;
-    let twice = survey.with_cell(2.0 * question.cell).map_err(workspace_error)?;
-    let coarse = merge_origins(&twice.grid, vec![read_part(coarse)?], observer).map_err(workspace_error)?;
+    let machine = &question.toolpath.machine;
+    let region = merge_origins(machine, survey, slabs, observer).map_err(workspace_error)?;
     let mesh = mesh(&region)?;
-    let summary = write_json(&summary(question, &survey, [&region, &coarse], &mesh), SUMMARY_BYTES)?;
+    let summary = write_json(&summary(question, survey, &region, &mesh), SUMMARY_BYTES)?;
     Ok(OriginsMap { summary, mesh })
 }
 
@@ -147,10 +146,10 @@ pub(crate) fn compute_origins(
     program: &Arc<Program>,
     observer: &dyn Observer,
 ) -> Result<OriginsMap, OperationError> {
-    let whole = OriginsPart::Slab { number: 0, count: 1 };
-    let slab = compute_part(question, program, whole, &section(observer, 0.0, 0.8))?;
-    let coarse = compute_part(question, program, OriginsPart::Coarse, &section(observer, 0.8, 1.0))?;
-    merge_parts(question, program, &[slab], &coarse, &section(observer, 1.0, 1.0))
+    let survey = survey(question, program, None, &section(observer, 0.0, SURVEYED))?;
+    let whole = OriginsPart { number: 0, count: 1 };
+    let slab = compute_part(question, &survey, whole, &section(observer, SURVEYED, GRIDDED))?;
+    merge_parts(question, &survey, &[slab], &section(observer, GRIDDED, 1.0))
 }
 
 fn mesh(region: &OriginRegion) -> Result<Mesh, OperationError> {
@@ -164,19 +163,18 @@ fn mesh(region: &OriginRegion) -> Result<Mesh, OperationError> {
 fn summary(
     question: &OriginsQuestion,
     survey: &OriginSurvey,
-    [region, coarse]: [&OriginRegion; 2],
+    region: &OriginRegion,
     mesh: &Mesh,
 ) -> OriginsSummary {
     let path = question.id.toolpath();
-    let [volume, volume_error] = origin_volume(region, coarse);
     let [places, limiting_places] = survey.place_counts();
     OriginsSummary {
         id: question.id,
         machine: question.toolpath.machine.id.clone(),
         program: question.toolpath.request.program,
         request: question.request(),
-        volume,
-        volume_error,
+        volume: region.volume(),
+        volume_error: region.volume_error(),
         bounds: mesh.bounds().map(BoundsObject::from),
         vertices: mesh.positions().len(),
         triangles: mesh.triangles().len(),
@@ -184,6 +182,8 @@ fn summary(
         places,
         limiting_places,
         place_tolerance: PLACE_TOLERANCE,
+        boundary_error: region.error,
+        samples: if region.triangles.is_empty() { 0 } else { ORIGIN_SAMPLES },
         not_checked: Unchecked::beside(question.toolpath.request.table_clearance.is_some()),
         links: OriginsLinks { mesh: format!("{path}/mesh"), slice: format!("{path}/slice"), itself: path },
     }

@@ -9,7 +9,7 @@ use crate::wire::result_id::ResultId;
 use crate::wire::toolpath::{OnLimitName, Setup};
 
 /// Begins the hash of every region. It changes when the bytes of the answer to the same question change.
-const HASH_PREFIX: &[u8] = b"verne origins 1";
+const HASH_PREFIX: &[u8] = b"verne origins 2";
 
 /// Finest and coarsest grid, and the grid of a request that has none, mm.
 const CELLS: [f64; 2] = [1.0, 1000.0];
@@ -20,7 +20,7 @@ const REQUEST_BYTES: usize = 1024;
 
 /// About the seconds of one core of a region beside its grid, and of a square cell of its surface.
 const SURVEY_COST: f64 = 2.0;
-const CELL_COST: f64 = 5e-3;
+const CELL_COST: f64 = 1.5e-2;
 
 /// The frame of `setup` by its other name.
 const FIRST_OFFSET: &str = "G54";

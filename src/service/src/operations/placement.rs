@@ -6,14 +6,10 @@ use verne_program::Program;
 use verne_solver::toolpath::{ActiveMargin, LeastMargin, place};
 use verne_solver::workspace::Observer;
 
-use crate::operations::blocking_results::BlockingResults;
 use crate::operations::placement_question::PlacementQuestion;
 use crate::operations::program_motions::ProgramMotions;
 use crate::operations::program_motions::adjustable::AdjustableMotions;
-use crate::operations::programs::load_program_in_job;
-use crate::operations::question::Question;
 use crate::operations::solver_errors::plan_error;
-use crate::telemetry::metrics::computations::ComputationMetrics;
 use crate::wire::constraint::Unit;
 use crate::wire::degrees::to_degrees;
 use crate::wire::error::OperationError;
@@ -26,22 +22,6 @@ use crate::wire::toolpath_report::{MarginObject, Verdict};
 
 /// About the bytes of an answer.
 const ANSWER_BYTES: usize = 8192;
-
-/// Answers a job, unless the store has the answer.
-pub(crate) fn answer_placement(
-    store: &BlockingResults,
-    question: &PlacementQuestion,
-    computations: &ComputationMetrics,
-    observer: &dyn Observer,
-) -> Result<(), OperationError> {
-    if store.complete_record(question.id, &[]).is_some() {
-        return Ok(());
-    }
-    let program = load_program_in_job(store, question.toolpath.request.program)?;
-    computations.count();
-    let answer = compute_placement(question, &program, observer)?;
-    store.put_record(&Question::Placement(Box::new(question.clone())), &answer, None)
-}
 
 /// The answer as it is sent.
 pub(crate) fn compute_placement(

@@ -73,9 +73,7 @@ impl SolutionSet {
             };
             self.completeness = Some(self.completeness.unwrap_or(Ok(())).and(proved));
         }
-        if let Err(refusal) = outcome {
-            self.refusal.get_or_insert(refusal);
-        }
+        self.refusal = self.refusal.or(outcome.err());
     }
 }
 

@@ -27,13 +27,13 @@ const SLAB_COST: f64 = 2.0;
 /// Most slabs of a map.
 const MAX_SLABS: f64 = 64.0;
 
-/// Seconds of one core that a slab of a region of origins should take, and most slabs of a region: each of them finds
-/// the limiting places of the program.
-const REGION_SLAB_COST: f64 = 8.0;
+/// Seconds of one core that a slab of a region of origins should take, and most slabs of a region: those that begin
+/// together find the limiting places of the program several times.
+const REGION_SLAB_COST: f64 = 1.0;
 const MAX_REGION_SLABS: f64 = 16.0;
 
-/// The coarse grid's fraction of a region's work, about.
-const COARSE_FRACTION: f64 = 0.25;
+/// The grid's fraction of a region's work, about; the rest is the refinement of its surface.
+const GRID_FRACTION: f64 = 0.25;
 
 /// The volumes' fraction of a map's work, about.
 const VOLUMES_FRACTION: f64 = 0.2;
@@ -110,14 +110,13 @@ impl Subtask {
             .collect()
     }
 
-    /// The slabs of a region of origins, then its coarse grid.
+    /// The slabs of a region of origins.
     pub(crate) fn of_region(question: &OriginsQuestion) -> Vec<Self> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 16")]
-        let count = (question.cost() / REGION_SLAB_COST).clamp(1.0, MAX_REGION_SLABS) as u32;
-        let slabs = (0..count).map(|number| OriginsPart::Slab { number, count });
+        let count = (GRID_FRACTION * question.cost() / REGION_SLAB_COST).clamp(1.0, MAX_REGION_SLABS) as u32;
+        let slabs = (0..count).map(|number| OriginsPart { number, count });
         let of_part = |part| SubtaskRequest::Origins { region: Box::new(question.request()), part };
         slabs
-            .chain([OriginsPart::Coarse])
             .map(|part| Self { machine: Arc::clone(&question.toolpath.machine), request: of_part(part) })
             .collect()
     }
@@ -150,11 +149,7 @@ impl Subtask {
             }
             SubtaskRequest::Volumes(map) => (b"v", DexterityQuestion::of(machine, *map).id, [0, 0]),
             SubtaskRequest::Origins { region, part } => {
-                let numbers = match part {
-                    OriginsPart::Slab { number, count } => [*number, *count],
-                    OriginsPart::Coarse => [0, 0],
-                };
-                (b"o", self.region(region).id, numbers)
+                (b"o", self.region(region).id, [part.number, part.count])
             }
             SubtaskRequest::ErrorSlab { map, number, count } => {
                 (b"e", ErrorMapQuestion::of(machine, map).id, [*number, *count])
@@ -170,9 +165,8 @@ impl Subtask {
     /// Estimated work, seconds of one core, of one of `count` subtasks of a question whose work is `total`.
     pub(crate) fn cost(&self, total: f64, count: u32) -> f64 {
         match self.request {
-            SubtaskRequest::Member(_) | SubtaskRequest::Origins { part: OriginsPart::Slab { .. }, .. } => {
-                total / f64::from(count.max(1))
-            }
+            SubtaskRequest::Member(_) => total / f64::from(count.max(1)),
+            SubtaskRequest::Origins { .. } => total * GRID_FRACTION / f64::from(count.max(1)),
             SubtaskRequest::Slab { number, count, .. } => {
                 let [from, to] = [number, number + 1].map(|cut| f64::from(cut) / f64::from(count));
                 total * (1.0 - VOLUMES_FRACTION) * (work_below(to) - work_below(from))
@@ -183,7 +177,6 @@ impl Subtask {
             }
             SubtaskRequest::Volumes(_) => total * VOLUMES_FRACTION,
             SubtaskRequest::ErrorSurface(_) => total * SURFACE_FRACTION,
-            SubtaskRequest::Origins { part: OriginsPart::Coarse, .. } => total * COARSE_FRACTION,
         }
     }
 }

@@ -9,14 +9,10 @@ use verne_solver::toolpath::{
 };
 use verne_solver::workspace::Observer;
 
-use crate::operations::blocking_results::BlockingResults;
 use crate::operations::program_motions::ProgramMotions;
 use crate::operations::program_motions::adjustable::AdjustableMotions;
-use crate::operations::programs::load_program_in_job;
-use crate::operations::question::Question;
 use crate::operations::solver_errors::plan_error;
 use crate::operations::window_question::WindowQuestion;
-use crate::telemetry::metrics::computations::ComputationMetrics;
 use crate::wire::degrees::from_degrees;
 use crate::wire::error::OperationError;
 use crate::wire::json::write_json;
@@ -29,22 +25,6 @@ use crate::wire::window::{
 
 /// About the bytes of an answer.
 const ANSWER_BYTES: usize = 4096;
-
-/// Answers a job, unless the store has the answer.
-pub(crate) fn answer_window(
-    store: &BlockingResults,
-    question: &WindowQuestion,
-    computations: &ComputationMetrics,
-    observer: &dyn Observer,
-) -> Result<(), OperationError> {
-    if store.complete_record(question.id, &[]).is_some() {
-        return Ok(());
-    }
-    let program = load_program_in_job(store, question.toolpath.request.program)?;
-    computations.count();
-    let answer = compute_window(question, &program, observer)?;
-    store.put_record(&Question::Window(Box::new(question.clone())), &answer, None)
-}
 
 /// The answer as it is sent.
 pub(crate) fn compute_window(

@@ -15,6 +15,7 @@ pub(crate) mod limit_words;
 pub(crate) mod machine;
 pub(crate) mod map_files;
 pub(crate) mod one_or_batch;
+pub(crate) mod program_arguments;
 pub(crate) mod progress;
 pub(crate) mod result_pipe;
 pub(crate) mod service_address;

@@ -115,7 +115,7 @@ pub(crate) struct Solution {
     pub jacobian: Option<JacobianObject>,
     /// Largest error of a rod length when the solution is inserted into Eqs (3)-(6), mm.
     pub residual: f64,
-    /// What is proved of the solution. Only with `certified` in the request.
+    /// The proof of the solution. Only with `certified` in the request.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(nullable = false)]
     pub certificate: Option<CertificateObject>,

@@ -7,7 +7,7 @@ use verne_solver::certificate::{Incomplete, PostureBox, Unproved};
 use crate::wire::degrees::enclosing_degrees;
 use crate::wire::fixed_array::{FixedArray, Pair, PairPerSlider};
 
-/// What is proved of a solution.
+/// The proof of a solution.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = Certificate)]
 pub(crate) struct CertificateObject {

@@ -140,7 +140,7 @@ pub(crate) struct ErrorBudgetRowsQuery {
     /// The tolerances of the parameters as JSON, mm and degrees, such as `{"L1":0.02,"tilt_zero":0.001}`. A table needs
     /// them.
     #[arg(long, value_name = "JSON", required = true)]
-    #[param(value_type = Option<String>, nullable = false)]
+    #[param(value_type = String, example = "{\"L1\":0.02}")]
     pub parameter_tolerances: Option<JsonText<StrictObject<ParameterTolerances>>>,
 }
 

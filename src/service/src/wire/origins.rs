@@ -61,13 +61,14 @@ pub(crate) struct OriginsSummary {
     pub program: ResultId,
     /// The request with its default values.
     pub request: CanonicalOrigins,
-    /// Volume, mm³: that within the surface, extrapolated from two grids.
+    /// Volume within the surface, mm³.
     pub volume: f64,
-    /// Estimated error of the volume, mm³.
+    /// By how much the volume differs at most from the region's, if the surface is within `boundary_error` of the
+    /// boundary, mm³.
     pub volume_error: f64,
     /// Least and greatest coordinates of the mesh, mm; null if the region is empty.
     pub bounds: Option<BoundsObject>,
-    /// Vertices of the mesh. They are within 1/2000 of a grid edge of the boundary that the examined places give.
+    /// Vertices of the mesh.
     pub vertices: usize,
     /// Triangles of the mesh.
     pub triangles: usize,
@@ -80,6 +81,13 @@ pub(crate) struct OriginsSummary {
     pub limiting_places: usize,
     /// About how far the boundary is off because the program is examined at places, mm.
     pub place_tolerance: f64,
+    /// Greatest distance between the mesh and the boundary of the region, mm: one and a half times the greatest
+    /// distance from the mesh at which one of `samples` origins was on its wrong side, and at least the distance at
+    /// which the refinement of the mesh ends. It is measured, not proved. Pieces of the region, and gaps in it, that
+    /// are narrower than a cell may be missing.
+    pub boundary_error: f64,
+    /// Number of origins near the mesh at which it was compared with the region.
+    pub samples: u32,
     /// Conditions that the service did not check. Rapids in which the table changes its orientation are not checked
     /// either: /toolpath does.
     #[schema(value_type = Vec<Unchecked>)]

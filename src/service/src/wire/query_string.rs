@@ -28,8 +28,22 @@ fn read<T: DeserializeOwned>(query: &str) -> Result<T, OperationError> {
     serde_path_to_error::deserialize(pairs).map_err(|error| {
         let message = error.inner().to_string();
         let pointer = format!("/query{}", pointer(error.path(), &message));
-        OperationError::Fields(vec![FieldError::new(pointer, message)])
+        let detail = required_value(&message).map_or(message, str::to_owned);
+        OperationError::Fields(vec![FieldError::new(pointer, detail)])
     })
+}
+
+/// What a parameter must be, if the standard library could not read its text.
+fn required_value(message: &str) -> Option<&'static str> {
+    match message {
+        "invalid float literal" | "cannot parse float from empty string" => Some("must be a number"),
+        "invalid digit found in string" | "cannot parse integer from empty string" => {
+            Some("must be a whole number, not negative")
+        }
+        "number too large to fit in target type" => Some("must be a smaller whole number"),
+        "provided string was not `true` or `false`" => Some("must be true or false"),
+        _ => None,
+    }
 }
 
 fn missing(query: &str, parameters: &[Parameter]) -> Vec<FieldError> {

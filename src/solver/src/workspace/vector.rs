@@ -3,32 +3,32 @@
 use crate::pose::Point;
 
 #[inline]
-pub(super) fn dot(a: Point, b: Point) -> f64 {
+pub(crate) fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline]
-pub(super) fn cross(a: Point, b: Point) -> Point {
+pub(crate) fn cross(a: Point, b: Point) -> Point {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline]
-pub(super) fn minus(a: Point, b: Point) -> Point {
+pub(crate) fn minus(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 #[inline]
-pub(super) fn length(a: Point) -> f64 {
+pub(crate) fn length(a: Point) -> f64 {
     dot(a, a).sqrt()
 }
 
 #[inline]
-pub(super) fn distance(a: Point, b: Point) -> f64 {
+pub(crate) fn distance(a: Point, b: Point) -> f64 {
     length(minus(a, b))
 }
 
 /// The normal of a triangle; its length is twice the triangle's area.
 #[inline]
-pub(super) fn normal([a, b, c]: [Point; 3]) -> Point {
+pub(crate) fn normal([a, b, c]: [Point; 3]) -> Point {
     cross(minus(b, a), minus(c, a))
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use verne_solver::Machine;
 use verne_solver::toolpath::{
     AdjustableProgram, OriginRegion, OriginRequest, OriginSlab, OriginSurvey, PlanOptions, SetUp,
-    merge_origins, origin_slab, origin_volume, plan, slice_origins,
+    merge_origins, origin_slab, plan, slice_origins,
 };
 use verne_solver::workspace::Unobserved;
 
@@ -14,29 +14,31 @@ use super::random::Random;
 use super::support::{Clamped, any_machine, arrive, feed};
 
 const GIVEN: SetUp = SetUp { origin: [20.0, -30.0, 280.0], turn: 0.3, tool_length: 100.0 };
-const TOLERANCE: f64 = 0.05;
+const PLACES: f64 = 0.02;
+/// Distance from the boundary within which the places of a program decide otherwise than plans, mm.
+const BAND: f64 = 0.05;
 
-fn surveyed(machine: &Machine, program: &Clamped, cell: f64) -> OriginSurvey {
-    let request = OriginRequest { cell, tolerance: TOLERANCE };
-    OriginSurvey::new(machine, program, GIVEN, &request, &PlanOptions::default(), &Unobserved).unwrap()
+pub(crate) fn surveyed(machine: &Machine, program: &Clamped, cell: f64) -> OriginSurvey {
+    let request = OriginRequest { cell, place_tolerance: PLACES };
+    OriginSurvey::new(machine, program, GIVEN, &request, &PlanOptions::default(), None, &Unobserved).unwrap()
 }
 
 fn slab(machine: &Machine, survey: &OriginSurvey, layers: Range<u32>) -> OriginSlab {
     origin_slab(machine, survey, layers, &Unobserved).unwrap()
 }
 
-fn region(machine: &Machine, survey: &OriginSurvey) -> OriginRegion {
+pub(crate) fn region(machine: &Machine, survey: &OriginSurvey) -> OriginRegion {
     let all = slab(machine, survey, 0..survey.grid.counts[0]);
-    merge_origins(&survey.grid, vec![all], &Unobserved).unwrap()
+    merge_origins(machine, survey, vec![all], &Unobserved).unwrap()
 }
 
-fn is_feasible(machine: &Machine, program: &Clamped, origin: [f64; 3]) -> bool {
+pub(crate) fn is_feasible(machine: &Machine, program: &Clamped, origin: [f64; 3]) -> bool {
     let motions = program.motions(&SetUp { origin, ..GIVEN });
     plan(machine, &*motions, &PlanOptions::default(), |_| true, |_| {}).unwrap().is_feasible()
 }
 
 /// A random origin in the box of the grid.
-fn any_origin(survey: &OriginSurvey, random: &mut Random) -> [f64; 3] {
+pub(crate) fn any_origin(survey: &OriginSurvey, random: &mut Random) -> [f64; 3] {
     let grid = &survey.grid;
     let last = grid.node(grid.counts.map(|count| count - 1));
     std::array::from_fn(|axis| random.between(grid.origin[axis], last[axis]))
@@ -47,7 +49,7 @@ fn is_clear(machine: &Machine, survey: &OriginSurvey, origin: [f64; 3]) -> bool 
     let inside = survey.contains(machine, origin);
     (0..6).all(|side| {
         let mut beside = origin;
-        beside[side / 2] += if side % 2 == 0 { TOLERANCE } else { -TOLERANCE };
+        beside[side / 2] += if side % 2 == 0 { BAND } else { -BAND };
         survey.contains(machine, beside) == inside
     })
 }
@@ -77,7 +79,7 @@ fn the_region_agrees_with_plans_at_random_origins() {
 }
 
 /// The number of origins, or that of the environment variable ORIGINS.
-fn origins(usual: usize) -> usize {
+pub(crate) fn origins(usual: usize) -> usize {
     std::env::var("ORIGINS").ok().and_then(|number| number.parse().ok()).unwrap_or(usual)
 }
 
@@ -116,7 +118,7 @@ fn the_bytes_are_those_of_any_slabs_on_any_number_of_threads() {
             slab(&machine, &survey, 0..2),
             slab(&machine, &survey, 2..layers / 2),
         ];
-        merge_origins(&survey.grid, slabs, &Unobserved).unwrap()
+        merge_origins(&machine, &survey, slabs, &Unobserved).unwrap()
     });
     let bits = |region: &OriginRegion| -> Vec<[u64; 3]> {
         region.positions.iter().map(|at| at.map(f64::to_bits)).collect()
@@ -134,8 +136,7 @@ fn the_volume_is_that_of_random_origins_and_slices_add_up_to_it() {
     let machine = Machine::verne();
     let survey = surveyed(&machine, &contour(), 30.0);
     let fine = region(&machine, &survey);
-    let coarse = region(&machine, &survey.with_cell(60.0).unwrap());
-    let [volume, error] = origin_volume(&fine, &coarse);
+    let [volume, error] = [fine.volume(), fine.volume_error()];
     let mut random = Random::new(1903);
     let count = 20_000;
     let inside = (0..count).filter(|_| survey.contains(&machine, any_origin(&survey, &mut random))).count();

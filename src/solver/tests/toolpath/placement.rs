@@ -44,21 +44,23 @@ fn by_brute_force(
     free: &[(usize, [f64; 2])],
     reserve: &[(Constraint, f64)],
 ) -> f64 {
-    const NODES: u32 = 9;
+    // Few nodes along each of many parameters.
+    let nodes: u32 = if free.len() > 2 { 5 } else { 9 };
+    let around = if free.len() > 2 { 1.2 } else { 1.5 };
     let mut regions = vec![free.iter().map(|(_, range)| *range).collect::<Vec<_>>()];
     let mut best = f64::NEG_INFINITY;
-    for _ in 0..16 {
+    for _ in 0..18 {
         let mut found: Vec<(f64, Vec<f64>, Vec<f64>)> = Vec::new();
         for region in &regions {
             let steps: Vec<f64> =
-                region.iter().map(|[low, high]| (high - low) / f64::from(NODES - 1)).collect();
-            for node in 0..NODES.pow(u32::try_from(free.len()).unwrap()) {
+                region.iter().map(|[low, high]| (high - low) / f64::from(nodes - 1)).collect();
+            for node in 0..nodes.pow(u32::try_from(free.len()).unwrap()) {
                 let mut parameters = given.parameters();
                 let (mut rest, mut at) = (node, Vec::new());
                 for (i, (parameter, _)) in free.iter().enumerate() {
-                    at.push(region[i][0] + steps[i] * f64::from(rest % NODES));
+                    at.push(region[i][0] + steps[i] * f64::from(rest % nodes));
                     parameters[*parameter] = at[i];
-                    rest /= NODES;
+                    rest /= nodes;
                 }
                 if let Some(t) = planned(machine, program, &SetUp::of_parameters(parameters), reserve) {
                     found.push((t, at, steps.clone()));
@@ -69,7 +71,7 @@ fn by_brute_force(
         best = best.max(found[0].0);
         let around = |(_, at, steps): &(f64, Vec<f64>, Vec<f64>)| {
             let ends = at.iter().zip(steps).zip(free).map(|((at, step), (_, [low, high]))| {
-                [(at - 1.5 * step).max(*low), (at + 1.5 * step).min(*high)]
+                [(at - around * step).max(*low), (at + around * step).min(*high)]
             });
             ends.collect::<Vec<_>>()
         };
@@ -143,6 +145,36 @@ fn small_programs_have_the_reserve_that_a_refined_grid_finds() {
         assert!(t >= grid - 1e-3 * grid.abs(), "{free:?}: {t} {grid}");
         assert!(!best.active.is_empty());
         assert!(Some(t) >= best.given.0);
+    }
+}
+
+/// Two cuts with the tool inclined.
+fn corner() -> Clamped {
+    Clamped(vec![
+        arrive([-60.0, -40.0, 0.0], [-0.1, -0.1, 1.0]),
+        feed([60.0, -40.0, 10.0], [0.2, -0.1, 1.0]),
+        feed([60.0, 50.0, 0.0], [0.2, 0.15, 1.0]),
+    ])
+}
+
+#[test]
+fn three_and_four_free_parameters_have_the_reserve_that_a_refined_grid_finds() {
+    let machine = Machine::verne();
+    let degrees = f64::to_radians;
+    let (x, y, z, turn, length) =
+        ((0, [-200.0, 200.0]), (1, [-200.0, 200.0]), (2, [0.0, 600.0]), (3, [-1.5, 1.5]), (4, [50.0, 250.0]));
+    let cases: [Case<'_>; 4] = [
+        (&[x, y, z], &[(Constraint::Stroke, 20.0), (Constraint::SliderJoint, degrees(2.0))]),
+        (&[x, z, turn], &[(Constraint::Stroke, 20.0), (Constraint::PlatformJoint, degrees(2.0))]),
+        (&[y, z, length], &[(Constraint::SliderJoint, degrees(2.0)), (Constraint::Tilt, degrees(4.0))]),
+        (&[x, y, z, turn], &[(Constraint::Stroke, 20.0), (Constraint::SliderJoint, degrees(1.0))]),
+    ];
+    for (free, reserve) in cases {
+        let t = placed(&machine, &corner(), GIVEN, free, reserve).t.unwrap();
+        let grid = by_brute_force(&machine, &corner(), GIVEN, free, reserve);
+        println!("{free:?}: {t} {grid}");
+        assert!(t >= grid - 1e-3 * grid.abs(), "{free:?}: {t} {grid}");
+        assert!(grid >= t - 0.02 * t.abs(), "the grid is no test: {free:?}: {t} {grid}");
     }
 }
 

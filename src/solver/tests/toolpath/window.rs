@@ -3,88 +3,13 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use verne_solver::toolpath::{
-    AdjustableProgram, Motion, MotionKind, Motions, ParametricProgram, PlanError, PlanOptions, SetUp,
-    WINDOW_PRECISION, Window, plan, window,
-};
+use verne_solver::toolpath::{Motion, MotionKind, PlanError, PlanOptions, WINDOW_PRECISION, Window, window};
 use verne_solver::workspace::{Observer, Unobserved};
 use verne_solver::{Constraint, Machine};
 
+use crate::parametric::{Parameter, Program};
 use crate::random::Random;
 use crate::support::{any_machine, arrive, feed, rapid};
-
-/// A parameter of a program's set-up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Parameter {
-    Length,
-    X,
-    Z,
-    Turn,
-}
-
-/// A program in its own frame.
-struct Program {
-    motions: Vec<Motion>,
-    given: SetUp,
-    parameter: Parameter,
-}
-
-impl Program {
-    fn new(motions: Vec<Motion>, parameter: Parameter) -> Self {
-        let given = SetUp { origin: [0.0, 0.0, 0.0], turn: 0.0, tool_length: 100.0 };
-        Self { motions, given, parameter }
-    }
-
-    fn set_up(&self, value: f64) -> SetUp {
-        let mut set_up = self.given;
-        match self.parameter {
-            Parameter::Length => set_up.tool_length = value,
-            Parameter::X => set_up.origin[0] = value,
-            Parameter::Z => set_up.origin[2] = value,
-            Parameter::Turn => set_up.turn = value,
-        }
-        set_up
-    }
-
-    fn is_feasible(&self, machine: &Machine, options: &PlanOptions, value: f64) -> bool {
-        let motions = AdjustableProgram::motions(self, &self.set_up(value));
-        plan(machine, &*motions, options, |_| true, |_| {}).unwrap().is_feasible()
-    }
-}
-
-impl AdjustableProgram for Program {
-    fn motions(&self, set_up: &SetUp) -> Box<dyn Motions + '_> {
-        let (sine, cosine) = set_up.turn.sin_cos();
-        let turned = |[x, y, z]: [f64; 3]| [cosine * x - sine * y, sine * x + cosine * y, z];
-        let moved = self.motions.iter().map(|motion| {
-            let mut motion = *motion;
-            let tip = turned(motion.end.tip);
-            motion.end.tip = [0, 1, 2].map(|i| tip[i] + set_up.origin[i]);
-            motion.end.axis = turned(motion.end.axis);
-            motion.tool_length = set_up.tool_length;
-            motion
-        });
-        Box::new(moved.collect::<Vec<_>>())
-    }
-
-    fn is_adjusted(&self, _: usize) -> bool {
-        true
-    }
-
-    fn stated(&self, set_up: &SetUp) -> SetUp {
-        *set_up
-    }
-}
-
-impl ParametricProgram for Program {
-    fn motions(&self, value: f64) -> Box<dyn Motions + '_> {
-        AdjustableProgram::motions(self, &self.set_up(value))
-    }
-
-    fn adjustable(&self) -> Option<(&dyn AdjustableProgram, [SetUp; 2])> {
-        Some((self, [self.set_up(0.0), self.set_up(1.0)]))
-    }
-}
 
 fn found(machine: &Machine, program: &Program, range: [f64; 2]) -> Window {
     window(machine, program, range, &PlanOptions::default(), &Unobserved).unwrap()

@@ -16,6 +16,12 @@ const HANDS = [
   ["Drop a file", "opens a program, or takes a machine from its JSON file"],
 ] as const;
 
+const CLAMPING = [
+  ["Where does it run?", "shows the values of a number of the set-up, or of the tool’s length, with which the program runs, as marks on a slider"],
+  ["Find a set-up", "searches the set-up in which the program keeps the greatest distance from the limits"],
+  ["Region of origins", "shows in the scene where the origin of the set-up may be"],
+] as const;
+
 export function Help() {
   return (
     <Modal name="Help" title="Symbols, frames and controls">
@@ -52,6 +58,17 @@ export function Help() {
               <div key={symbol}>
                 <dt>{symbol}</dt>
                 <dd>{meaning}</dd>
+              </div>
+            ))}
+          </dl>
+        </section>
+        <section aria-labelledby="clamping">
+          <h3 id="clamping">Where to clamp the part of a program</h3>
+          <dl>
+            {CLAMPING.map(([action, effect]) => (
+              <div key={action}>
+                <dt>{action}</dt>
+                <dd>{effect}</dd>
               </div>
             ))}
           </dl>

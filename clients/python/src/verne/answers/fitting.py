@@ -166,7 +166,7 @@ class OriginsSummary:
     volume: float
     """mm³."""
     volume_error: float
-    """Estimated error of the volume, mm³."""
+    """By how much the volume differs at most, if the mesh is within ``boundary_error`` of the boundary, mm³."""
     vertices: int
     triangles: int
     grid: PointGrid
@@ -175,6 +175,9 @@ class OriginsSummary:
     limiting_places: int
     """Number of the places that limit the region."""
     place_tolerance: float
+    boundary_error: float
+    """Greatest distance between the mesh and the boundary of the region, as measured at ``samples`` origins, mm."""
+    samples: int
     not_checked: list[str]
     links: OriginsLinks
     bounds: Bounds | None = None

@@ -197,7 +197,7 @@ class SolutionBox:
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """What is proved of a solution."""
+    """The proof of a solution."""
 
     proved: bool
     box: SolutionBox | None = None

@@ -152,9 +152,7 @@ pub(crate) async fn get_origins_slice(
 
 /// The record of a stored region of origins.
 async fn region(state: &AppState, id: String) -> Result<Record, LookupError> {
-    let admits =
-        |kind| matches!(kind, QuestionKind::Origins | QuestionKind::Toolpath | QuestionKind::Placement);
-    let record = stored_of_toolpath(state, id, admits).await?;
+    let record = stored_of_toolpath(state, id, QuestionKind::is_of_toolpath).await?;
     match record.kind {
         QuestionKind::Origins => Ok(record),
         _ => Err(LookupError::Region(record.id.to_string())),

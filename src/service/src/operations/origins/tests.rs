@@ -3,7 +3,7 @@
 use serde_json::json;
 use verne_solver::workspace::Unobserved;
 
-use super::{OriginsPart, compute_origins, compute_part, merge_parts};
+use super::{OriginsPart, compute_origins, compute_part, merge_parts, pack_extent, survey};
 use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::origins_question::CheckedOrigins;
 use crate::operations::toolpath_request::{ProgramSource, read_fields};
@@ -20,10 +20,15 @@ fn many_workers_make_the_bytes_of_one() {
     let question =
         CheckedOrigins::new(&request.more, &checked).unwrap().question(checked.question(source.id()));
     let whole = compute_origins(&question, &received.program, &Unobserved).unwrap();
-    let part = |part| compute_part(&question, &received.program, part, &Unobserved).unwrap();
-    let slabs: Vec<_> = [2, 0, 1].map(|number| part(OriginsPart::Slab { number, count: 3 })).into();
-    let coarse = part(OriginsPart::Coarse);
-    let merged = merge_parts(&question, &received.program, &slabs, &coarse, &Unobserved).unwrap();
+    let surveyed = survey(&question, &received.program, None, &Unobserved).unwrap();
+    let stored = pack_extent(&surveyed).unwrap();
+    let slabs: Vec<_> = [2, 0, 1]
+        .map(|number| {
+            let surveyed = survey(&question, &received.program, Some(&stored), &Unobserved).unwrap();
+            compute_part(&question, &surveyed, OriginsPart { number, count: 3 }, &Unobserved).unwrap()
+        })
+        .into();
+    let merged = merge_parts(&question, &surveyed, &slabs, &Unobserved).unwrap();
     assert_eq!(whole.summary, merged.summary);
     assert_eq!(whole.mesh.positions(), merged.mesh.positions());
     assert_eq!(whole.mesh.triangles(), merged.mesh.triangles());

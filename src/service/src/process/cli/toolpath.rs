@@ -4,49 +4,38 @@ mod output;
 mod summary;
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 use flate2::read::GzDecoder;
 use verne_program::joint_program::JointProgramOptions;
-use verne_program::{Format, FormatError, line_texts};
+use verne_program::{Format, line_texts};
 
 use crate::operations::joint_program::JointProgramText;
-use crate::operations::machine_registry::MachineRegistry;
-use crate::operations::programs::receiver::{ProgramReceiver, ReceivedProgram};
+use crate::operations::programs::receiver::ReceivedProgram;
 use crate::operations::toolpath::compute_toolpath;
-use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
+use crate::operations::toolpath_question::ToolpathQuestion;
 use crate::operations::toolpath_report::is_feasible;
 use crate::operations::toolpath_row_text::{RowText, RowWriter};
-use crate::process::cli::answer::{exit_status, flags_of_query, machine};
+use crate::process::cli::answer::exit_status;
 use crate::process::cli::answer_format::AnswerFormat;
-use crate::process::cli::files::{is_standard, name_of, refuse_equal_files, remove, source};
+use crate::process::cli::files::{is_standard, remove};
+use crate::process::cli::program_arguments::ProgramArguments;
 use crate::process::cli::progress::TerminalProgress;
 use crate::process::cli::terminal::Terminal;
 use crate::process::cli::toolpath::output::{OutputFormat, RowsOutput};
 use crate::process::cli::toolpath::summary::Summary;
 use crate::wire::error::OperationError;
 use crate::wire::joint_program::JointProgramQuery;
-use crate::wire::program_query::ProgramQuery;
-use crate::wire::toolpath::ToolpathRequest;
-use crate::wire::toolpath_query::{ToolpathQuery, point_into_toolpath_query};
-
-/// Bytes that are read at once.
-const PIECE_BYTES: usize = 256 * 1024;
 
 /// The command.
 #[derive(Debug, Args)]
 pub(crate) struct ToolpathCommand {
-    /// The file of the program; `-` is standard input. Without --format its extension tells the format.
-    #[arg(value_name = "FILE")]
-    file: PathBuf,
     #[command(flatten)]
-    reading: ProgramQuery,
+    program: ProgramArguments,
     #[command(flatten)]
-    query: ToolpathQuery,
-    #[command(flatten)]
-    program: JointProgramQuery,
+    joint_program: JointProgramQuery,
     /// Write the joint motion to this file: its rows as .csv, .ndjson or .json, or a joint program as .ngc or .nc; `-`
     /// writes CSV to standard output.
     #[arg(short, long, value_name = "FILE")]
@@ -73,21 +62,13 @@ impl ToolpathCommand {
         if rows_take_standard_output && self.report.as_deref().is_some_and(is_standard) {
             return Err("--output and --report cannot both be standard output".to_owned());
         }
-        let machine_file = Some(Path::new(&self.query.machine)).filter(|path| path.is_file());
-        refuse_equal_files(
-            &[("the program", Some(&*self.file)), ("the machine", machine_file)],
-            &[("--output", output), ("--report", self.report.as_deref())],
-        )?;
         // Before the computation: the extension may be unknown.
         let format = output.map(output::format).transpose()?;
-        let file = name_of(&self.file);
-        let faults = |error| message(&file, error);
-        let machine = machine(&self.query.machine)?;
-        let request = ToolpathRequest { machine, ..self.query.into_request() };
-        let options = self.program.into_options().map_err(faults)?;
-        let checked = CheckedToolpath::new(&request, &MachineRegistry::default()).map_err(faults)?;
-        let received = receive(&self.file, &self.reading, faults)?;
-        let question = checked.question(received.id).with_program(&received.program).map_err(faults)?;
+        let written = [("--output", output), ("--report", self.report.as_deref())];
+        let (checked, file) = self.program.checked(&written)?;
+        let faults = |error| file.message(error);
+        let options = self.joint_program.into_options().map_err(faults)?;
+        let (question, received) = file.receive(checked)?;
         let rows = match (output, format) {
             (Some(path), Some(format)) => {
                 let writer = writer(format, options, &question, &received).map_err(faults)?;
@@ -159,41 +140,4 @@ fn plan(
     let report = report.map_err(faults)?;
     rows.map_or(Ok(()), RowsOutput::finish)?;
     Ok(report)
-}
-
-/// Reads the program.
-pub(crate) fn receive(
-    path: &Path,
-    reading: &ProgramQuery,
-    faults: impl Fn(OperationError) -> String,
-) -> Result<ReceivedProgram, String> {
-    let name = path.file_name().and_then(|name| name.to_str()).filter(|_| !is_standard(path));
-    let format = Format::detect(reading.format.as_deref(), name, None);
-    let format = format.map_err(|error| match error {
-        FormatError::Undetermined => format!("--format is missing: the name of {} tells none", name_of(path)),
-        other => format!("{}: {other}", name_of(path)),
-    })?;
-    let unreadable = |error: io::Error| format!("{}: {error}", name_of(path));
-    let mut source = source(path)?;
-    let mut receiver = ProgramReceiver::new(format, &reading.options(format).map_err(&faults)?);
-    let mut piece = vec![0; PIECE_BYTES];
-    loop {
-        let count = source.read(&mut piece).map_err(unreadable)?;
-        if count == 0 || receiver.push(&piece[..count]).is_break() {
-            return receiver.finish().map_err(faults);
-        }
-    }
-}
-
-/// An error as a message: faults of the program with the places in the file, invalid fields with their flags.
-pub(crate) fn message(file: &str, error: OperationError) -> String {
-    match error {
-        OperationError::ProgramFaults(refused) => {
-            let stopped = if refused.complete { "" } else { "\n  the reader stopped here" };
-            let faults = refused.errors.iter().map(|fault| format!("\n  {fault}"));
-            format!("{file} cannot be read as a program{}{stopped}", faults.collect::<String>())
-        }
-        OperationError::Fields(_) => flags_of_query(point_into_toolpath_query(error)),
-        other => other.to_string(),
-    }
 }

@@ -6,29 +6,22 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::Value;
 
-use crate::operations::machine_registry::MachineRegistry;
 use crate::operations::mesh_files::{MeshDescription, write_mesh};
 use crate::operations::origins::{compute_origins, slice_of_origins};
 use crate::operations::origins_question::CheckedOrigins;
-use crate::operations::toolpath_question::CheckedToolpath;
-use crate::process::cli::answer::{machine, to_json};
+use crate::process::cli::answer::to_json;
 use crate::process::cli::answer_format::AnswerFormat;
-use crate::process::cli::files::{name_of, refuse_equal_files};
+use crate::process::cli::program_arguments::ProgramArguments;
 use crate::process::cli::progress::TerminalProgress;
 use crate::process::cli::terminal::Terminal;
-use crate::process::cli::toolpath::{message, receive};
 use crate::wire::format::{MeshFormat, SliceFormat};
 use crate::wire::origins::OriginsFields;
-use crate::wire::program_query::ProgramQuery;
-use crate::wire::toolpath::ToolpathRequest;
-use crate::wire::toolpath_query::ToolpathQuery;
 
 /// The command.
 #[derive(Debug, Args)]
 pub(crate) struct OriginsCommand {
-    /// The file of the program; `-` is standard input. Without --format its extension tells the format.
-    #[arg(value_name = "FILE")]
-    file: PathBuf,
+    #[command(flatten)]
+    program: ProgramArguments,
     /// Step of the grid from which the surface is made, mm.
     #[arg(long, default_value_t = 20.0, allow_hyphen_values = true)]
     cell: f64,
@@ -39,10 +32,6 @@ pub(crate) struct OriginsCommand {
     /// Cut the region at this z of the origins, mm.
     #[arg(long, value_name = "Z", allow_hyphen_values = true, requires = "output")]
     slice: Option<f64>,
-    #[command(flatten)]
-    reading: ProgramQuery,
-    #[command(flatten)]
-    query: ToolpathQuery,
     #[command(flatten)]
     format: AnswerFormat,
 }
@@ -57,26 +46,17 @@ impl OriginsCommand {
     /// Writes the file, and the summary as JSON to `out`, with line breaks on a terminal.
     pub(crate) fn run(self, out: &mut impl Write, terminal: Option<Terminal>) -> Result<(), String> {
         let output = self.output.as_deref();
-        let machine_file = Some(Path::new(&self.query.machine)).filter(|path| path.is_file());
-        refuse_equal_files(
-            &[("the program", Some(&*self.file)), ("the machine", machine_file)],
-            &[("--output", output)],
-        )?;
         // Before the computation: the extension may be unknown.
         let written = match (output, self.slice) {
             (Some(path), Some(z)) => Some((path, Output::Slice(z, format(path, ".svg, .dxf or .json")?))),
             (Some(path), None) => Some((path, Output::Mesh(format(path, ".glb, .stl, .ply or .json")?))),
             (None, _) => None,
         };
-        let file = name_of(&self.file);
-        let faults = |error| message(&file, error);
-        let machine = machine(&self.query.machine)?;
-        let request = ToolpathRequest { machine, ..self.query.into_request() };
-        let checked = CheckedToolpath::new(&request, &MachineRegistry::default()).map_err(faults)?;
+        let (checked, file) = self.program.checked(&[("--output", output)])?;
+        let faults = |error| file.message(error);
         let fields = OriginsFields { cell: Some(self.cell) };
         let fields = CheckedOrigins::new(&fields, &checked).map_err(faults)?;
-        let received = receive(&self.file, &self.reading, faults)?;
-        let toolpath = checked.question(received.id).with_program(&received.program).map_err(faults)?;
+        let (toolpath, received) = file.receive(checked)?;
         let question = fields.question(toolpath);
         let progress = TerminalProgress::new();
         let region = compute_origins(&question, &received.program, &progress);

@@ -25,13 +25,22 @@ const INTERVALS: u32 = 24;
 /// Fraction of the box's width that is added on each side.
 const ROOM: f64 = 0.02;
 
-/// The places that limit the region, and the box around it; `None` if no interior origin was found.
+/// What takes long in a survey. Other parts of the same computation can begin with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OriginExtent {
+    /// Indices of the places that limit the region, ascending.
+    pub places: Vec<u32>,
+    /// The box around the region; `None` if no origin was found in it.
+    pub bounds: Option<[[f64; 3]; 2]>,
+}
+
+/// The places that limit the region, and the box around it.
 pub(super) fn extent(
     machine: &Machine,
     places: &PlannedPlaces,
     admitted: &[[bool; 2]],
     observer: &dyn Observer,
-) -> Result<(Vec<u32>, Option<[Point; 2]>), WorkspaceError> {
+) -> Result<OriginExtent, WorkspaceError> {
     let bounds = reach(machine, places);
     let interior = interior_set_ups(machine, places, bounds, observer).map_err(|error| match error {
         PlanError::Cancelled => WorkspaceError::Cancelled,
@@ -55,7 +64,7 @@ pub(super) fn extent(
         }
         around = Some(found);
     }
-    Ok((set, around))
+    Ok(OriginExtent { places: set, bounds: around })
 }
 
 fn hull([a, b]: [Point; 2], [c, d]: [Point; 2]) -> [Point; 2] {

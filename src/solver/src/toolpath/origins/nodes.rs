@@ -11,8 +11,8 @@ use crate::workspace::dexterity::{Crossing, EDGES};
 use crate::workspace::observer::{ProgressCounter, check_cancelled};
 use crate::workspace::{Observer, WorkspaceError};
 
-/// Halvings of an edge: its crossing is off by at most 1/2048 of it.
-const HALVINGS: u32 = 10;
+/// Halvings of an edge. Its crossing is off by at most 1/512 of it; the vertices of the surface are moved anyway.
+const HALVINGS: u32 = 8;
 
 /// The nodes of some layers of the grid, and the crossings of the edges that begin at them with the region's surface.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,7 +45,7 @@ pub fn origin_slab(
     let layers = layers.start.min(grid.counts[0])..layers.end.min(grid.counts[0]);
     // The edges of the last layer end at the next.
     let examined = layers.start..(layers.end + 1).min(grid.counts[0]);
-    let membership = Membership::new(machine, &survey.places, &survey.set, &survey.admitted);
+    let membership = survey.membership(machine);
     let progress = ProgressCounter::new(observer, 2 * examined.len());
     let mut slab = OriginSlab { layers: layers.clone(), ..OriginSlab::default() };
     let mut before: Option<Vec<Vec<bool>>> = None;

@@ -76,10 +76,17 @@ async fn other_results_have_no_region_and_fields_are_named() {
     path.as_object_mut().unwrap().remove("cell");
     path["setup"] = json!({"z": 300});
     let (_, report) = post(&service, "/toolpath", &path).await;
-    let id = report["id"].as_str().unwrap();
+    let mut window = path.clone();
+    for (name, value) in [("parameter", json!("setup.x")), ("from", json!(-1)), ("to", json!(1))] {
+        window[name] = value;
+    }
+    let (_, window) = post(&service, "/toolpath/window", &window).await;
+    let [id, window] = [&report, &window].map(|answer| answer["id"].as_str().unwrap());
     for (path, status, code) in [
         (format!("/toolpath/{id}/mesh.glb"), StatusCode::NOT_FOUND, "no_region"),
         (format!("/toolpath/{id}/slice.svg?z=1"), StatusCode::NOT_FOUND, "no_region"),
+        (format!("/toolpath/{window}/mesh.glb"), StatusCode::NOT_FOUND, "no_region"),
+        (format!("/toolpath/{window}/slice.svg?z=1"), StatusCode::NOT_FOUND, "no_region"),
         (format!("/toolpath/{}/mesh.glb", "0".repeat(64)), StatusCode::NOT_FOUND, "toolpath_not_found"),
     ] {
         let (found, _, problem) = get(&service, &path).await;
