@@ -25,14 +25,14 @@ await context.addInitScript(() => {
   const look = () => {
     if (document.querySelector("canvas[data-ready=yes]")) window.machineSeen ??= performance.now();
     if (document.querySelector(".legend li")) window.workspaceSeen ??= performance.now();
-    if (window.workspaceSeen === undefined) requestAnimationFrame(look);
+    if (window.machineSeen === undefined || window.workspaceSeen === undefined) requestAnimationFrame(look);
   };
   requestAnimationFrame(look);
 });
 const page = await context.newPage();
 for (const run of ["cold", "warm", "warm", "warm"]) {
   await page.goto(`${address}/`);
-  await page.waitForFunction(() => window.workspaceSeen !== undefined);
+  await page.waitForFunction(() => window.machineSeen !== undefined && window.workspaceSeen !== undefined);
   const [machine, workspace] = await page.evaluate(() => [window.machineSeen, window.workspaceSeen]);
   console.log(
     `first picture, ${run}: machine ${machine.toFixed(0)} ms, workspace ${workspace.toFixed(0)} ms`,

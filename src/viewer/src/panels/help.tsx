@@ -17,7 +17,10 @@ const HANDS = [
 ] as const;
 
 const CLAMPING = [
-  ["Where does it run?", "shows the values of a number of the set-up, or of the tool’s length, with which the program runs, as marks on a slider"],
+  [
+    "Where does it run?",
+    "shows the values of a number of the set-up, or of the tool’s length, with which the program runs, as marks on a slider",
+  ],
   ["Find a set-up", "searches the set-up in which the program keeps the greatest distance from the limits"],
   ["Region of origins", "shows in the scene where the origin of the set-up may be"],
 ] as const;
