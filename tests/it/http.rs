@@ -3,6 +3,7 @@
 mod admission;
 mod bad_input;
 mod batch;
+mod calibration;
 mod certificates;
 mod client_quotas;
 mod continuous_batch;

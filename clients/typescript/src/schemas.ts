@@ -6,6 +6,8 @@ export type { paths } from "../generated/openapi.js";
 
 export type Schemas = components["schemas"];
 export type Answer = Schemas["Answer"];
+export type CalibrationAnswer = Schemas["CalibrationAnswer"];
+export type CalibrationRequest = Schemas["CalibrationRequest"];
 export type DexterityBody = Schemas["DexterityBody"];
 export type DexteritySummary = Schemas["DexteritySummary"];
 export type FamilySummary = Schemas["FamilySummary"];

@@ -4,6 +4,7 @@
 //!
 //! - Kinematics: [`forward`], [`inverse`] and their batches. The solver computes the margins; [`solutions`] puts them
 //!   into answers.
+//! - Calibration: [`calibration_request`] and [`calibration_table`] read measurements, [`calibration`] answers.
 //! - Error budgets: [`error_budget`] of poses, [`error_map`] over a workspace.
 //! - Workspaces: [`workspace_question`], [`family_question`] and [`dexterity_question`] check requests; [`workspace`]
 //!   and [`dexterity_map`] compute answers; [`mesh_files`], [`slice`] and [`drawing`] write files.
@@ -20,6 +21,10 @@
 pub(crate) mod answer_columns;
 pub(crate) mod batch_rows;
 pub(crate) mod blocking_results;
+pub(crate) mod calibration;
+pub(crate) mod calibration_options;
+pub(crate) mod calibration_request;
+pub(crate) mod calibration_table;
 pub(crate) mod column_rows;
 pub(crate) mod compute_pool;
 pub(crate) mod contains;

@@ -23,6 +23,7 @@ extern crate self as verne_solver;
 mod random;
 
 pub mod axis;
+pub mod calibration;
 pub mod certificate;
 mod clearance;
 mod error;

@@ -3,6 +3,7 @@
 Lengths are millimetres and angles degrees.
 """
 
+from verne.answers.calibration import Calibration, ParameterEstimate
 from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.machine import Machine, MachineEntry, MachineId
 from verne.answers.solution import ForwardResult, InverseResult, Joints, Limit, PartPose, PlatformPose, Solution
@@ -37,6 +38,7 @@ __all__ = [
     "AsyncToolpathJob",
     "AsyncWindowJob",
     "AsyncWorkspaceJob",
+    "Calibration",
     "Client",
     "DecodingError",
     "DexterityJob",
@@ -56,6 +58,7 @@ __all__ = [
     "Membership",
     "OriginsJob",
     "OriginsSummary",
+    "ParameterEstimate",
     "PartPose",
     "Placement",
     "PlacementJob",

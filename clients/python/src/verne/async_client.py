@@ -16,7 +16,7 @@ from verne.async_job import (
     AsyncWindowJob,
     AsyncWorkspaceJob,
 )
-from verne.operations import batches, fitting, kinematics, publications, toolpaths, workspaces
+from verne.operations import batches, calibration, fitting, kinematics, publications, toolpaths, workspaces
 from verne.runners import Awaiting, awaiting, awaiting_job
 from verne.session import DEFAULT_RETRIES, DEFAULT_URL, TIMEOUT, Session
 
@@ -72,3 +72,4 @@ class AsyncClient(Awaiting[Session]):
     origins = awaiting_job(fitting.origins, AsyncOriginsJob)
     machines = awaiting(publications.machines)
     machine = awaiting(publications.machine)
+    calibrate = awaiting(calibration.calibrate)

@@ -8,7 +8,7 @@ from typing import Self
 import httpx
 
 from verne.job import DexterityJob, FamilyJob, OriginsJob, PlacementJob, ToolpathJob, WindowJob, WorkspaceJob
-from verne.operations import batches, fitting, kinematics, publications, toolpaths, workspaces
+from verne.operations import batches, calibration, fitting, kinematics, publications, toolpaths, workspaces
 from verne.runners import Blocking, blocking, blocking_job
 from verne.session import DEFAULT_RETRIES, DEFAULT_URL, TIMEOUT, Session
 
@@ -72,3 +72,4 @@ class Client(Blocking[Session]):
     origins = blocking_job(fitting.origins, OriginsJob)
     machines = blocking(publications.machines)
     machine = blocking(publications.machine)
+    calibrate = blocking(calibration.calibrate)
