@@ -32,10 +32,18 @@ fn spread(i: u32, step: f64) -> f64 {
     (f64::from(i) * step).fract()
 }
 
-/// The i-th normal number.
+/// The i-th normal number: the sum of twelve uniform ones less 6.
 fn normal(i: u32) -> f64 {
-    let uniform = |k: u32| (f64::from(i * 12 + k) * 0.754_877_666_246_692_8).fract() * 9301.0;
-    (0..12).map(|k| uniform(k).fract()).sum::<f64>() - 6.0
+    (0..12).map(|k| uniform(12 * u64::from(i) + k)).sum::<f64>() - 6.0
+}
+
+/// The i-th number between 0 and 1 of `SplitMix64`.
+fn uniform(i: u64) -> f64 {
+    let z = (i + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    let high = u32::try_from((z ^ (z >> 31)) >> 32).unwrap_or_default();
+    (f64::from(high) + 0.5) / 4_294_967_296.0
 }
 
 fn main() -> Result<(), CalibrationError> {

@@ -3,6 +3,7 @@
 #![doc = include_str!("calibration/calibration.md")]
 
 mod ball;
+mod decomposition;
 mod error;
 mod estimate;
 mod fit;
@@ -35,9 +36,9 @@ use nalgebra::DVector;
 use crate::machine::Machine;
 use crate::parameter::Parameter;
 use crate::workspace::Observer;
+use decomposition::decomposed;
 use estimate::concluded;
 use fit::{Fit, Fitted, Knowledge};
-use information::Information;
 use model::{Model, State};
 
 /// Part of a combination in the machine's parameters below which it is one of the measuring device alone.
@@ -138,7 +139,7 @@ fn nearest_to_start(
 ) -> Result<Option<State>, CalibrationError> {
     let (model, state) = (fit.model, &fitted.state);
     let triangle = fit.triangle(state, &fit.rates(state)?, &fitted.weighting);
-    let free = Information::of(&triangle, fit.unbounded(fitted, &triangle));
+    let free = fit.information(&triangle, fit.unbounded(fitted, &triangle), fitted.steps)?;
     let directions = free.null_space(model.unknowns.len());
     if directions.ncols() == 0 {
         return Ok(None);
@@ -151,7 +152,9 @@ fn nearest_to_start(
     let rows: Vec<usize> = (0..model.unknowns.len()).filter(|row| is_parameter(*row)).collect();
     let distances = DVector::from_iterator(rows.len(), model.unknowns.iter().filter_map(distance));
     let of_machine = directions.select_rows(&rows);
-    let Ok(amounts) = of_machine.svd(true, true).solve(&distances, LEAST_SHARE) else { return Ok(None) };
+    // Without a parameter among the unknowns all of these machines are the same.
+    let Some(svd) = decomposed(of_machine) else { return Ok(None) };
+    let Ok(amounts) = svd.solve(&distances, LEAST_SHARE) else { return Ok(None) };
     let step = directions * amounts;
     Ok(model.moved(state, step.as_slice()).filter(|nearest| fit.is_within_bounds(nearest)))
 }

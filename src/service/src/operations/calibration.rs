@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use verne_solver::calibration::{
-    Calibration, CalibrationError, CalibrationOptions, Measurements, Plan, calibrated, simulated,
+    Calibration, CalibrationError, CalibrationOptions, Combination, Measurements, Plan, calibrated, simulated,
 };
 use verne_solver::parameter::{ActualMachine, Parameter};
 use verne_solver::workspace::Observer;
@@ -117,17 +117,26 @@ fn refusal(error: CalibrationError, places: &Places) -> OperationError {
             OperationError::NoFit(format!("the machine that fits best cannot stand at a measured pose, {at}"))
         }
         CalibrationError::NotConverged { steps, weakest } => {
-            let names: Vec<_> = weakest.iter().map(|(unknown, _)| unknown.name()).collect();
-            OperationError::NoFit(format!(
-                "the least squares did not converge in {steps} steps. The measurements hardly determine {} together: \
-                 fix one of them, state a prior, or measure other poses; or the start is too far off, or rows are \
-                 mixed up",
-                names.join(", ")
-            ))
+            OperationError::NoFit(no_convergence(steps, &weakest))
         }
         CalibrationError::Cancelled => OperationError::Cancelled,
         CalibrationError::Inconsistent(_) => OperationError::Internal,
     }
+}
+
+/// Why there is no end of the least squares: a clause.
+fn no_convergence(steps: usize, weakest: &Combination) -> String {
+    let names: Vec<_> = weakest.iter().map(|(unknown, _)| unknown.name()).collect();
+    let weak = match names.as_slice() {
+        [] => String::new(),
+        names => format!(
+            ". The measurements hardly determine {} together: fix one of them, state a prior, or measure other poses",
+            names.join(", ")
+        ),
+    };
+    format!(
+        "the least squares did not converge in {steps} steps{weak}; or the start is too far off, or rows are mixed up"
+    )
 }
 
 fn answer(
@@ -148,7 +157,7 @@ fn answer(
         let ([x, y, z], [a, b, c]) = (frame.origin(), frame.angles().map(to_degrees));
         FrameObject { x, y, z, a, b, c }
     });
-    let named = |combination: &verne_solver::calibration::Combination| {
+    let named = |combination: &Combination| {
         let entry = |(unknown, amount): &(verne_solver::calibration::Unknown, f64)| {
             (unknown.name(), to_wire(unknown.unit(), *amount))
         };

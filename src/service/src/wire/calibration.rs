@@ -29,7 +29,7 @@ pub(crate) struct CalibrationRequest {
     /// The machine with which the search begins: the name of a published machine, or a machine object.
     #[serde(default)]
     pub machine: MachineRef,
-    /// What was measured.
+    /// Kind of the measurements.
     #[serde(default)]
     pub kind: MeasurementKind,
     /// Distance from P to the tool end with which the search begins, mm.
@@ -64,7 +64,7 @@ pub(crate) struct CalibrationRequest {
     /// Parameters that keep their values.
     #[serde(default)]
     pub fixed: Vec<ParameterName>,
-    /// What is known of parameters from another source, by their names. Needs `sigma`.
+    /// Values of parameters from another source, by their names. Needs `sigma`.
     #[serde(default)]
     #[schema(value_type = BTreeMap<String, PriorObject>)]
     pub priors: BTreeMap<ParameterName, StrictObject<PriorObject>>,
@@ -77,7 +77,7 @@ pub(crate) struct CalibrationRequest {
     #[serde(default)]
     #[schema(minimum = 1e-9, maximum = 1e6)]
     pub sigma: Option<f64>,
-    /// What a residual costs.
+    /// Cost of a residual.
     #[serde(default)]
     pub loss: LossName,
     /// Number of poses to propose for the next measurements.
@@ -94,7 +94,7 @@ pub(crate) fn default_next() -> u32 {
 /// `[i, j]` or `[i, j, distance]`.
 pub(crate) type PairRow = ArrayVec<f64, 3>;
 
-/// What was measured: `tips`, the tool end in the base frame; `tracker`, the tool end in the measuring device's own
+/// Kind of measurements: `tips`, the tool end in the base frame; `tracker`, the tool end in the measuring device's own
 /// frame, whose place follows from the measurements; `part`, the tool end in the part frame; `distances` between tool
 /// ends; `ballbar`, distances of the tool end from a ball.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
@@ -131,7 +131,7 @@ impl MeasurementKind {
     }
 }
 
-/// What a residual costs: `squares`, its square; `huber`, its square if it is small and linearly beyond, so that gross
+/// Cost of a residual: `squares`, its square; `huber`, its square if it is small and linearly beyond, so that gross
 /// errors hardly count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, ToSchema, ValueEnum)]
 #[serde(rename_all = "snake_case")]

@@ -26,8 +26,8 @@ pub(crate) struct CalibrationAnswer {
     pub hash: std::sync::Arc<str>,
     /// The machine with which the search began.
     pub start: MachineId,
-    /// What to add to the sliders' positions that the control indicates, for `rho` of requests with `machine`, mm. To
-    /// correct the control instead, shift the zeros of its sliders by as much.
+    /// Amounts to add to the sliders' positions that the control indicates, for `rho` of requests with `machine`, mm.
+    /// To correct the control instead, shift the zeros of its sliders by as much.
     #[schema(inline)]
     pub slider_offsets: Triple,
     /// Distance from P to the tool end, mm.
@@ -80,7 +80,7 @@ pub(crate) struct ParameterEstimate {
     pub unit: Unit,
     /// Value at the start.
     pub start: f64,
-    /// Value. What nothing determines stays as near to the start as it can.
+    /// Value. A parameter that nothing determines stays as near to the start as it can.
     pub value: f64,
     /// Standard deviation of the value. null if neither the measurements nor a prior determine it, if nothing tells the
     /// accuracy of the measurements, or at a bound.

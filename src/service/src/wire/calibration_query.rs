@@ -32,7 +32,7 @@ pub(crate) struct CalibrationQuery {
     #[arg(long, default_value = REFERENCE)]
     #[param(default = "verne")]
     pub machine: String,
-    /// What was measured.
+    /// Kind of the measurements.
     #[serde(default)]
     #[arg(long, default_value = "tips")]
     pub kind: MeasurementKind,
@@ -50,7 +50,7 @@ pub(crate) struct CalibrationQuery {
     #[arg(long, value_name = "NAMES")]
     #[param(inline, style = Form, explode = false, nullable = false)]
     pub fixed: Option<ParameterList>,
-    /// What is known of parameters from another source as JSON, such as `{"L1":{"value":1050.1,"sigma":0.02}}`. Needs
+    /// Values of parameters from another source as JSON, such as `{"L1":{"value":1050.1,"sigma":0.02}}`. Needs
     /// `sigma`.
     #[arg(long, value_name = "JSON")]
     #[param(value_type = Option<String>, nullable = false)]
@@ -63,7 +63,7 @@ pub(crate) struct CalibrationQuery {
     #[arg(long, allow_hyphen_values = true)]
     #[param(minimum = 1e-9, maximum = 1e6, nullable = false)]
     pub sigma: Option<f64>,
-    /// What a residual costs.
+    /// Cost of a residual.
     #[serde(default)]
     #[arg(long, default_value = "squares")]
     pub loss: LossName,

@@ -2,10 +2,13 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
+use super::decomposition::decomposed;
 use super::frame::mean;
 
 /// Points whose extent in one direction is below this fraction of the others are in one plane.
 const FLAT: f64 = 1e-3;
+/// Points that are nearer to each other, relative to their distance from the origin, are one point.
+const COINCIDENT: f64 = 1e-9;
 
 /// The point that has these distances from some points, by linear least squares; without distances, the one that has
 /// the same distance from all.
@@ -15,14 +18,20 @@ const FLAT: f64 = 1e-3;
 pub(super) fn centre(tips: &[Vector3<f64>], lengths: Option<&[f64]>) -> Vector3<f64> {
     let middle = mean(tips);
     let spread: Matrix3<f64> = tips.iter().map(|tip| (tip - middle) * (tip - middle).transpose()).sum();
-    let size = spread.trace().sqrt().max(f64::MIN_POSITIVE);
+    let size = spread.trace().sqrt();
+    if size <= COINCIDENT * middle.norm() {
+        // Every point at the distance is as good.
+        let length = lengths.map_or(0.0, |lengths| lengths.iter().sum::<f64>() / count(tips));
+        return middle + Vector3::new(0.0, 0.0, length);
+    }
     let square = |i: usize| lengths.map_or(0.0, |lengths| lengths[i] * lengths[i]);
     let rows = DMatrix::from_fn(tips.len(), 4, |row, column| match column {
         3 => size,
         axis => -2.0 * (tips[row] - middle)[axis],
     });
     let right = DVector::from_fn(tips.len(), |row, _| square(row) - (tips[row] - middle).norm_squared());
-    let solved = rows.svd(true, true).solve(&right, FLAT * size).unwrap_or_else(|_| DVector::zeros(4));
+    let solved = decomposed(rows).and_then(|svd| svd.solve(&right, FLAT * size).ok());
+    let solved = solved.unwrap_or_else(|| DVector::zeros(4));
     let level = middle + Vector3::new(solved[0], solved[1], solved[2]);
     let frame = spread.symmetric_eigen();
     let (thin, extent) = frame.eigenvalues.argmin();

@@ -44,7 +44,8 @@ impl fmt::Display for CalibrationError {
                 write!(f, "the machine that fits best does not stand in the working mode at pose {pose}")
             }
             Self::NotConverged { steps, weakest } => {
-                write!(f, "the least squares did not converge in {steps} steps; least determined are")?;
+                write!(f, "the least squares did not converge in {steps} steps")?;
+                f.write_str(if weakest.is_empty() { "" } else { "; least determined are" })?;
                 weakest.iter().try_for_each(|(unknown, _)| write!(f, " {}", unknown.name()))
             }
             Self::Cancelled => write!(f, "the computation was cancelled"),

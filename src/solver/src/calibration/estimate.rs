@@ -34,7 +34,8 @@ pub struct Estimate {
     pub parameter: Parameter,
     /// The value at the start, mm or rad.
     pub start: f64,
-    /// The value, mm or rad. What the measurements do not determine stays as near to the start as it can.
+    /// The value, mm or rad. A parameter that nothing determines stays as near to the start as it
+    /// can.
     pub value: f64,
     /// The standard deviation of the value. `None` if neither the measurements nor a prior determine it, if the
     /// accuracy of the measurements is unknown, or at a bound.
@@ -93,13 +94,13 @@ pub(super) fn concluded(
     let state = &fitted.state;
     let rates = fit.rates(state)?;
     let all = (0..model.unknowns.len()).collect();
-    let of_measurements = Information::of(&model.triangle(state, &rates, |_, _| 1.0), all);
+    let of_measurements = fit.information(&model.triangle(state, &rates, |_, _| 1.0), all, fitted.steps)?;
     let residuals = model.residuals(state);
     let sigma = standard_deviation(fit, &residuals, of_measurements.rank());
     let weighting = Weighting { scale: sigma.unwrap_or(1.0), ..fitted.weighting };
     let triangle = fit.triangle(state, &rates, &weighting);
     let free = fit.unbounded(&fitted, &triangle);
-    let known = Information::of(&triangle, free.clone());
+    let known = fit.information(&triangle, free.clone(), fitted.steps)?;
     let calibrated = described(machine, state).ok_or(CalibrationError::OutOfMode { pose: 0 })?;
     check_postures(&calibrated, fit, state)?;
     let unidentifiable = of_measurements.undetermined().into_iter();

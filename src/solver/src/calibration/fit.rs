@@ -123,7 +123,7 @@ impl Fit<'_> {
                 return Err(CalibrationError::Cancelled);
             }
             let triangle = self.triangle(&state, &self.rates(&state)?, &weighting);
-            let information = Information::of(&triangle, self.free(&state, &triangle));
+            let information = self.information(&triangle, self.free(&state, &triangle), steps)?;
             let unit = information.greatest().powi(2);
             if information.decrement() <= self.tolerance(cost, &weighting) {
                 return Ok(Fitted { state, weighting, steps });
@@ -149,7 +149,7 @@ impl Fit<'_> {
             }
         }
         let triangle = self.triangle(&state, &self.rates(&state)?, &weighting);
-        let information = Information::of(&triangle, self.free(&state, &triangle));
+        let information = self.information(&triangle, self.free(&state, &triangle), MOST_STEPS)?;
         Err(self.not_converged(&information, MOST_STEPS))
     }
 
@@ -167,6 +167,17 @@ impl Fit<'_> {
             return Ok(Fitted { state, weighting, steps });
         }
         Err(self.not_converged(information, steps))
+    }
+
+    /// What a factor tells about some unknowns.
+    pub(super) fn information(
+        &self,
+        triangle: &Triangle,
+        unknowns: Vec<usize>,
+        steps: usize,
+    ) -> Result<Information, CalibrationError> {
+        let undecided = || CalibrationError::NotConverged { steps, weakest: Vec::new() };
+        Information::of(triangle, unknowns).ok_or_else(undecided)
     }
 
     fn not_converged(&self, information: &Information, steps: usize) -> CalibrationError {

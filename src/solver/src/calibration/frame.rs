@@ -4,6 +4,9 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::unknown::FrameAxis;
 
+/// Most iterations of a decomposition.
+const ITERATIONS: usize = 1000;
+
 /// Position of a measuring device's frame in the base frame: a point p of the device is at R p + t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasurementFrame {
@@ -27,7 +30,9 @@ impl MeasurementFrame {
         let pairs = device.iter().zip(base);
         let covariance: Matrix3<f64> =
             pairs.map(|(device, base)| (base - u) * (device - p).transpose()).sum();
-        let svd = covariance.svd(true, true);
+        let Some(svd) = covariance.try_svd(true, true, 5.0 * f64::EPSILON, ITERATIONS) else {
+            return Self::base();
+        };
         let (Some(left), Some(right)) = (svd.u, svd.v_t) else { return Self::base() };
         let sign = (left.determinant() * right.determinant()).signum();
         let rotation = left * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * right;

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::decomposition::decomposed;
 use super::triangle::Triangle;
 
 /// Singular values below this fraction of the greatest are zero. What cannot be identified has about 1e-15 of it, from
@@ -32,21 +33,20 @@ const NOTABLE: f64 = 0.1;
 pub(super) type Combination = Vec<(usize, f64)>;
 
 impl Information {
-    /// The decomposition for some unknowns while the others are constant.
-    pub(super) fn of(triangle: &Triangle, unknowns: Vec<usize>) -> Self {
+    /// The decomposition for some unknowns while the others are constant. `None` if it does not converge.
+    pub(super) fn of(triangle: &Triangle, unknowns: Vec<usize>) -> Option<Self> {
         let count = unknowns.len();
         if count == 0 {
             let (values, vectors) = (DVector::zeros(0), DMatrix::zeros(0, 0));
-            return Self { unknowns, residual: values.clone(), values, vectors, rank: 0 };
+            return Some(Self { unknowns, residual: values.clone(), values, vectors, rank: 0 });
         }
         let matrix = triangle.matrix().select_columns(&unknowns);
-        let svd = matrix.svd(true, true);
-        let left = svd.u.unwrap_or_else(|| DMatrix::zeros(triangle.residual().len(), count));
-        let vectors = svd.v_t.unwrap_or_else(|| DMatrix::identity(count, count));
+        let svd = decomposed(matrix)?;
+        let (left, vectors) = (svd.u?, svd.v_t?);
         let values = svd.singular_values;
         let least = ZERO * values.iter().copied().fold(0.0, f64::max);
         let rank = values.iter().filter(|value| **value > least).count();
-        Self { unknowns, residual: left.tr_mul(&triangle.residual()), values, vectors, rank }
+        Some(Self { unknowns, residual: left.tr_mul(&triangle.residual()), values, vectors, rank })
     }
 
     /// The number of combinations that the measurements determine.
@@ -159,6 +159,7 @@ impl Information {
 }
 
 #[cfg(test)]
+#[allow(clippy::expect_used, reason = "a test stops at the first surprise")]
 mod tests {
     use nalgebra::DMatrix;
 
@@ -175,7 +176,7 @@ mod tests {
                 0.0, 0.0, 0.0, 3.0, -3.0, 0.0,
             ],
         );
-        Information::of(&Triangle::of(rows), (0..5).collect())
+        Information::of(&Triangle::of(rows), (0..5).collect()).expect("finite numbers")
     }
 
     #[test]
@@ -200,7 +201,8 @@ mod tests {
 
     #[test]
     fn without_unknowns_nothing_is_determined() {
-        let information = Information::of(&Triangle::of(DMatrix::zeros(3, 2)), Vec::new());
+        let information =
+            Information::of(&Triangle::of(DMatrix::zeros(3, 2)), Vec::new()).expect("no numbers");
         assert_eq!((information.rank(), information.decrement()), (0, 0.0));
         assert_eq!(information.step(1.0, 1), [0.0]);
         assert_eq!(information.covariance(1)[(0, 0)], 0.0);
@@ -211,7 +213,8 @@ mod tests {
     #[test]
     fn constant_unknowns_have_no_variance() {
         let rows = DMatrix::from_row_slice(2, 3, &[2.0, 0.0, 0.0, 0.0, 4.0, 0.0]);
-        let covariance = Information::of(&Triangle::of(rows), vec![1]).covariance(2);
+        let information = Information::of(&Triangle::of(rows), vec![1]).expect("finite numbers");
+        let covariance = information.covariance(2);
         assert_eq!((covariance[(0, 0)], covariance[(1, 1)]), (0.0, 0.0625));
     }
 }

@@ -57,6 +57,32 @@ fn measurements_of_another_machine_end_with_an_error_or_a_machine() {
     }
 }
 
+#[test]
+fn equal_poses_have_an_answer_or_an_error() {
+    let machine = Machine::verne();
+    let rho = vec![[500.0, 500.0, 500.0]; 6];
+    let lengths = vec![500.0; 6];
+    let distance = |a, b| TipDistance { poses: [a, b], length: 0.001 };
+    for observed in [
+        Observed::Tips(vec![[0.0, 0.0, 1400.0]; 6]),
+        Observed::TrackerTips(vec![[0.0, 0.0, 0.0]; 6]),
+        Observed::BallBar { centre: None, lengths: lengths.clone() },
+        Observed::BallBar { centre: None, lengths: vec![0.0; 6] },
+        Observed::BallBar { centre: Some([0.0, 0.0, 900.0]), lengths },
+        Observed::Distances(vec![distance(0, 1), distance(1, 2)]),
+    ] {
+        let measurements = Measurements { rho: rho.clone(), observed };
+        for fixed in [Vec::new(), measurements.observed.parameters().to_vec()] {
+            let options = CalibrationOptions { fixed, next: 2, ..with_sigma(0.002) };
+            match calibration(&machine, &measurements, &options) {
+                Ok(found) => assert!(found.rank <= 3, "{:?}", found.rank),
+                Err(CalibrationError::NotConverged { .. } | CalibrationError::OutOfMode { .. }) => {}
+                Err(other) => panic!("{other}"),
+            }
+        }
+    }
+}
+
 struct Impatient;
 
 impl Observer for Impatient {
