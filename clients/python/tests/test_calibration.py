@@ -48,8 +48,8 @@ def test_a_known_machine_is_found_again(
 ) -> None:
     found = client.calibrate(measured, tool_length=TOOL_LENGTH, sigma=0.002)
     assert (found.rank, found.unidentifiable) == (13, [])
-    assert found.machine["geometry"]["L1"] == pytest.approx(1050.3, abs=1e-5)
-    assert found.machine["geometry"]["R1"] == pytest.approx(274.8, abs=1e-5)
+    assert found.machine["geometry"]["L1"] == pytest.approx(1050.3, abs=1e-3)
+    assert found.machine["geometry"]["R1"] == pytest.approx(274.8, abs=1e-3)
     assert all(estimate.sigma is not None for estimate in found.parameters)
     assert found.residuals.shape == (30, 3)
     assert found.next.shape == (5, 3)

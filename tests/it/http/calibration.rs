@@ -69,17 +69,17 @@ async fn a_machine_is_found_again_and_is_ready_for_requests() {
     assert_eq!((&answer["rank"], &answer["unidentifiable"]), (&json!(13), &json!([])), "{answer}");
     for (name, value) in [("L1", 1050.3), ("R1", 274.8), ("L2", 1050.0), ("r4", 500.0)] {
         let found = answer["machine"]["geometry"][name].as_f64().unwrap();
-        assert!((found - value).abs() < 1e-5, "{name}: {found}");
+        assert!((found - value).abs() < 1e-3, "{name}: {found}");
     }
     let of_list = |list: &str| answer[list].as_array().unwrap().len();
     assert_eq!(["parameters", "residuals", "outliers", "next"].map(of_list), [13, 30, 0, 5]);
-    assert!(answer["rms"].as_f64().unwrap() < 1e-8 && answer["frame"].is_null(), "{answer}");
+    assert!(answer["rms"].as_f64().unwrap() < 1e-6 && answer["frame"].is_null(), "{answer}");
 
     // In a request as it is ...
     let offsets = numbers(&answer["slider_offsets"]);
     let moved: Vec<_> = rho.iter().map(|rho| [0, 1, 2].map(|i| rho[i] + offsets[i])).collect();
     for (found, measured) in tips(&service, &answer["machine"], &moved).await.iter().zip(&points) {
-        assert!((0..3).all(|i| (found[i] - measured[i]).abs() < 1e-6), "{found:?} {measured:?}");
+        assert!((0..3).all(|i| (found[i] - measured[i]).abs() < 1e-5), "{found:?} {measured:?}");
     }
     // ... and published beside the one with which the search began.
     let directory = tempfile::tempdir().unwrap();
@@ -141,7 +141,7 @@ async fn lengths_are_measurements_too() {
         assert_eq!(of_names.collect::<Vec<_>>(), names, "{answer}");
         let parameters = answer["parameters"].as_array().unwrap();
         let length = parameters.iter().find(|parameter| parameter["name"] == "L1").unwrap();
-        assert!((length["value"].as_f64().unwrap() - 1050.3).abs() < 1e-4, "{length}");
+        assert!((length["value"].as_f64().unwrap() - 1050.3).abs() < 1e-3, "{length}");
         assert_eq!(length["identifiable"], true);
     }
 }
