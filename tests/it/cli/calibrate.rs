@@ -70,11 +70,11 @@ fn faults_name_the_flag_the_column_or_the_line_and_leave_no_file() {
         (rows, "--bounds {\"L1\":[1,2]}", "--bounds L1: "),
         (rows, "--machine none", "--machine: "),
         (rows, "-o DIR/./rows.csv", "would overwrite the measurements"),
-        (rows, "--kind ballbar", "cannot be used\n  column length"),
+        (rows, "--kind distances", "cannot be used\n  column to_rho1"),
         ("rho1,rho2\n1,2\n", "", "column rho3"),
         ("rho1,rho2,rho3,x,y,z\n", "", "there is no row"),
-        (&rows.replace("1380", "nan"), "", "line 3: z is not a number"),
-        (&unreached, "", "line 4: the machine at the start cannot stand there"),
+        (&rows.replace("1380", "nan"), "", "row 1 in line 3: z is not a number"),
+        (&unreached, "", "row 2 in line 4: the machine at the start cannot stand there"),
         (&shuffled, "", "No machine was found"),
     ] {
         let output = if options.starts_with("-o") { "" } else { "-o DIR/out.json" };

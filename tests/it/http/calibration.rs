@@ -87,8 +87,8 @@ async fn a_machine_is_found_again_and_is_ready_for_requests() {
     let with_file = opened(&config(Some(directory.path().into()))).await;
     let published = get_from(&with_file, "/machines/verne-calibrated", &[]).await.json;
     assert_eq!(published["definition"], answer["machine"]);
-    assert_eq!(published["hash"], answer["hash"]);
-    assert_eq!(get_from(&with_file, "/machines/verne", &[]).await.json["hash"], answer["start"]["hash"]);
+    assert_eq!(published["machine"]["hash"], answer["hash"]);
+    assert_eq!(get_from(&with_file, "/machines/verne", &[]).await.json["machine"], answer["start"]);
 }
 
 #[tokio::test]
@@ -154,7 +154,7 @@ async fn poses_without_values_are_a_plan() {
     assert_eq!((&plan["rank"], &plan["unknowns"]), (&json!(17), &json!(19)), "{plan}");
     assert_eq!((&plan["rms"], &plan["residuals"], &plan["frame"]), (&json!(null), &json!([]), &json!(null)));
     let verne = super::get("/machines/verne").await.json;
-    assert_eq!((&plan["machine"], &plan["hash"]), (&verne["definition"], &verne["hash"]));
+    assert_eq!((&plan["machine"], &plan["hash"]), (&verne["definition"], &verne["machine"]["hash"]));
     let text = rho.iter().map(|[a, b, c]| format!("{a},{b},{c}\n"));
     let text = format!("rho1,rho2,rho3\n{}", text.collect::<String>());
     let of_table = table(&format!("{URI}?kind=tracker&sigma=0.002&tool_length=100"), "text/csv", text).await;
@@ -268,7 +268,7 @@ async fn a_problem_names_the_column_and_the_row() {
         ("?fixed=L1,da", csv, "/query/fixed/1", "kind `tips`"),
         ("?sigma=-1", csv, "/query/sigma", "number"),
         ("?bounds=%7B%22L1%22:[1,2]%7D", csv, "/query/bounds/L1", "1050"),
-        ("?priors=7", csv, "/query/priors", "object"),
+        ("?priors=7", csv, "/query/priors", "map"),
         ("?centre=1,2,3", csv, "/query/centre", "ballbar"),
         ("?machine=no", csv, "/query/machine", "no"),
     ] {
