@@ -26,4 +26,4 @@ mod trace;
 
 pub use answer::{Atlas, Curve, CurveKind, Face, PointKind, Region, SpecialPoint};
 pub use compute::atlas;
-pub use request::{AtlasError, AtlasRequest, Space, Window};
+pub use request::{AtlasError, AtlasRequest, Space, SpecialMachine, Window};

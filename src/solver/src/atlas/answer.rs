@@ -52,7 +52,8 @@ pub struct SpecialPoint {
     pub at: [f64; 2],
 }
 
-/// A polygon with holes. The last corner of a ring joins the first.
+/// A polygon with holes. The last corner of a ring joins the first. Its corners are on the true curves, its sides within
+/// the tolerance of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Face {
     /// Counter-clockwise.
@@ -61,13 +62,17 @@ pub struct Face {
     pub holes: Vec<Vec<[f64; 2]>>,
     /// A point in its interior, far from its sides.
     pub label: [f64; 2],
-    /// The area within the true curves, mm².
+    /// The area within the true curves, mm²: that of the polygon and of the cubic segments on its sides.
     pub area: f64,
-    /// A bound of the area's error, mm².
+    /// How far the area may be off, mm²: each side's length times twice the distance between the true curve and the
+    /// cubic in the side's middle. The distance is not checked elsewhere on the side.
     pub area_error: f64,
 }
 
-/// A region in which the number of solutions is constant.
+/// A region in which the number of solutions is constant. Faces that meet along a curve on both sides of which the number
+/// is the same are one region.
+///
+/// A strip between curves that is narrower than a fiftieth of the tolerance has the number of its neighbour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     /// The number of solutions.
@@ -85,8 +90,9 @@ pub struct Atlas {
     pub points: Vec<SpecialPoint>,
     /// The regions: together they are the window.
     pub regions: Vec<Region>,
-    /// The part of the window with a solution in the working mode.
+    /// The part of the window with a solution in the working mode, without regard to strokes and joints.
     pub working: Vec<Face>,
-    /// The number of points at which the solver's number of solutions was compared with the region's.
+    /// The number of points at which the solver counted the solutions: up to three in each face between the curves.
+    /// They agreed wherever they are farther than the tolerance from all curves.
     pub checked_points: usize,
 }

@@ -6,7 +6,7 @@ use super::clip::Rectangle;
 use super::crossings::{insert_crossings, insert_ends};
 use super::leg_one::Shape;
 use super::regions::{Count, Grid, counted, polygon};
-use super::request::{AtlasError, AtlasRequest, Space};
+use super::request::{AtlasError, AtlasRequest, Space, SpecialMachine};
 use super::trace::{Traced, traced};
 use crate::error::KinematicsError;
 use crate::forward::forward;
@@ -14,13 +14,58 @@ use crate::inverse::platform;
 use crate::machine::Machine;
 use crate::workspace::Observer;
 
-/// Computes the atlas of a window.
+/// Computes the atlas of a window: where the numbers of solutions of the parallel module change, and what they are.
+///
+/// Strokes, cones of the joints and interference play no part. Equal requests have equal answers, to the last bit.
+///
+/// # Units
+///
+/// Millimetres. The frame of `Space::Platform` is the base frame; `Space::Joints` has differences of slider positions.
+///
+/// # Errors
+///
+/// - [`AtlasError::OutOfDomain`]: window or tolerance are out of range.
+/// - [`AtlasError::Cancelled`]: the observer asked the computation to stop.
+/// - [`AtlasError::TooFine`]: the curves lie too close together for the limits of points and boxes.
+/// - [`AtlasError::Disagreement`]: the solver found different numbers of solutions in a face between the curves.
+///
+/// # References
+///
+/// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(6), sections III.B and
+/// III.D. The [module's documentation](super::atlas) has the derivation.
+///
+/// # Examples
+///
+/// ```
+/// use verne_solver::Machine;
+/// use verne_solver::atlas::{AtlasError, AtlasRequest, Space, atlas};
+/// use verne_solver::workspace::Unobserved;
+///
+/// let request = AtlasRequest::new(&Machine::verne(), Space::Platform, None);
+/// let found = atlas(&Machine::verne(), &request, &Unobserved)?;
+/// assert_eq!(found.regions.iter().map(|region| region.solutions).max(), Some(16));
+/// let area: f64 = found.regions.iter().map(|region| region.face.area).sum();
+/// assert!((area - 2100.0 * 2100.0).abs() < 1e-3, "the regions are the window");
+/// # Ok::<(), AtlasError>(())
+/// ```
 pub fn atlas(
     machine: &Machine,
     request: &AtlasRequest,
     observer: &dyn Observer,
 ) -> Result<Atlas, AtlasError> {
     request.check(machine)?;
+    computed(machine, request, observer).map_err(|error| match error {
+        AtlasError::TooFine { .. } => AtlasError::TooFine { near: SpecialMachine::near(machine) },
+        AtlasError::Disagreement { .. } => AtlasError::Disagreement { near: SpecialMachine::near(machine) },
+        other => other,
+    })
+}
+
+fn computed(
+    machine: &Machine,
+    request: &AtlasRequest,
+    observer: &dyn Observer,
+) -> Result<Atlas, AtlasError> {
     let unit = machine.longest();
     let shapes: Vec<Shape> =
         Shape::branches(machine).iter().map(|branch| Shape::new(machine, *branch)).collect();

@@ -70,7 +70,7 @@ impl Search<'_> {
         while let Some(cell) = cells.pop() {
             count += 1;
             if count > MOST || found.examined > MOST {
-                return Err(AtlasError::TooFine);
+                return Err(AtlasError::TooFine { near: None });
             }
             if count % ASK == 0 && observer.cancelled() {
                 return Err(AtlasError::Cancelled);

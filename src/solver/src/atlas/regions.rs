@@ -98,7 +98,7 @@ pub(super) fn counted(
     count: &dyn Fn([f64; 2]) -> Option<Count>,
     observer: &dyn Observer,
 ) -> Result<Counted, AtlasError> {
-    let edges = split_at_meetings(edges(arcs, grid)).ok_or(AtlasError::TooFine)?;
+    let edges = split_at_meetings(edges(arcs, grid)).ok_or(AtlasError::TooFine { near: None })?;
     let faces = Faces::of(edges);
     let narrowest = (NARROWEST * tolerance * grid.scale).max(FEWEST_STEPS);
     let (mut counts, mut checked_points) = (Vec::new(), 0);
@@ -119,7 +119,7 @@ pub(super) fn counted(
                 Some(known) if known == found => checked_points += 1,
                 // Within the tolerance of a curve either number may be right.
                 Some(_) if clearance < tolerance * grid.scale => {}
-                Some(_) => return Err(AtlasError::Disagreement),
+                Some(_) => return Err(AtlasError::Disagreement { near: None }),
             }
         }
         counts.push(known);

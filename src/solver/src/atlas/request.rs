@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::machine::Machine;
+use crate::mechanism::FAMILY_EDGE;
 use crate::request_range::{MAX_INPUT, MAX_LENGTH_RATIO};
 
 /// The plane of an atlas.
@@ -30,8 +31,17 @@ pub struct AtlasRequest {
     pub space: Space,
     /// The part of the plane.
     pub window: Window,
-    /// Greatest distance between a curve of the answer and the true curve, mm.
+    /// Greatest distance between a curve of the answer and the true curve, mm: see [`AtlasRequest::tolerances`].
     pub tolerance: f64,
+}
+
+/// A special machine near which curves lie close together in pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SpecialMachine {
+    /// R1 = r1.
+    LinearDelta,
+    /// e1 = e2.
+    EqualOffsets,
 }
 
 /// The reason why an atlas was not computed.
@@ -39,16 +49,21 @@ pub struct AtlasRequest {
 pub enum AtlasError {
     /// A number is out of range.
     OutOfDomain {
-        /// The request's field.
+        /// The request's field: `u`, `v` or `tolerance`.
         field: &'static str,
     },
     /// The observer asked the computation to stop.
     Cancelled,
-    /// The curves have more points, or need more boxes, than the limit: they are too close together, or they fill an
-    /// area.
-    TooFine,
-    /// The numbers of solutions do not agree with the curves.
-    Disagreement,
+    /// The curves have more points, or need more boxes, than the limit: they lie too close together.
+    TooFine {
+        /// The special machine that this one is nearly, but not exactly.
+        near: Option<SpecialMachine>,
+    },
+    /// The curves do not separate places with different numbers of solutions: a curve was lost. There is no answer.
+    Disagreement {
+        /// The special machine that this one is nearly, but not exactly.
+        near: Option<SpecialMachine>,
+    },
 }
 
 /// Sides of a window, relative to the machine's longest dimension.
@@ -89,6 +104,20 @@ impl Window {
     /// The longer side.
     pub(super) fn side(&self) -> f64 {
         (self.u[1] - self.u[0]).max(self.v[1] - self.v[0])
+    }
+}
+
+impl SpecialMachine {
+    /// The special machine that a machine is nearly, but not exactly.
+    pub(super) fn near(machine: &Machine) -> Option<Self> {
+        let mechanism = &machine.mechanism;
+        let g = machine.geometry();
+        if !mechanism.is_delta() && g.R1 - g.r1 < FAMILY_EDGE * g.R1 {
+            Some(Self::LinearDelta)
+        } else {
+            let is_near = mechanism.offsets_nearly_equal && mechanism.e1 != mechanism.e2;
+            is_near.then_some(Self::EqualOffsets)
+        }
     }
 }
 
@@ -176,9 +205,20 @@ impl fmt::Display for AtlasError {
         match self {
             Self::OutOfDomain { field } => write!(f, "{field} is out of range"),
             Self::Cancelled => write!(f, "cancelled"),
-            Self::TooFine => write!(f, "the curves need more points than the limit"),
-            Self::Disagreement => write!(f, "the numbers of solutions do not agree with the curves"),
+            Self::TooFine { near } => write!(f, "the curves need more points than the limit{}", because(*near)),
+            Self::Disagreement { near } => {
+                write!(f, "the numbers of solutions do not agree with the curves{}", because(*near))
+            }
         }
+    }
+}
+
+/// The condition that a special machine fulfils, and this one only nearly.
+fn because(near: Option<SpecialMachine>) -> &'static str {
+    match near {
+        None => "",
+        Some(SpecialMachine::LinearDelta) => ": R1 is nearly, but not exactly, r1",
+        Some(SpecialMachine::EqualOffsets) => ": D1 - d1 is nearly, but not exactly, D2 - d2",
     }
 }
 

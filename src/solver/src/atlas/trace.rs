@@ -165,7 +165,6 @@ fn components(
             starts.extend(found.iter().map(|q| system.mirrored(q)));
         }
     }
-    if std::env::var("V").is_ok() { eprintln!("{:?} {:?} starts {}", system.target, system.shape.branch, starts.len()); }
     let mut chains: Vec<Chain> = Vec::new();
     for start in starts {
         if system.reserve(&start) < 0.0 || !beyond[1].contains(system.image(&start)) {
@@ -175,7 +174,7 @@ fn components(
             .iter()
             .any(|(chain, _, _)| chain.windows(2).any(|pair| system.contains([&pair[0], &pair[1]], &start)));
         if !is_known {
-            let c = component(system, &start, &beyond[1]); if std::env::var("V").is_ok() { eprintln!("chain {} closed {} ends {:?} first {:?} last {:?} from {start:?}", c.0.len(), c.1, c.2, c.0[0], c.0[c.0.len()-1]); } chains.push(c);
+            chains.push(component(system, &start, &beyond[1]));
         }
     }
     Ok(chains)
