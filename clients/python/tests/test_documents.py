@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 
 import verne
-from verne.answers import error_budget, fitting, job, machine, solution, toolpath, workspace
+from verne.answers import atlas, error_budget, fitting, job, machine, solution, toolpath, workspace
 
 PACKAGE = Path(__file__).parents[1]
 ROOT = PACKAGE.parents[1]
@@ -63,7 +63,7 @@ def dataclasses_of(*modules: ModuleType) -> list[Any]:
 
 @pytest.mark.parametrize(
     "kind",
-    dataclasses_of(error_budget, fitting, job, machine, solution, toolpath, workspace),
+    dataclasses_of(atlas, error_budget, fitting, job, machine, solution, toolpath, workspace),
     ids=lambda kind: kind.__name__,
 )
 def test_a_dataclass_has_the_fields_of_its_schema(kind: Any) -> None:

@@ -6,6 +6,8 @@ import { linked } from "./links.js";
 import { readProblem, unwrap } from "./problem.js";
 import { retrying, type Send } from "./retry.js";
 import type {
+  Atlas,
+  AtlasRequest,
   DexterityBody,
   DexteritySummary,
   ErrorBudgetAnswer,
@@ -88,6 +90,11 @@ export class Verne {
       unwrap(await this.api.POST("/workspace/dexterity", { body, ...asked(options) })),
       options,
     );
+  }
+
+  /** In which parts of a plane the parallel module has how many solutions. */
+  async atlas(body: AtlasRequest = {}): Promise<Atlas> {
+    return unwrap(await this.api.POST("/atlas", { body }));
   }
 
   /** How far the tool may be off at each of the poses, for tolerances of the machine's parameters. */

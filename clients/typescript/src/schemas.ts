@@ -6,6 +6,9 @@ export type { paths } from "../generated/openapi.js";
 
 export type Schemas = components["schemas"];
 export type Answer = Schemas["Answer"];
+export type Atlas = Schemas["Atlas"];
+export type AtlasRequest = Schemas["AtlasRequest"];
+export type AtlasSpace = Schemas["AtlasSpace"];
 export type DexterityBody = Schemas["DexterityBody"];
 export type DexteritySummary = Schemas["DexteritySummary"];
 export type ErrorBudgetAnswer = Schemas["ErrorBudgetAnswer"];

@@ -102,6 +102,17 @@ suite("a client of a service", () => {
     assert.ok((await verne.mesh(map.id, "ply", { set: "dexterous" })).byteLength > 0);
   });
 
+  test("an atlas has regions that are the window, and drawings", async () => {
+    const { window, regions } = await verne.atlas({ space: "joints", tolerance: 5 });
+    const [left = 0, right = 0] = window.u;
+    const [low = 0, high = 0] = window.v;
+    const whole = regions.reduce((sum, { area }) => sum + area, 0);
+    assert.ok(Math.abs(whole / ((right - left) * (high - low)) - 1) < 1e-4);
+    const body = { space: "platform" as const, tolerance: 20 };
+    const svg = unwrap(await verne.api.POST("/atlas.svg", { body, parseAs: "text" }));
+    assert.ok(svg.startsWith("<svg"));
+  });
+
   test("an error budget names its parameters, and an error map has a mesh for each error", async () => {
     const parameter_tolerances = { L1: 0.02, tilt_zero: 0.001 };
     const { parameters, budgets, status } = await verne.errorBudget({

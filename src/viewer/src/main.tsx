@@ -3,6 +3,7 @@
 import { effect } from "@preact/signals";
 import { render } from "preact";
 import { Page } from "./panels/page";
+import { keepAtlasPanel } from "./atlas/entry";
 import { keepDexterityPanel } from "./dexterity/entry";
 import { keepErrorsPanel } from "./errors/entry";
 import { keepFamilyPanel } from "./families/entry";
@@ -34,6 +35,7 @@ async function start(): Promise<void> {
   keepFamilyPanel();
   keepDexterityPanel();
   keepErrorsPanel();
+  keepAtlasPanel();
 }
 
 /** Another tool, another height over the table or other ghosts: the same joints are solved anew. */

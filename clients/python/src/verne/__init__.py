@@ -3,6 +3,7 @@
 Lengths are millimetres and angles degrees.
 """
 
+from verne.answers.atlas import Atlas
 from verne.answers.error_budget import ErrorBudget, ErrorBudgetResult, ErrorMapSummary
 from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.machine import Machine, MachineEntry, MachineId
@@ -50,6 +51,7 @@ __all__ = [
     "AsyncToolpathJob",
     "AsyncWindowJob",
     "AsyncWorkspaceJob",
+    "Atlas",
     "Client",
     "DecodingError",
     "DexterityJob",

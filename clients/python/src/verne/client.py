@@ -17,7 +17,7 @@ from verne.job import (
     WindowJob,
     WorkspaceJob,
 )
-from verne.operations import batches, error_budgets, fitting, kinematics, publications, toolpaths, workspaces
+from verne.operations import atlases, batches, error_budgets, fitting, kinematics, publications, toolpaths, workspaces
 from verne.runners import Blocking, blocking, blocking_job
 from verne.session import DEFAULT_RETRIES, DEFAULT_URL, TIMEOUT, Session
 
@@ -72,6 +72,8 @@ class Client(Blocking[Session]):
     ik_batch = blocking(batches.ik_batch)
     contains = blocking(batches.contains)
     error_budget = blocking(error_budgets.error_budget)
+    atlas = blocking(atlases.atlas)
+    atlas_drawing = blocking(atlases.atlas_drawing)
     workspace = blocking_job(workspaces.workspace, WorkspaceJob)
     family = blocking_job(workspaces.family, FamilyJob)
     dexterity = blocking_job(workspaces.dexterity, DexterityJob)

@@ -35,6 +35,15 @@ const ERRORS = [
   ["rms", "the root mean square error, if the tolerances are standard deviations and independent"],
 ] as const;
 
+const MAP = [
+  ["platform", "how many positions of the sliders lead to each x and y of the platform"],
+  ["sliders", "how many postures each position of the sliders allows; only their differences matter"],
+  ["Numbers and colours", "the number of solutions in each region; the darker or brighter, the more"],
+  ["Lines", "where solutions merge; the legend names the kinds"],
+  ["Hatched", "there is a solution in the working mode"],
+  ["Click", "leads the machine there; the dot is its place"],
+] as const;
+
 export function Help() {
   return (
     <Modal name="Help" title="Symbols, frames and controls">
@@ -92,6 +101,17 @@ export function Help() {
             {ERRORS.map(([field, meaning]) => (
               <div key={field}>
                 <dt>{field}</dt>
+                <dd>{meaning}</dd>
+              </div>
+            ))}
+          </dl>
+        </section>
+        <section aria-labelledby="map">
+          <h3 id="map">Map of solutions</h3>
+          <dl>
+            {MAP.map(([part, meaning]) => (
+              <div key={part}>
+                <dt>{part}</dt>
                 <dd>{meaning}</dd>
               </div>
             ))}

@@ -17,6 +17,7 @@ import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
 import { MeasurementCaption } from "./measurement_caption";
 import { Notices } from "./notices";
+import { AtlasSection } from "../atlas/entry";
 import { DexterityCaption, DexteritySection, showLayersIn } from "../dexterity/entry";
 import { ErrorsSection, showErrorsIn } from "../errors/entry";
 import { FamilySection } from "../families/entry";
@@ -68,6 +69,7 @@ export function Page() {
           <FamilySection />
           <DexteritySection />
           <ErrorsSection />
+          <AtlasSection />
         </div>
         <ProgramDock />
       </main>

@@ -1,6 +1,6 @@
 /** What is looked at: everything that a colleague needs to see the same. */
 
-import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
+import type { AtlasSpace, Machine, PlatformPose, WorkspaceKind } from "verne-client";
 import type { Settings } from "../program/settings";
 
 /** Solutions with the same sliders (assembly), the same platform position, or the same tool pose. */
@@ -32,6 +32,7 @@ export interface View {
   family: FamilyView;
   dexterity: DexterityView;
   errors: ErrorsView;
+  atlas: AtlasView;
 }
 
 /** The section for the errors of the tool, with its settings. */
@@ -47,6 +48,12 @@ export interface ErrorTolerances {
   joints: number;
   axes: number;
   angles: number;
+}
+
+/** The section for the map of solutions, with its plane. */
+export interface AtlasView {
+  open: boolean;
+  space: AtlasSpace;
 }
 
 /** The section for families of workspaces, with its settings. */
@@ -138,4 +145,5 @@ export const INITIAL: View = {
   },
   dexterity: { open: false, from: -20, to: 20, cell: 40 },
   errors: { open: false, tolerances: { rods: 0.02, sliders: 0.01, joints: 0.02, axes: 0.02, angles: 0.002 } },
+  atlas: { open: false, space: "platform" },
 };
