@@ -202,8 +202,8 @@ pub(crate) fn slice_of_origins(
     let title = format!("region of origins at z = {z} mm");
     match format {
         SliceFormat::Json => write_json(&cut, SLICE_BYTES),
-        SliceFormat::Svg => Ok(drawing::svg::write(&cut, &title).into_bytes()),
-        SliceFormat::Dxf => Ok(drawing::dxf::write(&cut, &title).into_bytes()),
+        SliceFormat::Svg => Ok(drawing::slice::svg(&cut, &title).into_bytes()),
+        SliceFormat::Dxf => Ok(drawing::slice::dxf(&cut, &title).into_bytes()),
     }
 }
 

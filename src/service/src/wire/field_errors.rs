@@ -20,6 +20,11 @@ impl FieldErrors {
         self.0.push(FieldError::new(pointer, detail));
     }
 
+    /// The number of errors.
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
+    }
+
     /// Checks a length in mm of any sign.
     pub(crate) fn length(&mut self, pointer: &str, value: f64) {
         if !is_length(value) {
