@@ -61,11 +61,7 @@ pub fn atlas(
     })
 }
 
-fn computed(
-    machine: &Machine,
-    request: &AtlasRequest,
-    observer: &dyn Observer,
-) -> Result<Atlas, AtlasError> {
+fn computed(machine: &Machine, request: &AtlasRequest, observer: &dyn Observer) -> Result<Atlas, AtlasError> {
     let unit = machine.longest();
     let shapes: Vec<Shape> =
         Shape::branches(machine).iter().map(|branch| Shape::new(machine, *branch)).collect();

@@ -91,7 +91,9 @@ impl<'a, T: Scalar> Place<'a, T> {
     /// Zero where two angles of leg I merge: the platform's y is stationary along leg I's motion at constant X1. On the
     /// branches of R1 = r1 that is where they meet.
     pub(super) fn leg_one_fold(&self) -> T {
-        let Some((LegOneAngles { cos_phi, sin_phi, arm, cos_psi, .. }, m)) = self.angles else { return self.w1 };
+        let Some((LegOneAngles { cos_phi, sin_phi, arm, cos_psi, .. }, m)) = self.angles else {
+            return self.w1;
+        };
         if self.shape.branch == Branch::Crossed {
             return cos_phi;
         }
