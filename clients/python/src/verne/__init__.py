@@ -4,8 +4,8 @@ Lengths are millimetres and angles degrees.
 """
 
 from verne.answers.atlas import Atlas
-from verne.answers.error_budget import ErrorBudget, ErrorBudgetResult, ErrorMapSummary
 from verne.answers.calibration import Calibration, ParameterEstimate
+from verne.answers.error_budget import ErrorBudget, ErrorBudgetResult, ErrorMapSummary
 from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.machine import Machine, MachineEntry, MachineId
 from verne.answers.solution import ForwardResult, InverseResult, Joints, Limit, PartPose, PlatformPose, Solution
