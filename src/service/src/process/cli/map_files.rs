@@ -30,9 +30,15 @@ impl<'a> MapFiles<'a> {
     ) -> Result<Self, String> {
         let machine_file = Some(Path::new(machine)).filter(|path| path.is_file());
         refuse_equal_files(&[("the machine", machine_file)], &[("--output", output), ("--cells", cells)])?;
-        let mesh = output.map(|path| with_format("--output", path, ".glb, .stl, .ply or .json"));
-        let cells = cells.map(|path| with_format("--cells", path, ".json, .csv, .ndjson or .arrow"));
-        Ok(Self { mesh: mesh.transpose()?, cells: cells.transpose()? })
+        let mesh = output
+            .map(|path| Ok::<_, String>((path, format_of("--output", path, ".glb, .stl, .ply or .json")?)))
+            .transpose()?;
+        let cells = cells
+            .map(|path| {
+                Ok::<_, String>((path, format_of("--cells", path, ".json, .csv, .ndjson or .arrow")?))
+            })
+            .transpose()?;
+        Ok(Self { mesh, cells })
     }
 
     /// Writes the mesh.
@@ -48,11 +54,10 @@ impl<'a> MapFiles<'a> {
     }
 }
 
-/// A path with the format that its extension names.
-fn with_format<'a, F: ValueEnum>(flag: &str, path: &'a Path, known: &str) -> Result<(&'a Path, F), String> {
+/// The format that the extension of a file names.
+pub(crate) fn format_of<F: ValueEnum>(flag: &str, path: &Path, known: &str) -> Result<F, String> {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    let format = F::from_str(extension, true);
-    format.map(|format| (path, format)).map_err(|_| format!("{flag} {} must end in {known}", path.display()))
+    F::from_str(extension, true).map_err(|_| format!("{flag} {} must end in {known}", path.display()))
 }
 
 /// Writes the points of a map of this kind, which are JSON, to a file in a format.
