@@ -59,9 +59,7 @@ def test_a_known_machine_is_found_again(
 
 
 @pytest.mark.parametrize("library", [pandas.DataFrame, polars.DataFrame, pyarrow.table, dict])
-def test_tables_have_the_answer_of_the_array(
-    client: verne.Client, measured: NDArray[np.float64], library: Any
-) -> None:
+def test_tables_have_the_answer_of_the_array(client: verne.Client, measured: NDArray[np.float64], library: Any) -> None:
     columns = dict(zip([*SLIDERS, "x", "y", "z"], measured.T, strict=True)) | {"label": ["a"] * len(measured)}
     of_table = client.calibrate(library(columns), tool_length=TOOL_LENGTH, sigma=0.002, next_poses=0)
     of_array = client.calibrate(measured, tool_length=TOOL_LENGTH, sigma=0.002, next_poses=0)
