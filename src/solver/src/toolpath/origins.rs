@@ -102,7 +102,7 @@ impl OriginSurvey {
         Ok(Self { places, extent, admitted, place_tolerance: request.place_tolerance, grid })
     }
 
-    /// What another part of the computation can begin with.
+    /// The part of the survey that takes long. Another part of the computation can begin with it.
     pub fn extent(&self) -> &OriginExtent {
         &self.extent
     }
