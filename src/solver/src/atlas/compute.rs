@@ -32,7 +32,7 @@ use crate::workspace::Observer;
 /// # References
 ///
 /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(6), sections III.B and
-/// III.D. The [module's documentation](super::atlas) has the derivation.
+/// III.D. The [module](super) has the derivation.
 ///
 /// # Examples
 ///
