@@ -9,7 +9,6 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::leg_one::{Branch, Shape};
 use super::place::{Configuration, Place};
-use super::scalar::Scalar;
 use crate::interval::Interval;
 use crate::jet::Jet;
 use crate::workspace::zero;

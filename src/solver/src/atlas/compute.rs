@@ -120,6 +120,7 @@ fn count(machine: &Machine, space: Space, [u, v]: [f64; 2]) -> Option<Count> {
 fn curve(arc: &Arc<'_>, unit: f64) -> Option<Curve> {
     let mut points: Vec<[f64; 2]> =
         arc.nodes.iter().map(|node| node.at.map(|coordinate| coordinate * unit)).collect();
+    points.dedup();
     if arc.closed {
         points.pop();
     }

@@ -30,9 +30,15 @@ fn regions_are_the_window() {
 #[test]
 fn areas_are_those_of_a_lattice() {
     const POINTS: u32 = 600;
-    for machine in [Machine::verne(), Machine::linear_delta()] {
-        for space in SPACES {
-            let request = AtlasRequest::new(&machine, space, None);
+    let wide = Window { u: [-2_500.0, 2_500.0], v: [-2_500.0, 2_500.0] };
+    for (machine, space, window) in [
+        (Machine::verne(), Space::Platform, None),
+        (Machine::verne(), Space::Joints, None),
+        (Machine::verne(), Space::Joints, Some(wide)),
+        (Machine::linear_delta(), Space::Platform, None),
+    ] {
+        {
+            let request = AtlasRequest::new(&machine, space, window);
             let found = atlas(&machine, &request, &Unobserved).unwrap();
             let (expected, areas) = (lattice_areas(&machine, &request, POINTS), region_areas(&found));
             let Window { u, v } = request.window;

@@ -1,7 +1,7 @@
 //! Numbers of solutions in regions, and the working mode's domain.
 
 use verne_solver::Machine;
-use verne_solver::atlas::{AtlasRequest, Space, atlas};
+use verne_solver::atlas::{AtlasRequest, Space, Window, atlas};
 use verne_solver::workspace::Unobserved;
 
 use crate::comparison::{Comparison, compare_numbers, compare_working};
@@ -12,10 +12,13 @@ const SPACES: [Space; 2] = [Space::Platform, Space::Joints];
 /// Points in each window.
 const POINTS: usize = 3_000;
 
-/// Both comparisons of a machine agree, and few points are too near to a curve to be compared.
+/// Both comparisons of a machine agree in the default window and in a wide one, and few points are too near to a curve to
+/// be compared.
 fn check(name: &str, machine: &Machine) {
-    for space in SPACES {
-        let request = AtlasRequest::new(machine, space, None);
+    let wide = [-2.5 * machine.longest(), 2.5 * machine.longest()];
+    for (space, window) in SPACES.map(|space| (space, None)).into_iter().chain([(Space::Joints, Some(wide))]) {
+        let window = window.map(|range| Window { u: range, v: range });
+        let request = AtlasRequest::new(machine, space, window);
         let found = atlas(machine, &request, &Unobserved).unwrap_or_else(|e| panic!("{name}, {space:?}: {e}"));
         let comparisons = [
             compare_numbers(machine, &request, &found, POINTS),

@@ -79,5 +79,6 @@ fn a_window_without_curves_is_one_region() {
     let found = atlas(&Machine::verne(), &request, &Unobserved).unwrap();
     assert!(found.curves.is_empty() && found.points.is_empty() && found.working.is_empty());
     let [region] = &found.regions[..] else { panic!("{:?}", found.regions) };
-    assert_eq!((region.solutions, region.face.area), (0, 5_000.0));
+    assert_eq!(region.solutions, 0);
+    assert!((region.face.area - 5_000.0).abs() < 1e-9, "{}", region.face.area);
 }

@@ -1,11 +1,12 @@
 //! Linear deltas, machines with equal offsets, and machines near them.
 
 use verne_solver::Machine;
-use verne_solver::atlas::{AtlasError, AtlasRequest, Space, SpecialMachine, atlas};
+use verne_solver::atlas::{AtlasError, AtlasRequest, Space, SpecialMachine, Window, atlas};
 use verne_solver::workspace::Unobserved;
 
 use crate::comparison::{Comparison, compare_numbers, compare_working};
-use crate::machines::changed;
+use crate::machines::{changed, near_the_edge};
+use crate::random::Random;
 
 const SPACES: [Space; 2] = [Space::Platform, Space::Joints];
 const POINTS: usize = 500;
@@ -23,9 +24,10 @@ fn machine(from_delta: Option<f64>, from_equal: Option<f64>) -> Machine {
     })
 }
 
-/// Whether the answer agrees with the solver; or the error.
+/// Whether the answer agrees with the solver, in a window of 1.6 times the longest dimension to each side; or the error.
 fn check(machine: &Machine, space: Space) -> Result<(), AtlasError> {
-    let request = AtlasRequest::new(machine, space, None);
+    let range = [-1.6 * machine.longest(), 1.6 * machine.longest()];
+    let request = AtlasRequest::new(machine, space, Some(Window { u: range, v: range }));
     let found = atlas(machine, &request, &Unobserved)?;
     let comparisons = [
         compare_numbers(machine, &request, &found, POINTS),
@@ -70,6 +72,27 @@ fn machines_near_the_special_ones_are_right_or_refused_by_name() {
                     assert_eq!(named, Some(near), "{difference}");
                 }
                 Err(other) => panic!("{near:?}, {difference}: {other}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn random_machines_near_the_special_ones_are_right_or_refused_by_name() {
+    let mut draw = Random::new(0xED6E);
+    for _ in 0..24 {
+        let Some(machine) = near_the_edge(&mut draw) else { continue };
+        for space in SPACES {
+            match check(&machine, space) {
+                Ok(()) => {}
+                Err(error) => {
+                    let g = machine.data().geometry;
+                    let named = [SpecialMachine::LinearDelta, SpecialMachine::EqualOffsets].map(Some);
+                    let (AtlasError::TooFine { near } | AtlasError::Disagreement { near }) = error else {
+                        panic!("{g:?}, {space:?}: {error}")
+                    };
+                    assert!(named.contains(&near), "{g:?}, {space:?}: {error}");
+                }
             }
         }
     }
