@@ -83,7 +83,16 @@ def test_the_clients_have_the_same_operations() -> None:
         return {name.removeprefix("a") for name in vars(kind) if not name.startswith("_")}
 
     assert public(verne.Client) == public(verne.AsyncClient)
-    jobs = ("Job", "WorkspaceJob", "FamilyJob", "DexterityJob", "ErrorMapJob", "ToolpathJob", "PlacementJob", "OriginsJob")
+    jobs = (
+        "Job",
+        "WorkspaceJob",
+        "FamilyJob",
+        "DexterityJob",
+        "ErrorMapJob",
+        "ToolpathJob",
+        "PlacementJob",
+        "OriginsJob",
+    )
     for name in jobs:
         assert public(getattr(verne, name)) == public(getattr(verne, f"Async{name}"))
 

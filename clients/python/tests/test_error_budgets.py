@@ -43,7 +43,7 @@ def test_a_contribution_is_the_way_of_the_tool_end(client: verne.Client) -> None
 
 
 def test_rows_without_a_budget_have_a_status(client: verne.Client) -> None:
-    poses = [[0, 0, 400, 0, 0], [600, 0, 400, 0, 0], [np.nan, 0, 400, 0, 0]]
+    poses = np.array([[0, 0, 400, 0, 0], [600, 0, 400, 0, 0], [np.nan, 0, 400, 0, 0]])
     answer = client.error_budget(poses, {"L1": 0.02}, tool_length=50)
     assert answer.status == ["ok", "unreachable", "invalid"]
     assert [budget is None for budget in answer.budgets] == [False, True, True]
@@ -69,9 +69,7 @@ def error_map(client: verne.Client) -> verne.ErrorMapJob:
     return client.error_map(TOLERANCES, "part", tool_length=50, cell=80, tolerance=10)
 
 
-def test_the_cells_of_a_map_have_the_budgets_of_their_poses(
-    client: verne.Client, error_map: verne.ErrorMapJob
-) -> None:
+def test_the_cells_of_a_map_have_the_budgets_of_their_poses(client: verne.Client, error_map: verne.ErrorMapJob) -> None:
     summary, cells = error_map.result(), error_map.cells()
     assert len(cells) == summary.inside > 0
     some = slice(None, None, 20)

@@ -1,4 +1,9 @@
-//! The atlas of the parallel module.
+//! The atlas of the parallel module: the plane of the platform and that of the sliders, divided by the number of solutions.
+//!
+//! [`atlas()`] computes the curves on which solutions merge, the regions between them, and the working mode's domain. An
+//! [`Observer`](crate::workspace::Observer) can stop it.
+//!
+#![doc = include_str!("atlas/derivation.md")]
 
 mod answer;
 mod arc;

@@ -9,7 +9,6 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::leg_one::{Branch, Shape};
 use super::place::{Configuration, Place};
-use super::scalar::Scalar;
 use crate::interval::Interval;
 use crate::jet::Jet;
 use crate::workspace::zero;
@@ -58,8 +57,7 @@ impl Chart {
         if shape.branch == Branch::Crossed {
             return Some(Self { angle: Angle::Same, range: Interval::new(low, PI) });
         }
-        let ratio = shape.r1 / shape.R1;
-        let bend = ((1.0 - ratio) * (1.0 + ratio)).sqrt();
+        let bend = shape.bend();
         let range = Interval::around((FRAC_PI_2 / bend).asinh());
         Some(Self { angle: Angle::Stretched(bend), range })
     }

@@ -32,7 +32,7 @@ use crate::workspace::Observer;
 /// # References
 ///
 /// Kanaan, Wenger, Chablat 2007, [arXiv:0707.3507](https://arxiv.org/abs/0707.3507): Eqs (3)-(6), sections III.B and
-/// III.D. The [module's documentation](super::atlas) has the derivation.
+/// III.D. The [module](super) has the derivation.
 ///
 /// # Examples
 ///
@@ -116,6 +116,7 @@ fn count(machine: &Machine, space: Space, [u, v]: [f64; 2]) -> Option<Count> {
 fn curve(arc: &Arc<'_>, unit: f64) -> Option<Curve> {
     let mut points: Vec<[f64; 2]> =
         arc.nodes.iter().map(|node| node.at.map(|coordinate| coordinate * unit)).collect();
+    points.dedup();
     if arc.closed {
         points.pop();
     }

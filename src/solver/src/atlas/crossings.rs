@@ -24,7 +24,7 @@ pub(super) fn insert_ends(arcs: &mut [Arc<'_>], tolerance: f64) {
         .flat_map(|(number, arc)| arc.nodes.iter().filter(is_end).map(move |node| (number, *node)))
         .collect();
     for (owner, end) in ends {
-        for (number, arc) in arcs.iter_mut().enumerate().filter(|(number, _)| *number != owner) {
+        for (_, arc) in arcs.iter_mut().enumerate().filter(|(number, _)| *number != owner) {
             let is_near =
                 |pair: &[ArcNode]| distance_to_segment(end.at, [pair[0].at, pair[1].at]) < tolerance;
             let near: Vec<usize> =

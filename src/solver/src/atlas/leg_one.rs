@@ -37,13 +37,15 @@ pub(super) struct Shape {
     pub(super) branch: Branch,
 }
 
-/// The functions of φ: cos φ, sin φ, ℓ, cos ψ, cos a, sin a.
+/// The functions of φ: cos φ, sin φ, ℓ, cos ψ, ℓ / cos ψ, cos a, sin a.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LegOneAngles<T> {
     pub(super) cos_phi: T,
     pub(super) sin_phi: T,
     pub(super) arm: T,
     pub(super) cos_psi: T,
+    /// ℓ / cos ψ. It is bounded and smooth in t (see [`super::chart`]) however near R1 is to r1.
+    pub(super) scaled_arm: T,
     pub(super) c: T,
     pub(super) s: T,
 }
@@ -51,9 +53,10 @@ pub(super) struct LegOneAngles<T> {
 impl<T> LegOneAngles<T> {
     /// Applies a function to each.
     pub(super) fn map<U>(self, f: impl Fn(T) -> U) -> LegOneAngles<U> {
-        let Self { cos_phi, sin_phi, arm, cos_psi, c, s } = self;
-        let [cos_phi, sin_phi, arm, cos_psi, c, s] = [cos_phi, sin_phi, arm, cos_psi, c, s].map(f);
-        LegOneAngles { cos_phi, sin_phi, arm, cos_psi, c, s }
+        let Self { cos_phi, sin_phi, arm, cos_psi, scaled_arm, c, s } = self;
+        let [cos_phi, sin_phi, arm, cos_psi, scaled_arm, c, s] =
+            [cos_phi, sin_phi, arm, cos_psi, scaled_arm, c, s].map(f);
+        LegOneAngles { cos_phi, sin_phi, arm, cos_psi, scaled_arm, c, s }
     }
 }
 
@@ -82,13 +85,17 @@ impl Shape {
         self.offset == 0.0
     }
 
+    /// δ, the cosine of ψ at φ = π/2: δ² = 1 - (r1/R1)², without cancellation.
+    pub(super) fn bend(&self) -> f64 {
+        ((self.R1 - self.r1) * (self.R1 + self.r1)).sqrt() / self.R1
+    }
+
     /// cos ψ, sin ψ and dψ/dφ.
     fn psi(&self, [cos, sin]: [f64; 2]) -> [f64; 3] {
         if self.branch == Branch::Only {
             let ratio = self.r1 / self.R1;
-            let sin_psi = ratio * sin;
-            let cos_psi = ((1.0 - sin_psi) * (1.0 + sin_psi)).sqrt();
-            [cos_psi, sin_psi, ratio * cos / cos_psi]
+            let cos_psi = self.bend().hypot(ratio * cos);
+            [cos_psi, ratio * sin, ratio * cos / cos_psi]
         } else {
             [-cos, sin, -1.0]
         }
@@ -106,11 +113,19 @@ impl Shape {
         };
         let (c, s) = (cos_psi * cos + sin_psi * sin, sin_psi * cos - cos_psi * sin);
         let rate = psi_rate - 1.0;
+        let scaled_arm = if self.branch == Branch::Only {
+            // The derivative of ℓ / cos ψ, with R1 sin ψ = r1 sin φ.
+            let scaled = arm / cos_psi;
+            [scaled, scaled * self.r1 / self.R1 * sin * (1.0 + psi_rate) / cos_psi]
+        } else {
+            [2.0 * self.R1, 0.0]
+        };
         LegOneAngles {
             cos_phi: [cos, -sin],
             sin_phi: [sin, cos],
             arm: [arm, arm_rate],
             cos_psi: [cos_psi, -sin_psi * psi_rate],
+            scaled_arm,
             c: [c, -s * rate],
             s: [s, c * rate],
         }
@@ -134,8 +149,7 @@ impl Shape {
         let [psi_rate, arm_rate, cos_psi, sin_psi] = if self.branch == Branch::Only {
             let ratio = self.r1 / self.R1;
             let sin_psi = sin.times(ratio);
-            let cosine = |sine: f64| ((1.0 - sine) * (1.0 + sine)).max(0.0).sqrt();
-            let cos_psi = Interval::new(cosine(sin_psi.high), cosine(sin_psi.low));
+            let cos_psi = cos.times(ratio).square().plus(self.bend() * self.bend()).root();
             // ratio cos φ / cos ψ rises with cos φ.
             let rate = |at: &LegOneAngles<Rated<f64>>| ratio * at.cos_phi[0] / at.cos_psi[0];
             let arm_rate = (arm * sin * cos_psi.reciprocal()).times(ratio);
@@ -144,11 +158,20 @@ impl Shape {
             [Interval::of(-1.0), sin.times(2.0 * self.R1), -cos, sin]
         };
         let rate = psi_rate.plus(-1.0);
+        // ℓ / cos ψ rises with φ.
+        let scaled = between(low.scaled_arm[0], high.scaled_arm[0]);
+        let scaled_arm = if self.branch == Branch::Only {
+            let slope = (scaled * sin * psi_rate.plus(1.0) * cos_psi.reciprocal()).times(self.r1 / self.R1);
+            [scaled, slope]
+        } else {
+            [scaled, Interval::ZERO]
+        };
         LegOneAngles {
             cos_phi: [cos, -sin],
             sin_phi: [sin, cos],
             arm: [arm, arm_rate],
             cos_psi: [cos_psi, -(sin_psi * psi_rate)],
+            scaled_arm,
             c: [c, -(s * rate)],
             s: [s, c * rate],
         }

@@ -111,19 +111,14 @@ impl<'a, T: Scalar> Place<'a, T> {
     }
 
     /// The second to fourth numbers of half the difference of leg I's rows in the parallel matrix; and y times the third
-    /// less w1 times the second. For R1 = r1 the factor that vanishes where the two branches meet is left out: w1, or
-    /// cos φ.
+    /// less w1 times the second. The factor cos ψ, which is positive, is left out; for R1 = r1 it vanishes where the two
+    /// branches meet. On the level branch the factor m is left out besides: w1 = m cos ψ there.
     fn difference(&self) -> ([T; 3], T) {
         let (zero, r1) = (T::constant(0.0), self.shape.R1);
-        let Some((LegOneAngles { cos_phi, sin_phi, arm, cos_psi, .. }, m)) = self.angles else {
+        let Some((LegOneAngles { cos_phi, sin_phi, scaled_arm, .. }, m)) = self.angles else {
             return ([zero, zero, T::constant(r1)], zero);
         };
-        if self.shape.branch == Branch::Only {
-            ([arm * cos_phi, -(arm * sin_phi), (m * cos_psi).times(r1)], -(arm * m))
-        } else {
-            let twice = 2.0 * r1;
-            ([cos_phi.times(-twice), sin_phi.times(twice), m.times(-r1)], m.times(twice))
-        }
+        ([scaled_arm * cos_phi, -(scaled_arm * sin_phi), m.times(r1)], -(scaled_arm * m))
     }
 
     /// `det_P` of the equations (A), (5) and (6), less the factors that vanish everywhere on known curves, as a

@@ -107,7 +107,7 @@ def error_mesh(
     """The surface of the workspace in ten bands of an error, as the bytes of a file.
 
     Args:
-        error: ``tip_rms``, ``tip_worst``: displacement of the tool end; ``axis_rms``, ``axis_worst``: angle of its axis.
+        error: ``tip_rms``, ``tip_worst``: displacement of the tool end; ``axis_rms``, ``axis_worst``: its angle.
         format: As for a workspace's mesh. STL has no bands.
     """
     links = (yield from job.result()).links
