@@ -24,7 +24,8 @@ fn machine(from_delta: Option<f64>, from_equal: Option<f64>) -> Machine {
     })
 }
 
-/// Whether the answer agrees with the solver, in a window of 1.6 times the longest dimension to each side; or the error.
+/// Whether the answer agrees with the solver, in a window of 1.6 times the longest dimension to each side; or the
+/// error.
 fn check(machine: &Machine, space: Space) -> Result<(), AtlasError> {
     let range = [-1.6 * machine.longest(), 1.6 * machine.longest()];
     let request = AtlasRequest::new(machine, space, Some(Window { u: range, v: range }));
