@@ -1,6 +1,7 @@
 //! The service through HTTP: requests pass the whole router with its middleware, without a socket.
 
 mod admission;
+mod atlas;
 mod bad_input;
 mod batch;
 mod calibration;

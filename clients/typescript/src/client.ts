@@ -6,10 +6,16 @@ import { linked } from "./links.js";
 import { readProblem, unwrap } from "./problem.js";
 import { retrying, type Send } from "./retry.js";
 import type {
+  Atlas,
+  AtlasRequest,
   CalibrationAnswer,
   CalibrationRequest,
   DexterityBody,
   DexteritySummary,
+  ErrorBudgetAnswer,
+  ErrorBudgetRequest,
+  ErrorMapRequest,
+  ErrorMapSummary,
   FamilySummary,
   Job,
   OriginsRequest,
@@ -47,6 +53,9 @@ export type MeshFormat = "glb" | "stl" | "ply";
 /** Which set of a dexterity map a mesh surrounds. */
 export type MeshSet = "reachable" | "dexterous";
 
+/** An error of the tool, by which the mesh of an error map is coloured. */
+export type MeshError = "tip_rms" | "tip_worst" | "axis_rms" | "axis_worst";
+
 /** A client of the service at one address. */
 export class Verne {
   /** Every operation of the OpenAPI document, by path and method. */
@@ -81,6 +90,24 @@ export class Verne {
   async dexterity(body: DexterityBody, options: Wait = {}): Promise<DexteritySummary> {
     return this.settled(
       unwrap(await this.api.POST("/workspace/dexterity", { body, ...asked(options) })),
+      options,
+    );
+  }
+
+  /** In which parts of a plane the parallel module has how many solutions. */
+  async atlas(body: AtlasRequest = {}): Promise<Atlas> {
+    return unwrap(await this.api.POST("/atlas", { body }));
+  }
+
+  /** How far the tool may be off at each of the poses, for tolerances of the machine's parameters. */
+  async errorBudget(body: ErrorBudgetRequest): Promise<ErrorBudgetAnswer> {
+    return unwrap(await this.api.POST("/error-budget", { body }));
+  }
+
+  /** The summary of the errors of the tool over a workspace. */
+  async errorMap(body: ErrorMapRequest, options: Wait = {}): Promise<ErrorMapSummary> {
+    return this.settled(
+      unwrap(await this.api.POST("/workspace/error-budget", { body, ...asked(options) })),
       options,
     );
   }
@@ -127,10 +154,16 @@ export class Verne {
     return this.file(path, watch);
   }
 
-  /** The mesh of a stored workspace or dexterity map. */
-  mesh(id: string, format: MeshFormat = "glb", watch: Watch & { set?: MeshSet } = {}): Promise<ArrayBuffer> {
-    const set = watch.set === undefined ? "" : `?set=${watch.set}`;
-    return this.file(`/workspace/${encodeURIComponent(id)}/mesh.${format}${set}`, watch);
+  /** The mesh of a stored workspace, dexterity map or error map. */
+  mesh(
+    id: string,
+    format: MeshFormat = "glb",
+    watch: Watch & { set?: MeshSet; error?: MeshError } = {},
+  ): Promise<ArrayBuffer> {
+    const { set, error } = watch;
+    const query = new URLSearchParams({ ...(set && { set }), ...(error && { error }) });
+    const suffix = query.size > 0 ? `?${query.toString()}` : "";
+    return this.file(`/workspace/${encodeURIComponent(id)}/mesh.${format}${suffix}`, watch);
   }
 
   /** The result of an answer that is the result, or the job that computes it. */

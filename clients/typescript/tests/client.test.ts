@@ -102,6 +102,40 @@ suite("a client of a service", () => {
     assert.ok((await verne.mesh(map.id, "ply", { set: "dexterous" })).byteLength > 0);
   });
 
+  test("an atlas has regions that are the window, and drawings", async () => {
+    const { window, regions } = await verne.atlas({ space: "joints", tolerance: 5 });
+    const [left = 0, right = 0] = window.u;
+    const [low = 0, high = 0] = window.v;
+    const whole = regions.reduce((sum, { area }) => sum + area, 0);
+    assert.ok(Math.abs(whole / ((right - left) * (high - low)) - 1) < 1e-4);
+    const body = { space: "platform" as const, tolerance: 20 };
+    const svg = unwrap(await verne.api.POST("/atlas.svg", { body, parseAs: "text" }));
+    assert.ok(svg.startsWith("<svg"));
+  });
+
+  test("an error budget names its parameters, and an error map has a mesh for each error", async () => {
+    const parameter_tolerances = { L1: 0.02, tilt_zero: 0.001 };
+    const { parameters, budgets, status } = await verne.errorBudget({
+      poses: [[100, 50, 150, 0, 0], null],
+      tool_length: 50,
+      parameter_tolerances,
+    });
+    assert.deepEqual(
+      parameters.map(({ name }) => name),
+      Object.keys(parameter_tolerances),
+    );
+    assert.deepEqual(status, ["ok", "invalid"]);
+    const [budget, none] = budgets;
+    assert.ok(budget && budget.tip.rms > 0 && none === null);
+    assert.ok(Math.abs(budget.tip.rms - Math.hypot(...budget.tip.contributions)) < 1e-12);
+
+    const body = { kind: "tool" as const, tool_length: 50, cell: 200, tolerance: 20, parameter_tolerances };
+    const map = await verne.errorMap(body, { wait: 0 });
+    assert.ok(map.errors && map.errors.tip_worst.least <= map.errors.tip_worst.largest);
+    const stl = new DataView(await verne.mesh(map.id, "stl", { error: "axis_rms" }));
+    assert.equal(stl.getUint32(80, true), map.triangles);
+  });
+
   test("measurements determine a machine", async () => {
     const rho = Array.from({ length: 12 }, (_, i): [number, number, number] => [
       450 + 100 * Math.sin(0.7 * i),

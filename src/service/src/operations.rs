@@ -4,6 +4,7 @@
 //!
 //! - Kinematics: [`forward`], [`inverse`] and their batches. The solver computes the margins; [`solutions`] puts them
 //!   into answers.
+//! - [`atlas`] is the plane map of their solutions.
 //! - Calibration: [`calibration_request`] and [`calibration_table`] read measurements, [`calibration`] answers.
 //! - Error budgets: [`error_budget`] of poses, [`error_map`] over a workspace.
 //! - Workspaces: [`workspace_question`], [`family_question`] and [`dexterity_question`] check requests; [`workspace`]
@@ -19,6 +20,7 @@
 //! [`workspace_colours`].
 
 pub(crate) mod answer_columns;
+pub(crate) mod atlas;
 pub(crate) mod batch_rows;
 pub(crate) mod blocking_results;
 pub(crate) mod calibration;

@@ -4,6 +4,8 @@
 
 pub(crate) mod alphas;
 pub(crate) mod answer;
+pub(crate) mod atlas;
+pub(crate) mod atlas_query;
 pub(crate) mod batch;
 pub(crate) mod bounded_list;
 pub(crate) mod calibration;

@@ -22,6 +22,7 @@ extern crate self as verne_solver;
 #[path = "../tests/support/random.rs"]
 mod random;
 
+pub mod atlas;
 pub mod axis;
 pub mod calibration;
 pub mod certificate;

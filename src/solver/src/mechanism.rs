@@ -40,7 +40,7 @@ const NEARLY_LEVEL: f64 = 1e-6;
 
 /// R1/r1 - 1, and |e1 - e2| relative to the longest leg, below which the forward problem is solved without elimination.
 /// The elimination was seen to lose solutions below 5e-4.
-const FAMILY_EDGE: f64 = 1e-2;
+pub(crate) const FAMILY_EDGE: f64 = 1e-2;
 
 /// The parallel module: its dimensions, and constants of the formulas that are derived once.
 #[derive(Clone, Copy, Debug, PartialEq)]

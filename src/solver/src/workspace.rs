@@ -44,6 +44,7 @@ pub use domain::Binding;
 pub use measure::{Measure, Volume, measure};
 pub use observer::{Observer, Subprogress, Unobserved};
 pub use request::{Kind, Request, WorkspaceError};
+pub(crate) use root::zero;
 pub(crate) use slice::nested;
 pub use slice::{Contour, Polygon, Slice, slice};
 pub use surface::{Surface, surface, surface_within};

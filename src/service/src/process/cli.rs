@@ -2,6 +2,7 @@
 
 pub(crate) mod answer;
 pub(crate) mod answer_format;
+pub(crate) mod atlas;
 pub(crate) mod batch;
 pub(crate) mod calibrate;
 pub(crate) mod dexterity;
@@ -39,6 +40,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::http::router::document;
 use crate::process::cli::answer::to_json;
+use crate::process::cli::atlas::AtlasCommand;
 use crate::process::cli::calibrate::CalibrateCommand;
 use crate::process::cli::dexterity::DexterityCommand;
 use crate::process::cli::error_budget::ErrorBudgetCommand;
@@ -99,6 +101,8 @@ enum Command {
     ErrorBudget(Box<ErrorBudgetCommand>),
     /// Compute how far the tool may be off over a workspace, for tolerances of the machine's parameters.
     ErrorMap(Box<ErrorMapCommand>),
+    /// Compute an atlas: the numbers of solutions of the parallel module over a plane, as a drawing (-o FILE) or JSON.
+    Atlas(Box<AtlasCommand>),
     /// Plan the joint motion of a program: its rows (-o FILE), and a report on the limits that it breaks.
     ///
     /// The exit status is 3 if the machine cannot run the program.
@@ -196,6 +200,7 @@ impl Cli {
             Command::Dexterity(command) => command.run(out, terminal),
             Command::Calibrate(command) => command.run(out, terminal),
             Command::ErrorMap(command) => command.run(out, terminal),
+            Command::Atlas(command) => command.run(out, terminal),
             Command::Machine(command) => command.run(out, terminal),
             Command::Jobs(command) => command.run(out, terminal),
             Command::ToolpathOrigins(command) => command.run(out, terminal),

@@ -6,7 +6,7 @@ const STEPS: usize = 100;
 /// The zero of `f` in [0, 1], where f(0) = `start` and f(1) = `end` have different signs, to
 /// `resolution` in the parameter. T. R. Chandrupatla, Advances in Engineering Software 28 (1997):
 /// inverse quadratic interpolation where it is safe, bisection elsewhere.
-pub(super) fn zero(start: f64, end: f64, resolution: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
+pub(crate) fn zero(start: f64, end: f64, resolution: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     if start == 0.0 {
         return 0.0;
     }

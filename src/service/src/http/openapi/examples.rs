@@ -10,6 +10,7 @@ use crate::http::machine_documents::{machine_answer, machine_list};
 use crate::http::openapi::example::{Example, PROGRAM, get, json_of, post, value_of};
 use crate::http::openapi::examples::toolpaths::of_toolpaths;
 use crate::http::openapi::machine_schema::machine_schema;
+use crate::operations::atlas::answer_atlas;
 use crate::operations::calibration::answer_calibration;
 use crate::operations::calibration_request::read_calibration;
 use crate::operations::contains::answer_contains;
@@ -63,6 +64,8 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
     let fk = parse_query::<FkQuery>("rho=674,685,250").and_then(FkQuery::into_request);
     let ik = parse_query::<IkQuery>("frame=platform&x=-240&y=-86&z=1000&certified=true")
         .and_then(IkQuery::into_request);
+    let atlas = json!({"machine": "verne", "space": "joints", "u_min": -200, "u_max": 200, "v_min": -200, "v_max": 200,
+                       "tolerance": 5});
     vec![
         get(
             "/fk",
@@ -87,6 +90,16 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
                    "tool_length": 50, "table_clearance": 0, "solutions": "feasible"}),
             |body| parse_body(body).and_then(|request| answer_ik(&request, machines)),
         ),
+        // The answers are long.
+        get("/atlas", json!({"space": "joints", "tolerance": 2}), None),
+        get("/atlas.svg", json!({"space": "platform"}), None),
+        get("/atlas.dxf", json!({"space": "platform"}), None),
+        post("/atlas", atlas.clone(), |body| {
+            let body = parse_body(body)?;
+            value_of(answer_atlas(&body, machines, SliceFormat::Json, &Unobserved))
+        }),
+        Example { method: "post", path: "/atlas.svg", request: atlas.clone(), file: None, answer: None },
+        Example { method: "post", path: "/atlas.dxf", request: atlas, file: None, answer: None },
         post(
             "/fk/batch",
             json!({"joints": [[674, 685, 250], [400, 400, 400, 10, 90], null, [0, 0, 5000]], "tool_length": 50,

@@ -77,6 +77,10 @@ problems! {
     CommonProblems: ;
     /// Problems of a request with a body.
     BodyProblems: BODY;
+    /// Problems of an atlas in the query string.
+    AtlasProblems: &[Code::RangeNotSatisfiable];
+    /// Problems of an atlas in the body.
+    AtlasBodyProblems: BODY;
     /// Problems of a batch.
     BatchProblems: BODY, &[Code::TooManyRows, Code::BadRows];
     /// Problems of a calibration.
