@@ -10,6 +10,10 @@ test("symbols have tooltips, and a panel explains them beside the drawing of the
     await expect(help.getByRole("rowheader", { name: symbol })).toBeVisible();
   }
   await expect(help.getByText("the two rods of leg 1 cross each other")).toBeVisible();
+  const errors = help.getByRole("region", { name: "Errors of the tool" });
+  for (const field of ["Rods", "Sliders", "Joints", "Axes", "Angles"])
+    await expect(errors.getByText(field, { exact: true })).toBeVisible();
+  await expect(help.getByRole("region", { name: "Map of solutions" })).toContainText("where solutions merge");
   const drawing = help.getByRole("img", { name: /z points down/ });
   // It is loaded when it is seen.
   await expect.poll(() => drawing.evaluate((image) => image.naturalWidth)).toBeGreaterThan(100);

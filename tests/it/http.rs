@@ -1,8 +1,10 @@
 //! The service through HTTP: requests pass the whole router with its middleware, without a socket.
 
 mod admission;
+mod atlas;
 mod bad_input;
 mod batch;
+mod calibration;
 mod certificates;
 mod client_quotas;
 mod continuous_batch;

@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 
 import verne
-from verne.answers import fitting, job, machine, solution, toolpath, workspace
+from verne.answers import atlas, error_budget, fitting, job, machine, solution, toolpath, workspace
 
 PACKAGE = Path(__file__).parents[1]
 ROOT = PACKAGE.parents[1]
@@ -25,6 +25,7 @@ SCHEMAS: dict[str, Any] = json.loads((ROOT / "openapi" / "openapi.json").read_te
 # Dataclasses whose schema has another name.
 NAMES = {
     "Deviation": "DeviationObject",
+    "ErrorBudgetResult": "ErrorBudgetAnswer",
     "ForwardResult": "Answer",
     "FrameSetup": "Setup",
     "InverseResult": "Answer",
@@ -61,7 +62,9 @@ def dataclasses_of(*modules: ModuleType) -> list[Any]:
 
 
 @pytest.mark.parametrize(
-    "kind", dataclasses_of(fitting, job, machine, solution, toolpath, workspace), ids=lambda kind: kind.__name__
+    "kind",
+    dataclasses_of(atlas, error_budget, fitting, job, machine, solution, toolpath, workspace),
+    ids=lambda kind: kind.__name__,
 )
 def test_a_dataclass_has_the_fields_of_its_schema(kind: Any) -> None:
     properties, required = schema(NAMES.get(kind.__name__, kind.__name__))
@@ -80,7 +83,17 @@ def test_the_clients_have_the_same_operations() -> None:
         return {name.removeprefix("a") for name in vars(kind) if not name.startswith("_")}
 
     assert public(verne.Client) == public(verne.AsyncClient)
-    for name in ("Job", "WorkspaceJob", "FamilyJob", "DexterityJob", "ToolpathJob", "PlacementJob", "OriginsJob"):
+    jobs = (
+        "Job",
+        "WorkspaceJob",
+        "FamilyJob",
+        "DexterityJob",
+        "ErrorMapJob",
+        "ToolpathJob",
+        "PlacementJob",
+        "OriginsJob",
+    )
+    for name in jobs:
         assert public(getattr(verne, name)) == public(getattr(verne, f"Async{name}"))
 
 

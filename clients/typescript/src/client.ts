@@ -6,8 +6,16 @@ import { linked } from "./links.js";
 import { readProblem, unwrap } from "./problem.js";
 import { retrying, type Send } from "./retry.js";
 import type {
+  Atlas,
+  AtlasRequest,
+  CalibrationAnswer,
+  CalibrationRequest,
   DexterityBody,
   DexteritySummary,
+  ErrorBudgetAnswer,
+  ErrorBudgetRequest,
+  ErrorMapRequest,
+  ErrorMapSummary,
   FamilySummary,
   Job,
   OriginsRequest,
@@ -44,6 +52,9 @@ export type MeshFormat = "glb" | "stl" | "ply";
 
 /** Which set of a dexterity map a mesh surrounds. */
 export type MeshSet = "reachable" | "dexterous";
+
+/** An error of the tool, by which the mesh of an error map is coloured. */
+export type MeshError = "tip_rms" | "tip_worst" | "axis_rms" | "axis_worst";
 
 /** A client of the service at one address. */
 export class Verne {
@@ -83,6 +94,24 @@ export class Verne {
     );
   }
 
+  /** In which parts of a plane the parallel module has how many solutions. */
+  async atlas(body: AtlasRequest = {}): Promise<Atlas> {
+    return unwrap(await this.api.POST("/atlas", { body }));
+  }
+
+  /** How far the tool may be off at each of the poses, for tolerances of the machine's parameters. */
+  async errorBudget(body: ErrorBudgetRequest): Promise<ErrorBudgetAnswer> {
+    return unwrap(await this.api.POST("/error-budget", { body }));
+  }
+
+  /** The summary of the errors of the tool over a workspace. */
+  async errorMap(body: ErrorMapRequest, options: Wait = {}): Promise<ErrorMapSummary> {
+    return this.settled(
+      unwrap(await this.api.POST("/workspace/error-budget", { body, ...asked(options) })),
+      options,
+    );
+  }
+
   /** The report on a tool path. */
   async toolpath(body: ToolpathRequest, options: Wait = {}): Promise<ToolpathReport> {
     return this.settled(unwrap(await this.api.POST("/toolpath", { body, ...asked(options) })), options);
@@ -112,6 +141,11 @@ export class Verne {
     );
   }
 
+  /** The parameters of a machine as measurements determine them. `machine` of the answer is ready for requests. */
+  async calibrate(body: CalibrationRequest): Promise<CalibrationAnswer> {
+    return unwrap(await this.api.POST("/machines/calibration", { body }));
+  }
+
   /** A file of a stored result, such as `/workspace/ID/mesh.glb`. If the service evicted it, a job computes it again. */
   async file(path: string, watch: Watch = {}): Promise<ArrayBuffer> {
     const response = await this.get(path, watch.signal);
@@ -120,10 +154,16 @@ export class Verne {
     return this.file(path, watch);
   }
 
-  /** The mesh of a stored workspace or dexterity map. */
-  mesh(id: string, format: MeshFormat = "glb", watch: Watch & { set?: MeshSet } = {}): Promise<ArrayBuffer> {
-    const set = watch.set === undefined ? "" : `?set=${watch.set}`;
-    return this.file(`/workspace/${encodeURIComponent(id)}/mesh.${format}${set}`, watch);
+  /** The mesh of a stored workspace, dexterity map or error map. */
+  mesh(
+    id: string,
+    format: MeshFormat = "glb",
+    watch: Watch & { set?: MeshSet; error?: MeshError } = {},
+  ): Promise<ArrayBuffer> {
+    const { set, error } = watch;
+    const query = new URLSearchParams({ ...(set && { set }), ...(error && { error }) });
+    const suffix = query.size > 0 ? `?${query.toString()}` : "";
+    return this.file(`/workspace/${encodeURIComponent(id)}/mesh.${format}${suffix}`, watch);
   }
 
   /** The result of an answer that is the result, or the job that computes it. */

@@ -6,8 +6,17 @@ export type { paths } from "../generated/openapi.js";
 
 export type Schemas = components["schemas"];
 export type Answer = Schemas["Answer"];
+export type Atlas = Schemas["Atlas"];
+export type AtlasRequest = Schemas["AtlasRequest"];
+export type AtlasSpace = Schemas["AtlasSpace"];
+export type CalibrationAnswer = Schemas["CalibrationAnswer"];
+export type CalibrationRequest = Schemas["CalibrationRequest"];
 export type DexterityBody = Schemas["DexterityBody"];
 export type DexteritySummary = Schemas["DexteritySummary"];
+export type ErrorBudgetAnswer = Schemas["ErrorBudgetAnswer"];
+export type ErrorBudgetRequest = Schemas["ErrorBudgetRequest"];
+export type ErrorMapRequest = Schemas["ErrorMapRequest"];
+export type ErrorMapSummary = Schemas["ErrorMapSummary"];
 export type FamilySummary = Schemas["FamilySummary"];
 export type Job = Schemas["Job"];
 export type Limit = Schemas["Limit"];

@@ -102,6 +102,64 @@ suite("a client of a service", () => {
     assert.ok((await verne.mesh(map.id, "ply", { set: "dexterous" })).byteLength > 0);
   });
 
+  test("an atlas has regions that are the window, and drawings", async () => {
+    const { window, regions } = await verne.atlas({ space: "joints", tolerance: 5 });
+    const [left = 0, right = 0] = window.u;
+    const [low = 0, high = 0] = window.v;
+    const whole = regions.reduce((sum, { area }) => sum + area, 0);
+    assert.ok(Math.abs(whole / ((right - left) * (high - low)) - 1) < 1e-4);
+    const body = { space: "platform" as const, tolerance: 20 };
+    const svg = unwrap(await verne.api.POST("/atlas.svg", { body, parseAs: "text" }));
+    assert.ok(svg.startsWith("<svg"));
+  });
+
+  test("an error budget names its parameters, and an error map has a mesh for each error", async () => {
+    const parameter_tolerances = { L1: 0.02, tilt_zero: 0.001 };
+    const { parameters, budgets, status } = await verne.errorBudget({
+      poses: [[100, 50, 150, 0, 0], null],
+      tool_length: 50,
+      parameter_tolerances,
+    });
+    assert.deepEqual(
+      parameters.map(({ name }) => name),
+      Object.keys(parameter_tolerances),
+    );
+    assert.deepEqual(status, ["ok", "invalid"]);
+    const [budget, none] = budgets;
+    assert.ok(budget && budget.tip.rms > 0 && none === null);
+    assert.ok(Math.abs(budget.tip.rms - Math.hypot(...budget.tip.contributions)) < 1e-12);
+
+    const body = { kind: "tool" as const, tool_length: 50, cell: 200, tolerance: 20, parameter_tolerances };
+    const map = await verne.errorMap(body, { wait: 0 });
+    assert.ok(map.errors && map.errors.tip_worst.least <= map.errors.tip_worst.largest);
+    const stl = new DataView(await verne.mesh(map.id, "stl", { error: "axis_rms" }));
+    assert.equal(stl.getUint32(80, true), map.triangles);
+  });
+
+  test("measurements determine a machine", async () => {
+    const rho = Array.from({ length: 12 }, (_, i): [number, number, number] => [
+      450 + 100 * Math.sin(0.7 * i),
+      450 + 100 * Math.sin(1.3 * i),
+      450 + 100 * Math.cos(2.1 * i),
+    ]);
+    const plan = await verne.calibrate({ rho, kind: "tracker", tool_length: 100 });
+    assert.deepEqual([plan.rank, plan.unknowns, plan.rms], [17, 19, null]);
+    const points: [number, number, number][] = [];
+    for (const joints of rho) {
+      const machine = { ...plan.machine, geometry: { ...plan.machine.geometry, L1: 1050.3 } };
+      const body = { joints: { rho: joints }, tool_length: 100, machine };
+      const [solution] = unwrap(await verne.api.POST("/fk", { body })).solutions;
+      assert.ok(solution);
+      points.push([solution.tool.x, solution.tool.y, solution.tool.z]);
+    }
+    const found = await verne.calibrate({ rho, points, tool_length: 100, sigma: 0.002 });
+    assert.ok(Math.abs(found.machine.geometry.L1 - 1050.3) < 1e-4);
+    const body = { joints: { rho: [500, 480, 520] as [number, number, number] }, machine: found.machine };
+    assert.equal(unwrap(await verne.api.POST("/fk", { body })).machine.hash, found.hash);
+    const unfit = verne.calibrate({ rho, points: rho, tool_length: 100, sigma: 0.002 });
+    await assert.rejects(unfit, { status: 422, code: "no_fit" });
+  });
+
   test("a tool path has a report, rows and a program", async () => {
     const start = { x: 0, y: 0, i: 0, j: 0, k: 1, feed: 800 };
     const end = { x: 80, y: 0, z: 300, i: 0, j: 0.6, k: 0.8, feed: 800 };

@@ -3,7 +3,9 @@
 import { effect } from "@preact/signals";
 import { render } from "preact";
 import { Page } from "./panels/page";
+import { keepAtlasPanel } from "./atlas/entry";
 import { keepDexterityPanel } from "./dexterity/entry";
+import { keepErrorsPanel } from "./errors/entry";
 import { keepFamilyPanel } from "./families/entry";
 import { followLinks } from "./program/entry";
 import { keepAddress, onNewAddress, saidByAddress } from "./state/address_bar";
@@ -32,6 +34,8 @@ async function start(): Promise<void> {
   followLinks();
   keepFamilyPanel();
   keepDexterityPanel();
+  keepErrorsPanel();
+  keepAtlasPanel();
 }
 
 /** Another tool, another height over the table or other ghosts: the same joints are solved anew. */

@@ -130,6 +130,21 @@ async fn an_error_budget_is_that_of_the_service() {
 }
 
 #[tokio::test]
+async fn an_atlas_is_that_of_the_service() {
+    let atlas = json_of("atlas --space joints --u-min -300 --tolerance 10");
+    assert_eq!(atlas, get("/atlas?space=joints&u_min=-300&tolerance=10").await.json);
+    let directory = tempfile::tempdir().unwrap();
+    for (name, beginning) in [("a.svg", "<svg"), ("a.dxf", "999"), ("a.json", "{")] {
+        let file = directory.path().join(name);
+        assert_eq!(verne(&format!("atlas --tolerance 20 -o {}", file.display())).unwrap(), "");
+        assert!(std::fs::read_to_string(&file).unwrap().starts_with(beginning), "{name}");
+    }
+    let error = verne("atlas --u-min 2000 --space platform").unwrap_err();
+    assert!(error.contains("--u-min"), "{error}");
+    assert!(verne("atlas -o atlas.png").unwrap_err().contains(".json, .svg or .dxf"));
+}
+
+#[tokio::test]
 async fn an_error_map_is_that_of_the_service() {
     let directory = tempfile::tempdir().unwrap();
     let line = "error-map --kind part --tool-length 50 --cell 200 --tolerance 20 --parameter-tolerances {\"L1\":0.02} \

@@ -89,6 +89,22 @@ fn json_and_pretty_print_json_on_a_terminal() {
 }
 
 #[test]
+fn an_atlas_is_a_table_of_areas() {
+    let line = "atlas --space joints --tolerance 10";
+    let text = on_terminal(line);
+    assert!(text.starts_with("verne: forward solutions\n"), "{text}");
+    let atlas = json(line);
+    let area = |solutions: u64| -> f64 {
+        let regions = atlas["regions"].as_array().unwrap().iter();
+        let equal = regions.filter(|region| region["solutions"] == solutions);
+        equal.map(|region| region["area"].as_f64().unwrap()).sum()
+    };
+    for solutions in [0, 4] {
+        assert_eq!(words(&text, &solutions.to_string())[2], format!("{:.3}", area(solutions)), "{text}");
+    }
+}
+
+#[test]
 fn workspaces_and_machines_are_names_with_values() {
     let line = "workspace --kind part --tool-length 50 --tolerance 50";
     let (text, summary) = (on_terminal(line), json(line));

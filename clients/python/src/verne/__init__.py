@@ -3,6 +3,9 @@
 Lengths are millimetres and angles degrees.
 """
 
+from verne.answers.atlas import Atlas
+from verne.answers.calibration import Calibration, ParameterEstimate
+from verne.answers.error_budget import ErrorBudget, ErrorBudgetResult, ErrorMapSummary
 from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.machine import Machine, MachineEntry, MachineId
 from verne.answers.solution import ForwardResult, InverseResult, Joints, Limit, PartPose, PlatformPose, Solution
@@ -11,6 +14,7 @@ from verne.answers.workspace import DexteritySummary, FamilySummary, Slice, Work
 from verne.async_client import AsyncClient
 from verne.async_job import (
     AsyncDexterityJob,
+    AsyncErrorMapJob,
     AsyncFamilyJob,
     AsyncJob,
     AsyncOriginsJob,
@@ -22,7 +26,17 @@ from verne.async_job import (
 from verne.batch import JointBatch, Membership, PoseBatch
 from verne.client import Client
 from verne.decoding import DecodingError
-from verne.job import DexterityJob, FamilyJob, Job, OriginsJob, PlacementJob, ToolpathJob, WindowJob, WorkspaceJob
+from verne.job import (
+    DexterityJob,
+    ErrorMapJob,
+    FamilyJob,
+    Job,
+    OriginsJob,
+    PlacementJob,
+    ToolpathJob,
+    WindowJob,
+    WorkspaceJob,
+)
 from verne.local_service import LocalService, find_binary, local
 from verne.problem import Problem, ProblemError
 from verne.table import Table
@@ -30,6 +44,7 @@ from verne.table import Table
 __all__ = [
     "AsyncClient",
     "AsyncDexterityJob",
+    "AsyncErrorMapJob",
     "AsyncFamilyJob",
     "AsyncJob",
     "AsyncOriginsJob",
@@ -37,10 +52,16 @@ __all__ = [
     "AsyncToolpathJob",
     "AsyncWindowJob",
     "AsyncWorkspaceJob",
+    "Atlas",
+    "Calibration",
     "Client",
     "DecodingError",
     "DexterityJob",
     "DexteritySummary",
+    "ErrorBudget",
+    "ErrorBudgetResult",
+    "ErrorMapJob",
+    "ErrorMapSummary",
     "FamilyJob",
     "FamilySummary",
     "ForwardResult",
@@ -56,6 +77,7 @@ __all__ = [
     "Membership",
     "OriginsJob",
     "OriginsSummary",
+    "ParameterEstimate",
     "PartPose",
     "Placement",
     "PlacementJob",

@@ -9,6 +9,7 @@ import httpx
 
 from verne.async_job import (
     AsyncDexterityJob,
+    AsyncErrorMapJob,
     AsyncFamilyJob,
     AsyncOriginsJob,
     AsyncPlacementJob,
@@ -16,7 +17,17 @@ from verne.async_job import (
     AsyncWindowJob,
     AsyncWorkspaceJob,
 )
-from verne.operations import batches, fitting, kinematics, publications, toolpaths, workspaces
+from verne.operations import (
+    atlases,
+    batches,
+    calibration,
+    error_budgets,
+    fitting,
+    kinematics,
+    publications,
+    toolpaths,
+    workspaces,
+)
 from verne.runners import Awaiting, awaiting, awaiting_job
 from verne.session import DEFAULT_RETRIES, DEFAULT_URL, TIMEOUT, Session
 
@@ -62,9 +73,13 @@ class AsyncClient(Awaiting[Session]):
     fk_batch = awaiting(batches.fk_batch)
     ik_batch = awaiting(batches.ik_batch)
     contains = awaiting(batches.contains)
+    error_budget = awaiting(error_budgets.error_budget)
+    atlas = awaiting(atlases.atlas)
+    atlas_drawing = awaiting(atlases.atlas_drawing)
     workspace = awaiting_job(workspaces.workspace, AsyncWorkspaceJob)
     family = awaiting_job(workspaces.family, AsyncFamilyJob)
     dexterity = awaiting_job(workspaces.dexterity, AsyncDexterityJob)
+    error_map = awaiting_job(error_budgets.error_map, AsyncErrorMapJob)
     program = awaiting(toolpaths.program)
     toolpath = awaiting_job(toolpaths.toolpath, AsyncToolpathJob)
     window = awaiting_job(fitting.window, AsyncWindowJob)
@@ -72,3 +87,4 @@ class AsyncClient(Awaiting[Session]):
     origins = awaiting_job(fitting.origins, AsyncOriginsJob)
     machines = awaiting(publications.machines)
     machine = awaiting(publications.machine)
+    calibrate = awaiting(calibration.calibrate)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TypeVar
 
+from verne.answers.error_budget import ErrorMapSummary
 from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.toolpath import ToolpathReport
 from verne.answers.workspace import DexteritySummary, FamilySummary, WorkspaceSummary
@@ -57,6 +58,14 @@ class AsyncDexterityJob(AsyncJob[DexteritySummary]):
     mesh = awaiting(meshes.dexterity_mesh)
     to_trimesh = awaiting(meshes.dexterity_trimesh)
     cells = awaiting(meshes.cells)
+
+
+class AsyncErrorMapJob(AsyncJob[ErrorMapSummary]):
+    """A job that computes an error map."""
+
+    mesh = awaiting(meshes.error_mesh)
+    to_trimesh = awaiting(meshes.error_trimesh)
+    cells = awaiting(meshes.error_cells)
 
 
 class AsyncToolpathJob(AsyncJob[ToolpathReport]):

@@ -7,8 +7,27 @@ from typing import Self
 
 import httpx
 
-from verne.job import DexterityJob, FamilyJob, OriginsJob, PlacementJob, ToolpathJob, WindowJob, WorkspaceJob
-from verne.operations import batches, fitting, kinematics, publications, toolpaths, workspaces
+from verne.job import (
+    DexterityJob,
+    ErrorMapJob,
+    FamilyJob,
+    OriginsJob,
+    PlacementJob,
+    ToolpathJob,
+    WindowJob,
+    WorkspaceJob,
+)
+from verne.operations import (
+    atlases,
+    batches,
+    calibration,
+    error_budgets,
+    fitting,
+    kinematics,
+    publications,
+    toolpaths,
+    workspaces,
+)
 from verne.runners import Blocking, blocking, blocking_job
 from verne.session import DEFAULT_RETRIES, DEFAULT_URL, TIMEOUT, Session
 
@@ -62,9 +81,13 @@ class Client(Blocking[Session]):
     fk_batch = blocking(batches.fk_batch)
     ik_batch = blocking(batches.ik_batch)
     contains = blocking(batches.contains)
+    error_budget = blocking(error_budgets.error_budget)
+    atlas = blocking(atlases.atlas)
+    atlas_drawing = blocking(atlases.atlas_drawing)
     workspace = blocking_job(workspaces.workspace, WorkspaceJob)
     family = blocking_job(workspaces.family, FamilyJob)
     dexterity = blocking_job(workspaces.dexterity, DexterityJob)
+    error_map = blocking_job(error_budgets.error_map, ErrorMapJob)
     program = blocking(toolpaths.program)
     toolpath = blocking_job(toolpaths.toolpath, ToolpathJob)
     window = blocking_job(fitting.window, WindowJob)
@@ -72,3 +95,4 @@ class Client(Blocking[Session]):
     origins = blocking_job(fitting.origins, OriginsJob)
     machines = blocking(publications.machines)
     machine = blocking(publications.machine)
+    calibrate = blocking(calibration.calibrate)

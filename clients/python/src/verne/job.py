@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Generic, TypeVar
 
+from verne.answers.error_budget import ErrorMapSummary
 from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.toolpath import ToolpathReport
 from verne.answers.workspace import DexteritySummary, FamilySummary, WorkspaceSummary
@@ -100,6 +101,14 @@ class DexterityJob(Job[DexteritySummary]):
     mesh = blocking(meshes.dexterity_mesh)
     to_trimesh = blocking(meshes.dexterity_trimesh)
     cells = blocking(meshes.cells)
+
+
+class ErrorMapJob(Job[ErrorMapSummary]):
+    """A job that computes an error map."""
+
+    mesh = blocking(meshes.error_mesh)
+    to_trimesh = blocking(meshes.error_trimesh)
+    cells = blocking(meshes.error_cells)
 
 
 class ToolpathJob(Job[ToolpathReport]):

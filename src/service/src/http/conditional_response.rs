@@ -22,6 +22,9 @@ use crate::wire::error::OperationError;
 /// Cache-Control of content whose path contains its hash or id: the content of a path never changes.
 pub(crate) const IMMUTABLE: &str = "public, max-age=31536000, immutable";
 
+/// Cache-Control of answers that depend on their URL and on the published machines, which change only with a restart.
+pub(crate) const UNTIL_RESTART: &str = "public, max-age=300";
+
 /// The strong tag of a representation: the first 32 digits of its hash, and its coding.
 pub(crate) fn entity_tag(hash: &blake3::Hash, coding: Option<&str>) -> Result<ETag, OperationError> {
     let coding = coding.map(|name| format!("-{name}")).unwrap_or_default();
@@ -82,8 +85,8 @@ pub(crate) struct Representation {
     pub media: &'static str,
     /// The value of Cache-Control; none for responses to POST.
     pub cache_control: Option<&'static str>,
-    /// The path at which GET returns the same bytes.
-    pub location: String,
+    /// The path at which GET returns the same bytes, if it is another one than that of the request.
+    pub location: Option<String>,
     /// The name under which a browser saves the content.
     pub file_name: Option<String>,
 }
@@ -96,7 +99,7 @@ impl Representation {
             is_unshared: false,
             media: "application/json",
             cache_control: None,
-            location,
+            location: Some(location),
             file_name: None,
         }
     }
@@ -135,7 +138,7 @@ impl Representation {
             (VARY, Some("accept".to_owned())),
             (ACCEPT_RANGES, self.cache_control.map(|_| "bytes".to_owned())),
             (CACHE_CONTROL, self.cache_control.map(str::to_owned)),
-            (CONTENT_LOCATION, Some(self.location.clone())),
+            (CONTENT_LOCATION, self.location.clone()),
             (CONTENT_DISPOSITION, self.file_name.as_deref().map(inline)),
         ];
         headers.into_iter().filter_map(|(name, value)| header(name, &value?)).collect()

@@ -20,7 +20,8 @@ use crate::wire::row_format::RowFormat;
 /// The name and the media type of a format.
 type NameAndMedia = (&'static str, &'static str);
 
-/// The formats that have paths of their own: of the file at a path, or of the tables that it accepts besides JSON.
+/// The formats that have paths of their own: of the file at a path, or those besides JSON of a path that is listed for
+/// JSON.
 fn formats(path: &str) -> Vec<NameAndMedia> {
     match path {
         "/workspace/{id}/mesh" | "/toolpath/{id}/mesh" => {
@@ -29,10 +30,13 @@ fn formats(path: &str) -> Vec<NameAndMedia> {
         "/workspace/{id}/slice" | "/toolpath/{id}/slice" => {
             SliceFormat::ALL.map(|format| (format.name(), format.media()[0])).into()
         }
+        "/atlas" => {
+            [SliceFormat::Svg, SliceFormat::Dxf].map(|format| (format.name(), format.media()[0])).into()
+        }
         "/toolpath/{id}/rows" | "/workspace/{id}/cells" => {
             RowFormat::ALL.map(|format| (format.name(), format.media())).into()
         }
-        "/fk/batch" | "/ik/batch" | "/error-budget" | "/workspace/contains" => {
+        "/fk/batch" | "/ik/batch" | "/error-budget" | "/machines/calibration" | "/workspace/contains" => {
             Format::ALL.map(|format| (format.name(), format.media())).into()
         }
         _ => Vec::new(),
@@ -80,10 +84,16 @@ fn narrow(operation: &mut Operation, (name, media): NameAndMedia) {
     if let Some(parameters) = &mut operation.parameters {
         parameters.retain(|parameter| !matches!(parameter, RefOr::T(known) if known.name == "format"));
     }
-    if let Some(RefOr::T(body)) = &mut operation.request_body {
+    // The body of a request for a drawing is JSON.
+    if let Some(RefOr::T(body)) = &mut operation.request_body
+        && body.content.contains_key(media)
+    {
         body.content.retain(|known, _| known == media);
     }
-    if let Some(RefOr::T(Response { content, .. })) = operation.responses.responses.get_mut("200") {
+    if let Some(RefOr::T(Response { content, .. })) = operation.responses.responses.get_mut("200")
+        // The answer to a table may be a JSON document.
+        && content.contains_key(media)
+    {
         content.retain(|known, _| known == media);
     }
 }

@@ -1,6 +1,8 @@
 //! The handlers, one module for each group of paths. `router` says how to add a route.
 
+pub(crate) mod atlas;
 pub(crate) mod batch;
+pub(crate) mod calibration;
 pub(crate) mod dexterity;
 pub(crate) mod error_budget;
 pub(crate) mod jobs;

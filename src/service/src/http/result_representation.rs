@@ -71,7 +71,7 @@ pub(crate) fn slice_file(
         is_unshared: true,
         media,
         cache_control: Some(IMMUTABLE),
-        location: format!("{}/slice?z={z}&format={name}", kind.path(id)),
+        location: Some(format!("{}/slice?z={z}&format={name}", kind.path(id))),
         file_name: Some(format!("slice-{id:.8}.{name}")),
     }
 }
@@ -154,7 +154,7 @@ impl Surface {
             is_unshared,
             media: format.media(),
             cache_control: None,
-            location: format!("{}/mesh?format={name}{selection}", self.kind.path(id)),
+            location: Some(format!("{}/mesh?format={name}{selection}", self.kind.path(id))),
             file_name: Some(match self.kind {
                 QuestionKind::Origins => format!("origins-{id:.8}.{name}"),
                 _ => format!("workspace-{id:.8}.{name}"),

@@ -11,9 +11,6 @@ use crate::wire::error::OperationError;
 use crate::wire::field_errors::{FieldErrors, is_angle};
 use crate::wire::result_id::ResultId;
 
-/// Finest and coarsest grid, mm.
-const CELLS: [f64; 2] = [1.0, 1000.0];
-
 /// About the seconds that a point takes.
 const POINT_COST: f64 = 1e-4;
 
@@ -44,10 +41,7 @@ impl DexterityQuestion {
         if is_angle(from) && is_angle(to) && !(0.0..=360.0).contains(&(to - from)) {
             faults.add("/phi1", "must run from the lesser angle to the greater, by at most 360 degrees");
         }
-        let [finest, coarsest] = CELLS;
-        if !(finest..=coarsest).contains(&request.cell) {
-            faults.add("/cell", format!("must be a number from {finest} to {coarsest} mm"));
-        }
+        faults.cell(request.cell);
         let resolved = machines.resolve(&request.machine);
         faults.into_result()?;
         let machine = resolved?;

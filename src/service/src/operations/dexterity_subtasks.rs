@@ -31,11 +31,7 @@ pub(crate) fn compute_slab(
     observer: &dyn Observer,
 ) -> Result<Vec<u8>, OperationError> {
     let (grid, request) = (grid(question, observer)?, DexterityRequest::from(&question.request));
-    let first_layer = |number: u32| {
-        let layers = u64::from(grid.counts[0]) * u64::from(number) / u64::from(count.max(1));
-        u32::try_from(layers).unwrap_or(u32::MAX)
-    };
-    let layers = first_layer(number)..first_layer(number + 1);
+    let layers = grid.layers_of_slab(number, count);
     let slab = slab(&question.machine, &request, &grid, layers, observer).map_err(workspace_error)?;
     let Slab { layers, counts, intervals, crossings } = slab;
     let crossings =

@@ -1,5 +1,7 @@
-//! Slices as drawings. Both formats show x to the right and y up, mm.
+//! Slices and atlases as drawings. Both formats show x, or u, to the right and y, or v, up, mm.
 
-pub(crate) mod dxf;
-pub(crate) mod extent;
-pub(crate) mod svg;
+pub(crate) mod atlas;
+mod dxf;
+mod extent;
+pub(crate) mod slice;
+mod svg;

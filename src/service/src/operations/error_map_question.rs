@@ -14,9 +14,6 @@ use crate::wire::result_id::ResultId;
 use crate::wire::sweep::Sweep;
 use crate::wire::workspace::WorkspaceRequest;
 
-/// Finest and coarsest grid, mm.
-const CELLS: [f64; 2] = [1.0, 1000.0];
-
 /// About the seconds that the budget of a point takes.
 const POINT_COST: f64 = 2e-4;
 
@@ -44,10 +41,7 @@ impl ErrorMapQuestion {
     /// Checks a request.
     pub(crate) fn new(request: &ErrorMapBody, machines: &MachineRegistry) -> Result<Self, OperationError> {
         let mut faults = FieldErrors::default();
-        let [finest, coarsest] = CELLS;
-        if !(finest..=coarsest).contains(&request.cell) {
-            faults.add("/cell", format!("must be a number from {finest} to {coarsest} mm"));
-        }
+        faults.cell(request.cell);
         request.parameter_tolerances.check("/parameter_tolerances", &mut faults);
         let workspace = match WorkspaceQuestion::new(&workspace(request), machines) {
             Ok(workspace) => {

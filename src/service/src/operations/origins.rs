@@ -107,11 +107,7 @@ pub(crate) fn compute_part(
     OriginsPart { number, count }: OriginsPart,
     observer: &dyn Observer,
 ) -> Result<Vec<u8>, OperationError> {
-    let first_layer = |number: u32| {
-        let layers = u64::from(survey.grid.counts[0]) * u64::from(number) / u64::from(count.max(1));
-        u32::try_from(layers).unwrap_or(u32::MAX)
-    };
-    let layers = first_layer(number)..first_layer(number + 1);
+    let layers = survey.grid.layers_of_slab(number, count);
     let slab = origin_slab(&question.toolpath.machine, survey, layers, observer).map_err(workspace_error)?;
     let crossings = slab.crossings.into_iter().map(|crossing| (crossing.edge, crossing.at)).collect();
     let stored = StoredPart { layers: [slab.layers.start, slab.layers.end], inside: slab.inside, crossings };
@@ -206,8 +202,8 @@ pub(crate) fn slice_of_origins(
     let title = format!("region of origins at z = {z} mm");
     match format {
         SliceFormat::Json => write_json(&cut, SLICE_BYTES),
-        SliceFormat::Svg => Ok(drawing::svg::write(&cut, &title).into_bytes()),
-        SliceFormat::Dxf => Ok(drawing::dxf::write(&cut, &title).into_bytes()),
+        SliceFormat::Svg => Ok(drawing::slice::svg(&cut, &title).into_bytes()),
+        SliceFormat::Dxf => Ok(drawing::slice::dxf(&cut, &title).into_bytes()),
     }
 }
 

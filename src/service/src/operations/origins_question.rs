@@ -1,6 +1,7 @@
 //! A checked question about the region of origins of a program.
 
 use crate::operations::toolpath_question::{CheckedToolpath, ToolpathQuestion};
+use crate::wire::dexterity::default_cell;
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::FieldErrors;
 use crate::wire::json::write_json;
@@ -10,10 +11,6 @@ use crate::wire::toolpath::{OnLimitName, Setup};
 
 /// Begins the hash of every region. It changes when the bytes of the answer to the same question change.
 const HASH_PREFIX: &[u8] = b"verne origins 2";
-
-/// Finest and coarsest grid, and the grid of a request that has none, mm.
-const CELLS: [f64; 2] = [1.0, 1000.0];
-const DEFAULT_CELL: f64 = 20.0;
 
 /// About the bytes of a request.
 const REQUEST_BYTES: usize = 1024;
@@ -50,11 +47,8 @@ impl CheckedOrigins {
     /// All fields that cannot be used.
     pub(crate) fn new(fields: &OriginsFields, toolpath: &CheckedToolpath) -> Result<Self, OperationError> {
         let mut faults = FieldErrors::default();
-        let [finest, coarsest] = CELLS;
-        let cell = fields.cell.unwrap_or(DEFAULT_CELL);
-        if !(finest..=coarsest).contains(&cell) {
-            faults.add("/cell", format!("must be a number from {finest} to {coarsest} mm"));
-        }
+        let cell = fields.cell.unwrap_or_else(default_cell);
+        faults.cell(cell);
         if toolpath.request.on_limit == OnLimitName::Retract {
             faults.add("/on_limit", "must be fail: the ways off the part are not examined");
         }

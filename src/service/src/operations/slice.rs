@@ -39,8 +39,8 @@ pub(crate) fn answer_slice(
         format!("{}: {} workspace at z = {z} mm", question.machine.id.name, question.request.kind.name());
     match format {
         SliceFormat::Json => write_json(&cut, SLICE_BYTES),
-        SliceFormat::Svg => Ok(drawing::svg::write(&cut, &title).into_bytes()),
-        SliceFormat::Dxf => Ok(drawing::dxf::write(&cut, &title).into_bytes()),
+        SliceFormat::Svg => Ok(drawing::slice::svg(&cut, &title).into_bytes()),
+        SliceFormat::Dxf => Ok(drawing::slice::dxf(&cut, &title).into_bytes()),
     }
 }
 

@@ -101,8 +101,7 @@ impl Subtask {
     /// The slabs of a map, then its volumes.
     pub(crate) fn of_map(question: &DexterityQuestion) -> Vec<Self> {
         let map = question.request;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 64")]
-        let count = (question.cost() / SLAB_COST).clamp(1.0, MAX_SLABS) as u32;
+        let count = slab_count(question.cost(), SLAB_COST, MAX_SLABS);
         let slabs = (0..count).map(|number| SubtaskRequest::Slab { map, number, count });
         slabs
             .chain([SubtaskRequest::Volumes(map)])
@@ -112,8 +111,7 @@ impl Subtask {
 
     /// The slabs of a region of origins.
     pub(crate) fn of_region(question: &OriginsQuestion) -> Vec<Self> {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 16")]
-        let count = (GRID_FRACTION * question.cost() / REGION_SLAB_COST).clamp(1.0, MAX_REGION_SLABS) as u32;
+        let count = slab_count(GRID_FRACTION * question.cost(), REGION_SLAB_COST, MAX_REGION_SLABS);
         let slabs = (0..count).map(|number| OriginsPart { number, count });
         let of_part = |part| SubtaskRequest::Origins { region: Box::new(question.request()), part };
         slabs
@@ -124,8 +122,7 @@ impl Subtask {
     /// The slabs of an error map, then its surface.
     pub(crate) fn of_error_map(question: &ErrorMapQuestion) -> Vec<Self> {
         let map = Box::new(question.request);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 64")]
-        let count = (question.grid_cost() / SLAB_COST).clamp(1.0, MAX_SLABS) as u32;
+        let count = slab_count(question.grid_cost(), SLAB_COST, MAX_SLABS);
         let slabs = (0..count).map(|number| SubtaskRequest::ErrorSlab { map: map.clone(), number, count });
         slabs
             .chain([SubtaskRequest::ErrorSurface(map.clone())])
@@ -168,17 +165,27 @@ impl Subtask {
             SubtaskRequest::Member(_) => total / f64::from(count.max(1)),
             SubtaskRequest::Origins { .. } => total * GRID_FRACTION / f64::from(count.max(1)),
             SubtaskRequest::Slab { number, count, .. } => {
-                let [from, to] = [number, number + 1].map(|cut| f64::from(cut) / f64::from(count));
-                total * (1.0 - VOLUMES_FRACTION) * (work_below(to) - work_below(from))
+                total * (1.0 - VOLUMES_FRACTION) * work_of_slab(number, count)
             }
             SubtaskRequest::ErrorSlab { number, count, .. } => {
-                let [from, to] = [number, number + 1].map(|cut| f64::from(cut) / f64::from(count));
-                total * (1.0 - SURFACE_FRACTION) * (work_below(to) - work_below(from))
+                total * (1.0 - SURFACE_FRACTION) * work_of_slab(number, count)
             }
             SubtaskRequest::Volumes(_) => total * VOLUMES_FRACTION,
             SubtaskRequest::ErrorSurface(_) => total * SURFACE_FRACTION,
         }
     }
+}
+
+/// The number of slabs, at most `most`, of which each costs about `each`.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 64")]
+fn slab_count(cost: f64, each: f64, most: f64) -> u32 {
+    (cost / each).clamp(1.0, most) as u32
+}
+
+/// The fraction of the slabs' work that slab `number` of `count` takes.
+fn work_of_slab(number: u32, count: u32) -> f64 {
+    let [from, to] = [number, number + 1].map(|cut| f64::from(cut) / f64::from(count));
+    work_below(to) - work_below(from)
 }
 
 /// The fraction of the slabs' work below `cut`, which runs from 0 to 1 through the map. A layer has much to compute in

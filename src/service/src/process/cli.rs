@@ -2,7 +2,9 @@
 
 pub(crate) mod answer;
 pub(crate) mod answer_format;
+pub(crate) mod atlas;
 pub(crate) mod batch;
+pub(crate) mod calibrate;
 pub(crate) mod dexterity;
 pub(crate) mod error_budget;
 pub(crate) mod error_map;
@@ -38,6 +40,8 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::http::router::document;
 use crate::process::cli::answer::to_json;
+use crate::process::cli::atlas::AtlasCommand;
+use crate::process::cli::calibrate::CalibrateCommand;
 use crate::process::cli::dexterity::DexterityCommand;
 use crate::process::cli::error_budget::ErrorBudgetCommand;
 use crate::process::cli::error_map::ErrorMapCommand;
@@ -97,6 +101,8 @@ enum Command {
     ErrorBudget(Box<ErrorBudgetCommand>),
     /// Compute how far the tool may be off over a workspace, for tolerances of the machine's parameters.
     ErrorMap(Box<ErrorMapCommand>),
+    /// Compute an atlas: the numbers of solutions of the parallel module over a plane, as a drawing (-o FILE) or JSON.
+    Atlas(Box<AtlasCommand>),
     /// Plan the joint motion of a program: its rows (-o FILE), and a report on the limits that it breaks.
     ///
     /// The exit status is 3 if the machine cannot run the program.
@@ -111,6 +117,13 @@ enum Command {
     ///
     /// The exit status is 3 if there is none.
     ToolpathWindow(Box<WindowCommand>),
+    /// Determine a machine's parameters from measurements in a file: the machine (-o FILE), and how sure each parameter
+    /// is.
+    ///
+    /// The columns of the file are rho1, rho2, rho3 and what --kind needs: x, y, z (tips, tracker), also theta1, theta2
+    /// (part), length (ballbar), or to_rho1, to_rho2, to_rho3, distance (distances). Without the measured values the
+    /// answer says what the poses would identify.
+    Calibrate(Box<CalibrateCommand>),
     /// Print a machine as a JSON file, which every --machine accepts.
     Machine(MachineCommand),
     /// Serve over HTTP.
@@ -185,7 +198,9 @@ impl Cli {
             Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, terminal),
             Command::Dexterity(command) => command.run(out, terminal),
+            Command::Calibrate(command) => command.run(out, terminal),
             Command::ErrorMap(command) => command.run(out, terminal),
+            Command::Atlas(command) => command.run(out, terminal),
             Command::Machine(command) => command.run(out, terminal),
             Command::Jobs(command) => command.run(out, terminal),
             Command::ToolpathOrigins(command) => command.run(out, terminal),

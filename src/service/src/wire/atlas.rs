@@ -154,7 +154,7 @@ pub(crate) struct WorkingObject {
 pub(crate) struct FaceObject {
     /// Area within the true curves, mm².
     pub area: f64,
-    /// Bound of the area's error, mm².
+    /// Estimate of the area's error, from the deviation in the middle of each side, mm².
     pub area_error: f64,
     /// [u, v] of a point in its interior, far from its sides: a place for a label, mm.
     #[schema(inline)]
@@ -165,6 +165,20 @@ pub(crate) struct FaceObject {
     /// Corners of each hole; clockwise.
     #[schema(inline)]
     pub holes: Vec<Vec<Pair>>,
+}
+
+impl PointKindName {
+    /// What it is, in words.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Self::Cusp => "cusp",
+            Self::Crossing => "crossing",
+            Self::Corner => "corner",
+            Self::Tangency => "tangency",
+            Self::Isolated => "isolated point",
+            Self::SelfMotion => "self-motion",
+        }
+    }
 }
 
 impl SpaceName {

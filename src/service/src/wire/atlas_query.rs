@@ -5,7 +5,6 @@ use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
 
 use crate::wire::atlas::SpaceName;
-use crate::wire::error::OperationError;
 use crate::wire::format::SliceFormat;
 use crate::wire::machine_ref::{MachineRef, REFERENCE, reference_name};
 
@@ -97,9 +96,9 @@ pub(crate) struct AtlasBody {
 
 impl AtlasQuery {
     /// The request as the body of POST /atlas.
-    pub(crate) fn into_body(self) -> Result<AtlasBody, OperationError> {
+    pub(crate) fn into_body(self) -> AtlasBody {
         let Self { machine, space, u_min, u_max, v_min, v_max, tolerance, format: _ } = self;
         let machine = MachineRef::Name(machine);
-        Ok(AtlasBody { machine, space, u_min, u_max, v_min, v_max, tolerance })
+        AtlasBody { machine, space, u_min, u_max, v_min, v_max, tolerance }
     }
 }

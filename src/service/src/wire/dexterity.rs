@@ -50,7 +50,8 @@ pub(crate) struct DexterityBody {
     pub cell: f64,
 }
 
-fn default_cell() -> f64 {
+/// Step of a grid without one, mm.
+pub(crate) fn default_cell() -> f64 {
     20.0
 }
 

@@ -6,7 +6,7 @@ use utoipa::ToSchema;
 use verne_solver::workspace::error_map::ErrorKind;
 
 use crate::wire::answer::MachineId;
-use crate::wire::dexterity::GridObject;
+use crate::wire::dexterity::{GridObject, default_cell};
 use crate::wire::fixed_array::Triple;
 use crate::wire::limit::Unchecked;
 use crate::wire::machine_ref::MachineRef;
@@ -61,11 +61,6 @@ pub(crate) struct ErrorMapBody {
     #[serde(default = "default_tolerance")]
     #[schema(minimum = 0.01, maximum = 1000, default = 5.0)]
     pub tolerance: f64,
-}
-
-/// Step of a grid without one, mm.
-pub(crate) fn default_cell() -> f64 {
-    20.0
 }
 
 /// Tolerance of a request that has none, mm: every vertex of the mesh has an error budget.

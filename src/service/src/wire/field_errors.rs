@@ -7,6 +7,9 @@ use crate::wire::error::{FieldError, OperationError};
 /// Largest accepted angle, degrees.
 pub(crate) const LARGEST_ANGLE: f64 = 36_000.0;
 
+/// Finest and coarsest grid, mm.
+const CELLS: [f64; 2] = [1.0, 1000.0];
+
 /// The invalid fields of a request.
 #[derive(Debug, Default)]
 pub(crate) struct FieldErrors(Vec<FieldError>);
@@ -15,6 +18,11 @@ impl FieldErrors {
     /// Adds an error.
     pub(crate) fn add(&mut self, pointer: impl Into<String>, detail: impl Into<String>) {
         self.0.push(FieldError::new(pointer, detail));
+    }
+
+    /// The number of errors.
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
     }
 
     /// Checks a length in mm of any sign.
@@ -40,10 +48,26 @@ impl FieldErrors {
         }
     }
 
+    /// Checks the coordinates of a point, or the positions of the sliders: lengths in proportion to the machine.
+    pub(crate) fn point(&mut self, pointer: &str, values: &[f64], machine: &Machine) {
+        self.lengths(pointer, values);
+        for (i, &value) in values.iter().enumerate().filter(|(_, value)| is_length(**value)) {
+            self.proportion(&format!("{pointer}/{i}"), value, machine);
+        }
+    }
+
     /// Checks the length of the tool, from P to the tool end.
     pub(crate) fn tool_length(&mut self, value: f64) {
         if !is_tool_length(value) {
             self.add("/tool_length", format!("must be a number from 0 to {MAX_INPUT:e} mm"));
+        }
+    }
+
+    /// Checks the distance between neighbouring points of a grid.
+    pub(crate) fn cell(&mut self, value: f64) {
+        let [finest, coarsest] = CELLS;
+        if !(finest..=coarsest).contains(&value) {
+            self.add("/cell", format!("must be a number from {finest} to {coarsest} mm"));
         }
     }
 
@@ -69,6 +93,12 @@ impl FieldErrors {
             }
             _ => {}
         }
+    }
+
+    /// Fails if there is an error, with the first `most` of all errors.
+    pub(crate) fn into_first(mut self, most: usize) -> Result<(), OperationError> {
+        self.0.truncate(most);
+        self.into_result()
     }
 
     /// Fails if there is an error.

@@ -25,6 +25,25 @@ const CLAMPING = [
   ["Region of origins", "shows in the scene where the origin of the set-up may be"],
 ] as const;
 
+const ERRORS = [
+  ["Rods", "the tolerance of each rod’s length: L1, L2, L3"],
+  ["Sliders", "how far each slider may stand from where the control indicates: o1, o2, o3"],
+  ["Joints", "the tolerance of the joints’ places on sliders and platform: e1, e2, R1, r1, R2, r4"],
+  ["Axes", "the tolerance of the places of the table’s axes; only the part stands on the table"],
+  ["Angles", "the tolerance of the directions and the zero positions of the table’s axes"],
+  ["worst", "the greatest error with every number within its tolerance, to the first order"],
+  ["rms", "the root mean square error, if the tolerances are standard deviations and independent"],
+] as const;
+
+const MAP = [
+  ["platform", "how many positions of the sliders lead to each x and y of the platform"],
+  ["sliders", "how many postures each position of the sliders allows; only their differences matter"],
+  ["Numbers and colours", "the number of solutions in each region; the darker or brighter, the more"],
+  ["Lines", "where solutions merge; the legend names the kinds"],
+  ["Hatched", "there is a solution in the working mode"],
+  ["Click", "leads the machine there; the dot is its place"],
+] as const;
+
 export function Help() {
   return (
     <Modal name="Help" title="Symbols, frames and controls">
@@ -72,6 +91,28 @@ export function Help() {
               <div key={action}>
                 <dt>{action}</dt>
                 <dd>{effect}</dd>
+              </div>
+            ))}
+          </dl>
+        </section>
+        <section aria-labelledby="tolerances">
+          <h3 id="tolerances">Errors of the tool</h3>
+          <dl>
+            {ERRORS.map(([field, meaning]) => (
+              <div key={field}>
+                <dt>{field}</dt>
+                <dd>{meaning}</dd>
+              </div>
+            ))}
+          </dl>
+        </section>
+        <section aria-labelledby="map">
+          <h3 id="map">Map of solutions</h3>
+          <dl>
+            {MAP.map(([part, meaning]) => (
+              <div key={part}>
+                <dt>{part}</dt>
+                <dd>{meaning}</dd>
               </div>
             ))}
           </dl>

@@ -17,7 +17,9 @@ import { acceptDrops, offer } from "./machine_file";
 import { MarginsPanel } from "./margins";
 import { MeasurementCaption } from "./measurement_caption";
 import { Notices } from "./notices";
+import { AtlasSection } from "../atlas/entry";
 import { DexterityCaption, DexteritySection, showLayersIn } from "../dexterity/entry";
+import { ErrorsSection, showErrorsIn } from "../errors/entry";
 import { FamilySection } from "../families/entry";
 import { openProgramFile, ProgramDialogs, ProgramDock, ProgramSection, showPathIn } from "../program/entry";
 import { PositionsPanel } from "./positions";
@@ -66,6 +68,8 @@ export function Page() {
           <WorkspacePanel />
           <FamilySection />
           <DexteritySection />
+          <ErrorsSection />
+          <AtlasSection />
         </div>
         <ProgramDock />
       </main>
@@ -98,6 +102,7 @@ function Scene() {
       const made = new World(canvas.current, labels.current, kind);
       showPathIn(made.stage);
       showLayersIn(made.stage);
+      showErrorsIn(made.stage);
       setWorld(made);
     } else setTrouble("This browser draws no 3D (WebGL 2): the figures beside remain.");
   }, []);

@@ -1,6 +1,7 @@
 /** The program in the view, and so in the link: its id, the name of its file, and what differs from the defaults. */
 
 import { batch, computed, effect, untracked } from "@preact/signals";
+import { equal } from "../state/equal";
 import { change, tool, view } from "../state/store";
 import type { ProgramView } from "../state/view";
 import { openStored } from "./open_program";
@@ -40,7 +41,7 @@ function follow(wanted: ProgramView | null): void {
   }
   const wished = { ...DEFAULTS, ...wanted.settings };
   if (wanted.id !== open?.summary.id) void openStored(wanted.id, wanted.name, wished);
-  else if (!same(wished, settings.peek())) settings.value = wished;
+  else if (!equal(wished, settings.peek())) settings.value = wished;
 }
 
 function close(): void {
@@ -56,10 +57,6 @@ function close(): void {
 export function differing(now: Settings): Partial<Settings> {
   const names = Object.keys(DEFAULTS) as (keyof Settings)[];
   return Object.fromEntries(
-    names.filter((name) => !same(now[name], DEFAULTS[name])).map((name) => [name, now[name]]),
+    names.filter((name) => !equal(now[name], DEFAULTS[name])).map((name) => [name, now[name]]),
   );
-}
-
-function same(a: unknown, b: unknown): boolean {
-  return JSON.stringify(a) === JSON.stringify(b);
 }

@@ -2,6 +2,7 @@
 
 import { effect } from "@preact/signals";
 import { Mesh, Vector3, type BufferGeometry, type Object3D } from "three";
+import { equal } from "../state/equal";
 import { camera, change, machine } from "../state/store";
 import type { Camera } from "../state/view";
 import { outwards, unitOf } from "./mechanism";
@@ -35,7 +36,7 @@ export class Viewpoint {
       const seen = camera.value;
       if (seen) {
         this.whole = false;
-        if (!same(seen, rounded(stage.seen()))) stage.look(seen);
+        if (!equal(seen, rounded(stage.seen()))) stage.look(seen);
       } else if (!this.whole) this.from("whole");
     });
   }
@@ -78,10 +79,6 @@ function corners(body: Object3D): Vector3[] {
 function rounded({ eye, target, height }: Camera): Camera {
   const round = ([x, y, z]: Camera["eye"]): Camera["eye"] => [thousandth(x), thousandth(y), thousandth(z)];
   return { eye: round(eye), target: round(target), height: height === null ? null : thousandth(height) };
-}
-
-function same(a: Camera, b: Camera): boolean {
-  return JSON.stringify(a) === JSON.stringify(b);
 }
 
 function thousandth(value: number): number {

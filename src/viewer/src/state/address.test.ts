@@ -36,6 +36,8 @@ test("a view comes back from its address", async () => {
       ranges: { ...INITIAL.family.ranges, phi1: { from: -12.5, to: 30, count: 5 } },
     },
     dexterity: { open: true, from: -10, to: 35.5, cell: 80 },
+    errors: { open: true, tolerances: { rods: 0.05, sliders: 0, joints: 0.015, axes: 1, angles: 0.002 } },
+    atlas: { open: true, space: "joints" },
     program: { id: "0a1b", name: "dôme.cls", settings: { setup: { x: 1, y: 2, z: 3, a: 0, b: 0, c: 90 } } },
   };
   expect(await fromAddress(`#${await toAddress(view)}`)).toEqual({ view, unread: [] });
@@ -55,7 +57,7 @@ test("a section that is closed needs no words", async () => {
 
 test("a broken address shows the first view, and its entries are named", async () => {
   const broken =
-    "joints=1,2&tool=-4&radius=x&clearance=-1&ghosts=all&workspace=moon&section=&camera=a,b,c,d,e,f&own=!!&colour=red&dexterity=0,1,2";
+    "joints=1,2&tool=-4&radius=x&clearance=-1&ghosts=all&workspace=moon&section=&camera=a,b,c,d,e,f&own=!!&colour=red&dexterity=0,1,2&errors=1,2,3,4,-5&atlas=moon";
   expect(await fromAddress(`#${broken}`)).toEqual({ view: INITIAL, unread: broken.split("&") });
 });
 

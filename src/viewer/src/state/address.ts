@@ -1,7 +1,14 @@
 /** The view in the address, after the #: only what differs from the first view. */
 
 import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
-import { asDexterity, asFamily, dexterityNumbers, familyWords } from "./section_words";
+import {
+  asDexterity,
+  asErrors,
+  asFamily,
+  dexterityNumbers,
+  errorsNumbers,
+  familyWords,
+} from "./section_words";
 import { INITIAL, type Camera, type Ghosts, type Joints, type ProgramView, type View } from "./view";
 import { packed, unpacked } from "./packed";
 
@@ -30,6 +37,8 @@ export async function toAddress(view: View): Promise<string> {
     ["program", view.program && (await packed(view.program))],
     ["family", view.family.open ? familyWords(view.family) : null],
     ["dexterity", view.dexterity.open ? dexterityNumbers(view.dexterity) : null],
+    ["errors", view.errors.open ? errorsNumbers(view.errors) : null],
+    ["atlas", view.atlas.open ? view.atlas.space : null],
     ["camera", view.camera && cameraNumbers(view.camera)],
   ];
   const said = entries.filter((entry): entry is [string, string] => entry[1] !== null);
@@ -48,6 +57,7 @@ export async function fromAddress(hash: string): Promise<Said> {
   const base = INITIAL.workspace;
   const shown = said.text("workspace") !== "hidden";
   const phi = said.numbers("phi", 2);
+  const atlas = said.oneOf("atlas", ["platform", "joints"] as const);
   const view: View = {
     machine: said.text("machine") ?? INITIAL.machine,
     own: said.check("own", asMachine(await unpacked(said.text("own")))),
@@ -71,6 +81,8 @@ export async function fromAddress(hash: string): Promise<Said> {
     camera: asCamera(said.numbers("camera", 7) ?? said.numbers("camera", 6)),
     family: said.check("family", asFamily(said.text("family"))) ?? INITIAL.family,
     dexterity: said.check("dexterity", asDexterity(said.numbers("dexterity", 3))) ?? INITIAL.dexterity,
+    errors: said.check("errors", asErrors(said.numbers("errors", 5))) ?? INITIAL.errors,
+    atlas: atlas ? { open: true, space: atlas } : INITIAL.atlas,
     program: said.check("program", asProgram(await unpacked(said.text("program")))),
   };
   return { view, unread: said.unread() };

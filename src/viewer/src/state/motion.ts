@@ -102,7 +102,7 @@ async function byJoints({ joints, mode = view.value.mode }: Target & { by: "join
 }
 
 /** The pose's working solution if it keeps every limit; in another mode, the one nearest to where the machine is. */
-async function byPose(target: Target & { by: "part" | "tool" }): Promise<Position> {
+async function byPose(target: Target & { by: "part" | "tool" | "platform" }): Promise<Position> {
   const { mode } = view.value;
   const here = position.value?.joints;
   const near = here && (target.by === "part" ? here : { rho: here.rho });

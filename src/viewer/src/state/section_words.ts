@@ -5,6 +5,7 @@ import {
   FAMILY_COUNTS,
   INITIAL,
   type DexterityView,
+  type ErrorsView,
   type FamilyParameter,
   type FamilyView,
 } from "./view";
@@ -45,4 +46,16 @@ export function asDexterity(numbers: number[] | null): DexterityView | null {
   const [from = 0, to = 0, cell = 0] = numbers ?? [];
   const possible = cell >= CELLS.least && cell <= CELLS.greatest;
   return numbers && possible ? { open: true, from, to, cell } : null;
+}
+
+/** The tolerances of rods, sliders, joints, axes and angles. */
+export function errorsNumbers({ tolerances: { rods, sliders, joints, axes, angles } }: ErrorsView): string {
+  return [rods, sliders, joints, axes, angles].join();
+}
+
+/** Null for numbers that are no tolerances. */
+export function asErrors(numbers: number[] | null): ErrorsView | null {
+  if (!numbers || numbers.some((value) => value < 0)) return null;
+  const [rods = 0, sliders = 0, joints = 0, axes = 0, angles = 0] = numbers;
+  return { open: true, tolerances: { rods, sliders, joints, axes, angles } };
 }

@@ -1,5 +1,6 @@
 /** What one step of undo and redo changes. */
 
+import { equal } from "./equal";
 import type { ProgramView, View } from "./view";
 
 export type Snapshot = Pick<
@@ -25,5 +26,5 @@ function ofProgram(before: ProgramView | null, next: ProgramView | null): string
 
 function differingNames<T extends object>(before: T, next: T): string[] {
   const names = [...new Set([...Object.keys(before), ...Object.keys(next)])] as (keyof T & string)[];
-  return names.filter((name) => JSON.stringify(before[name]) !== JSON.stringify(next[name]));
+  return names.filter((name) => !equal(before[name], next[name]));
 }

@@ -1,6 +1,6 @@
 /** What is looked at: everything that a colleague needs to see the same. */
 
-import type { Machine, PlatformPose, WorkspaceKind } from "verne-client";
+import type { AtlasSpace, Machine, PlatformPose, WorkspaceKind } from "verne-client";
 import type { Settings } from "../program/settings";
 
 /** Solutions with the same sliders (assembly), the same platform position, or the same tool pose. */
@@ -31,6 +31,29 @@ export interface View {
   program: ProgramView | null;
   family: FamilyView;
   dexterity: DexterityView;
+  errors: ErrorsView;
+  atlas: AtlasView;
+}
+
+/** The section for the errors of the tool, with its settings. */
+export interface ErrorsView {
+  open: boolean;
+  tolerances: Readonly<ErrorTolerances>;
+}
+
+/** One tolerance for each group of the machine's parameters: of the table's directions in degrees, else in mm. */
+export interface ErrorTolerances {
+  rods: number;
+  sliders: number;
+  joints: number;
+  axes: number;
+  angles: number;
+}
+
+/** The section for the map of solutions, with its plane. */
+export interface AtlasView {
+  open: boolean;
+  space: AtlasSpace;
 }
 
 /** The section for families of workspaces, with its settings. */
@@ -121,4 +144,6 @@ export const INITIAL: View = {
     ranges: { tool_length: { from: 0, to: 300, count: 13 }, phi1: { from: -40, to: 40, count: 17 } },
   },
   dexterity: { open: false, from: -20, to: 20, cell: 40 },
+  errors: { open: false, tolerances: { rods: 0.02, sliders: 0.01, joints: 0.02, axes: 0.02, angles: 0.002 } },
+  atlas: { open: false, space: "platform" },
 };

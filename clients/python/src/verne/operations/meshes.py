@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import httpx
 
+from verne.answers.error_budget import ErrorMapSummary
 from verne.answers.fitting import OriginsSummary
 from verne.answers.workspace import DexteritySummary, FamilySummary, Slice, WorkspaceSummary
 from verne.arrow_stream import read_stream
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 MeshFormat = Literal["glb", "stl", "ply", "json"]
 DrawingFormat = Literal["svg", "dxf"]
 PointSet = Literal["reachable", "dexterous"]
+MeshError = Literal["tip_rms", "tip_worst", "axis_rms", "axis_worst"]
 
 
 def mesh(job: Submission[WorkspaceSummary], format: MeshFormat = "glb") -> Operation[bytes]:
@@ -99,6 +101,24 @@ def dexterity_trimesh(job: Submission[DexteritySummary], points: PointSet = "rea
     return _trimesh((yield from dexterity_mesh(job, points, "ply")))
 
 
+def error_mesh(
+    job: Submission[ErrorMapSummary], error: MeshError = "tip_worst", format: MeshFormat = "glb"
+) -> Operation[bytes]:
+    """The surface of the workspace in ten bands of an error, as the bytes of a file.
+
+    Args:
+        error: ``tip_rms``, ``tip_worst``: displacement of the tool end; ``axis_rms``, ``axis_worst``: its angle.
+        format: As for a workspace's mesh. STL has no bands.
+    """
+    links = (yield from job.result()).links
+    return (yield from fetch(job.session, job.session.get(links.mesh, format=format, error=error))).content
+
+
+def error_trimesh(job: Submission[ErrorMapSummary], error: MeshError = "tip_worst") -> Operation[Trimesh]:
+    """The surface of the workspace in ten bands of an error, as a mesh of trimesh, mm. Needs trimesh."""
+    return _trimesh((yield from error_mesh(job, error, "ply")))
+
+
 def origins_mesh(job: Submission[OriginsSummary], format: MeshFormat = "glb") -> Operation[bytes]:
     """The surface of a region of origins as the bytes of a file.
 
@@ -120,8 +140,21 @@ def cells(job: Submission[DexteritySummary]) -> Operation[Table]:
     Returns:
         A table with the columns point (number of the point), x, y, z (mm), from, to (degrees).
     """
-    summary = yield from job.result()
-    response = yield from fetch(job.session, job.session.get(summary.links.cells, format="arrow"))
+    return (yield from _cells(job.session, (yield from job.result()).links.cells))
+
+
+def error_cells(job: Submission[ErrorMapSummary]) -> Operation[Table]:
+    """The errors at the points of the grid that are inside the workspace, as a table with a row for each point.
+
+    Returns:
+        A table with the columns point (number of the point), x, y, z, tip_rms, tip_worst (mm), axis_rms, axis_worst
+        (degrees).
+    """
+    return (yield from _cells(job.session, (yield from job.result()).links.cells))
+
+
+def _cells(session: Session, path: str) -> Operation[Table]:
+    response = yield from fetch(session, session.get(path, format="arrow"))
     return Table(read_stream(response.content))
 
 

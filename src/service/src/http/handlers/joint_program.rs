@@ -124,7 +124,7 @@ pub(crate) async fn get_path(
                 is_unshared: true,
                 media: GLB,
                 cache_control: Some(IMMUTABLE),
-                location,
+                location: Some(location),
                 file_name: Some(format!("toolpath-{:.8}.glb", record.id)),
             };
             representation.respond(&conditions)?

@@ -3,6 +3,7 @@
 use axum::extract::State;
 use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE, HeaderName};
 
+use crate::http::conditional_response::UNTIL_RESTART;
 use crate::http::error::HttpError;
 use crate::http::extractors::{JsonBody, QueryString};
 use crate::http::openapi::problem_responses::{BodyProblems, CommonProblems};
@@ -15,8 +16,7 @@ use crate::wire::json::write_json;
 use crate::wire::query::{FkQuery, IkQuery, point_into_query};
 use crate::wire::request::{FkRequest, IkRequest};
 
-/// An answer depends on its URL and on the published machines, which change only with a restart.
-const CACHEABLE: (HeaderName, &str) = (CACHE_CONTROL, "public, max-age=300");
+const CACHEABLE: (HeaderName, &str) = (CACHE_CONTROL, UNTIL_RESTART);
 
 const JSON: (HeaderName, &str) = (CONTENT_TYPE, "application/json");
 

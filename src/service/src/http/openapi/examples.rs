@@ -10,6 +10,9 @@ use crate::http::machine_documents::{machine_answer, machine_list};
 use crate::http::openapi::example::{Example, PROGRAM, get, json_of, post, value_of};
 use crate::http::openapi::examples::toolpaths::of_toolpaths;
 use crate::http::openapi::machine_schema::machine_schema;
+use crate::operations::atlas::answer_atlas;
+use crate::operations::calibration::answer_calibration;
+use crate::operations::calibration_request::read_calibration;
 use crate::operations::contains::answer_contains;
 use crate::operations::error_budget::answer_error_budget;
 use crate::operations::forward::answer_fk;
@@ -38,6 +41,7 @@ pub(crate) fn examples() -> Vec<Example> {
     let machines = MachineRegistry::default();
     let mut examples = of_service(&machines);
     examples.extend(of_kinematics(&machines));
+    examples.push(of_calibration(&machines));
     examples.extend(of_workspaces(&machines));
     examples.extend(of_programs());
     examples.extend(of_toolpaths(&machines));
@@ -60,6 +64,8 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
     let fk = parse_query::<FkQuery>("rho=674,685,250").and_then(FkQuery::into_request);
     let ik = parse_query::<IkQuery>("frame=platform&x=-240&y=-86&z=1000&certified=true")
         .and_then(IkQuery::into_request);
+    let atlas = json!({"machine": "verne", "space": "joints", "u_min": -200, "u_max": 200, "v_min": -200, "v_max": 200,
+                       "tolerance": 5});
     vec![
         get(
             "/fk",
@@ -84,6 +90,16 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
                    "tool_length": 50, "table_clearance": 0, "solutions": "feasible"}),
             |body| parse_body(body).and_then(|request| answer_ik(&request, machines)),
         ),
+        // The answers are long.
+        get("/atlas", json!({"space": "joints", "tolerance": 2}), None),
+        get("/atlas.svg", json!({"space": "platform"}), None),
+        get("/atlas.dxf", json!({"space": "platform"}), None),
+        post("/atlas", atlas.clone(), |body| {
+            let body = parse_body(body)?;
+            value_of(answer_atlas(&body, machines, SliceFormat::Json, &Unobserved))
+        }),
+        Example { method: "post", path: "/atlas.svg", request: atlas.clone(), file: None, answer: None },
+        Example { method: "post", path: "/atlas.dxf", request: atlas, file: None, answer: None },
         post(
             "/fk/batch",
             json!({"joints": [[674, 685, 250], [400, 400, 400, 10, 90], null, [0, 0, 5000]], "tool_length": 50,
@@ -107,6 +123,27 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
             |body| value_of(answer_error_budget(body, machines, ROWS, &Unobserved)),
         ),
     ]
+}
+
+/// A plan: what six poses of a tracker would identify.
+fn of_calibration(machines: &MachineRegistry) -> Example {
+    let rho = json!([
+        [600, 500, 500],
+        [650, 420, 560],
+        [480, 600, 430],
+        [400, 380, 390],
+        [620, 610, 450],
+        [300, 420, 310]
+    ]);
+    post(
+        "/machines/calibration",
+        json!({"machine": "verne", "kind": "tracker", "tool_length": 100, "rho": rho, "fixed": ["tool_length", "R2"],
+               "sigma": 0.002, "next": 2}),
+        |body| {
+            let question = read_calibration(body, machines, ROWS)?;
+            value_of(answer_calibration(&question, &Unobserved))
+        },
+    )
 }
 
 fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {

@@ -77,8 +77,14 @@ problems! {
     CommonProblems: ;
     /// Problems of a request with a body.
     BodyProblems: BODY;
+    /// Problems of an atlas in the query string.
+    AtlasProblems: &[Code::RangeNotSatisfiable];
+    /// Problems of an atlas in the body.
+    AtlasBodyProblems: BODY;
     /// Problems of a batch.
     BatchProblems: BODY, &[Code::TooManyRows, Code::BadRows];
+    /// Problems of a calibration.
+    CalibrationProblems: BODY, &[Code::TooManyRows, Code::BadRows, Code::NoFit];
     /// Problems of a workspace in the query string.
     WorkspaceQueryProblems: JOB, &[Code::RangeNotSatisfiable];
     /// Problems of a workspace, or a family of workspaces, in the body.

@@ -1,20 +1,22 @@
-//! Slices as DXF of AutoCAD 2000 (AC1015), which every CAD program reads: closed polylines on three layers at the
-//! height of the slice, and the values of alpha as text. Units are mm.
+//! Drawings as DXF of AutoCAD 2000 (AC1015), which every CAD program reads: polylines, points and texts on layers at
+//! one height. Units are mm.
 //!
 //! A DXF file is a sequence of pairs of lines: a group code and its value. Objects have handles, hexadecimal numbers.
 
 use std::fmt::{Display, Write};
 
-use crate::operations::drawing::extent::{EMPTY_SLICE, Extent, displayed};
+use crate::operations::drawing::extent::{EMPTY, Extent};
 use crate::wire::fixed_array::Pair;
-use crate::wire::slice::SliceObject;
 
-/// The sections TABLES and BLOCKS, which a drawing of AC1015 must have. They define the layers OUTER, HOLES and ALPHA.
-/// The names in braces stand for the first view.
+/// The sections TABLES and BLOCKS, which a drawing of AC1015 must have. The names in braces stand for the first view
+/// and for the layers.
 const TABLES_AND_BLOCKS: &str = include_str!("dxf/tables_and_blocks.dxf");
 
 /// The handle of the model space in [`TABLES_AND_BLOCKS`]: it owns the entities.
 const MODEL_SPACE: u32 = 0x15;
+
+/// The handle of the table of layers in [`TABLES_AND_BLOCKS`].
+const LAYER_TABLE: u32 = 0x7;
 
 /// The first handle that [`TABLES_AND_BLOCKS`] does not use.
 const FIRST_HANDLE: u32 = 0x1B;
@@ -22,8 +24,26 @@ const FIRST_HANDLE: u32 = 0x1B;
 /// Height of the first view as a multiple of the drawing's.
 const VIEW: f64 = 1.2;
 
+/// A layer of a drawing.
+pub(crate) struct Layer {
+    /// Its name: capital letters, digits and underscores.
+    pub name: String,
+    /// Its colour in AutoCAD's index.
+    pub colour: u8,
+}
+
+/// What stands on the sheet: its title, its extent if it is not empty, and its height.
+pub(crate) struct Sheet<'a> {
+    /// The comment at the beginning of the file.
+    pub comment: &'a str,
+    /// The extent of what is drawn; none if nothing is.
+    pub extent: Option<Extent>,
+    /// The height of everything, mm.
+    pub z: f64,
+}
+
 /// The text of a file, or of a part of it.
-struct Dxf {
+pub(crate) struct Dxf {
     text: String,
     next_handle: u32,
 }
@@ -60,20 +80,62 @@ impl Dxf {
         self.put(100, "AcDbEntity");
         self.put(8, layer);
     }
+
+    fn layer(&mut self, layer: &Layer) {
+        self.object("LAYER", LAYER_TABLE);
+        self.put(100, "AcDbSymbolTableRecord");
+        self.put(100, "AcDbLayerTableRecord");
+        self.put(2, &layer.name);
+        self.put(70, 0);
+        self.put(62, layer.colour);
+        self.put(6, "Continuous");
+    }
+
+    /// Adds a polyline at a height.
+    pub(crate) fn polyline(&mut self, layer: &str, points: &[Pair], z: f64, closed: bool) {
+        self.entity("LWPOLYLINE", layer);
+        self.put(100, "AcDbPolyline");
+        self.put(90, points.len());
+        self.put(70, u8::from(closed));
+        self.numbers([(38, z)]);
+        for point in points {
+            let [x, y] = point.0;
+            self.numbers([(10, x), (20, y)]);
+        }
+    }
+
+    /// Adds a point.
+    pub(crate) fn point(&mut self, layer: &str, [x, y]: [f64; 2], z: f64) {
+        self.entity("POINT", layer);
+        self.put(100, "AcDbPoint");
+        self.numbers([(10, x), (20, y), (30, z)]);
+    }
+
+    /// Adds a text of ASCII that begins at a point; %%d is the degree sign.
+    pub(crate) fn text(&mut self, layer: &str, [x, y, z]: [f64; 3], height: f64, text: impl Display) {
+        self.entity("TEXT", layer);
+        self.put(100, "AcDbText");
+        self.numbers([(10, x), (20, y), (30, z), (40, height)]);
+        self.put(1, text);
+        self.put(100, "AcDbText");
+    }
 }
 
-/// Writes a slice.
-pub(crate) fn write(slice: &SliceObject, title: &str) -> String {
-    let extent = Extent::of(slice);
-    let mut body = Dxf { text: String::new(), next_handle: FIRST_HANDLE };
-    entities(&mut body, slice, extent.unwrap_or(EMPTY_SLICE).letter_height());
+/// Writes a drawing. `draw` adds the entities.
+pub(crate) fn write(sheet: &Sheet<'_>, layers: &[Layer], draw: impl FnOnce(&mut Dxf)) -> String {
+    let mut table = Dxf { text: String::new(), next_handle: FIRST_HANDLE };
+    layers.iter().for_each(|layer| table.layer(layer));
+    let mut body = Dxf { text: String::new(), next_handle: table.next_handle };
+    body.section("ENTITIES");
+    draw(&mut body);
+    body.put(0, "ENDSEC");
     objects(&mut body);
 
     let mut file = Dxf { text: String::new(), next_handle: body.next_handle };
-    let ascii: String = title.chars().map(|c| if c.is_ascii_graphic() { c } else { ' ' }).collect();
-    file.put(999, format_args!("{ascii}; unit mm; {}", slice.id));
-    header(&mut file, extent, slice.z);
-    file.text.push_str(&tables_and_blocks(extent.unwrap_or(EMPTY_SLICE)));
+    let ascii: String = sheet.comment.chars().map(|c| if c.is_ascii_graphic() { c } else { ' ' }).collect();
+    file.put(999, ascii);
+    header(&mut file, sheet.extent, sheet.z);
+    file.text.push_str(&tables_and_blocks(sheet.extent.unwrap_or(EMPTY), layers.len(), &table.text));
     file.text.push_str(&body.text);
     file.put(0, "EOF");
     file.text
@@ -107,9 +169,11 @@ fn header(file: &mut Dxf, extent: Option<Extent>, z: f64) {
     file.put(0, "ENDSEC");
 }
 
-/// The first view shows the extent.
-fn tables_and_blocks(Extent { min, max }: Extent) -> String {
+/// The first view shows the extent. Beside the layers of the drawing there is layer 0.
+fn tables_and_blocks(Extent { min, max }: Extent, layers: usize, table: &str) -> String {
     let [width, height] = [max[0] - min[0], max[1] - min[1]].map(|side| VIEW * side.max(1e-3));
+    let text =
+        TABLES_AND_BLOCKS.replace("{layer_count}", &(layers + 1).to_string()).replace("{layers}", table);
     [
         ("{centre_x}", f64::midpoint(min[0], max[0])),
         ("{centre_y}", f64::midpoint(min[1], max[1])),
@@ -117,46 +181,7 @@ fn tables_and_blocks(Extent { min, max }: Extent) -> String {
         ("{aspect}", width / height),
     ]
     .into_iter()
-    .fold(TABLES_AND_BLOCKS.to_owned(), |text, (name, number)| text.replace(name, &format!("{number:.6}")))
-}
-
-fn entities(body: &mut Dxf, slice: &SliceObject, letter_height: f64) {
-    body.section("ENTITIES");
-    for polygon in &slice.polygons {
-        polyline(body, "OUTER", &polygon.outer, slice.z, true);
-        for hole in &polygon.holes {
-            polyline(body, "HOLES", hole, slice.z, true);
-        }
-    }
-    for line in &slice.contours {
-        polyline(body, "ALPHA", &line.points, slice.z, false);
-        if let Some(start) = line.points.first() {
-            alpha_label(body, displayed(line.alpha), [start.0[0], start.0[1], slice.z], letter_height);
-        }
-    }
-    body.put(0, "ENDSEC");
-}
-
-fn polyline(body: &mut Dxf, layer: &str, points: &[Pair], z: f64, closed: bool) {
-    body.entity("LWPOLYLINE", layer);
-    body.put(100, "AcDbPolyline");
-    body.put(90, points.len());
-    body.put(70, u8::from(closed));
-    body.numbers([(38, z)]);
-    for point in points {
-        let [x, y] = point.0;
-        body.numbers([(10, x), (20, y)]);
-    }
-}
-
-/// A value of alpha, degrees, at the start of its line.
-fn alpha_label(body: &mut Dxf, degrees: f64, [x, y, z]: [f64; 3], height: f64) {
-    body.entity("TEXT", "ALPHA");
-    body.put(100, "AcDbText");
-    body.numbers([(10, x), (20, y), (30, z), (40, height)]);
-    // %%d is the degree sign.
-    body.put(1, format_args!("{degrees}%%d"));
-    body.put(100, "AcDbText");
+    .fold(text, |text, (name, number)| text.replace(name, &format!("{number:.6}")))
 }
 
 /// The section OBJECTS: the root dictionary with its one obligatory entry.

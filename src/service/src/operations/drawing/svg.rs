@@ -1,11 +1,9 @@
-//! Slices as SVG. One unit of the view is 1 mm.
+//! Pages of SVG with a title and axes. One unit of the view is 1 mm.
 
 use std::fmt::Write;
 
-use crate::operations::drawing::extent::{EMPTY_SLICE, Extent, displayed};
+use crate::operations::drawing::extent::Extent;
 use crate::wire::fixed_array::Pair;
-use crate::wire::slice::SliceObject;
-use crate::wire::workspace::FrameName;
 
 /// Margin around the drawing as a fraction of its larger side.
 const MARGIN: f64 = 0.12;
@@ -16,60 +14,39 @@ const TICK: &str = r##"stroke="#333333""##;
 /// About how many ticks an axis has.
 const TICKS: f64 = 8.0;
 
-/// Draws a slice.
-pub(crate) fn write(slice: &SliceObject, title: &str) -> String {
-    let page = Page::around(slice);
-    let mut svg = page.open(slice, title);
-    let mut outline = String::new();
-    for polygon in &slice.polygons {
-        for ring in std::iter::once(&polygon.outer).chain(&polygon.holes) {
-            path(&mut outline, ring);
-            outline.push('Z');
-        }
-    }
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        svg,
-        r##"<path d="{outline}" fill="#56b4e9" fill-opacity="0.45" fill-rule="evenodd" stroke="#0072b2"/>"##
-    );
-    for line in &slice.contours {
-        let mut along = String::new();
-        path(&mut along, &line.points);
-        let alpha = displayed(line.alpha);
-        let _ = writeln!(
-            svg,
-            r##"<path d="{along}" fill="none" stroke="#d55e00"><title>alpha = {alpha}°</title></path>"##
-        );
-        if let Some(&[x, y]) = line.points.first().map(|point| &point.0) {
-            let _ = writeln!(svg, r##"<text x="{x:.2}" y="{:.2}" fill="#d55e00">{alpha}°</text>"##, -y);
-        }
-    }
-    page.axes(&mut svg);
-    svg.push_str("</g>\n</svg>\n");
-    svg
-}
-
-/// y points down in SVG and up in the drawing.
-fn path(text: &mut String, points: &[Pair]) {
+/// Appends a line as a path of SVG. y points down in SVG and up in the drawing.
+pub(crate) fn path(text: &mut String, points: &[Pair]) {
     for (i, point) in points.iter().enumerate() {
         let [x, y] = point.0;
         let _ = write!(text, "{}{x:.4} {:.4}", if i == 0 { 'M' } else { 'L' }, 0.0 - y);
     }
 }
 
+/// What stands above a drawing, and what its axes are.
+pub(crate) struct Heading<'a> {
+    /// The first line.
+    pub title: &'a str,
+    /// The second line: which way the drawing is seen.
+    pub seen: &'a str,
+    /// The figures that the description of the file states.
+    pub figures: &'a str,
+    /// The names of the axes.
+    pub axes: [&'a str; 2],
+}
+
 /// The page of the drawing, mm, y up.
-struct Page {
+pub(crate) struct Page {
     min: [f64; 2],
     max: [f64; 2],
     /// The drawing's larger side. Lines are as wide as a fraction of it.
-    size: f64,
+    pub size: f64,
     /// Height of letters.
-    letters: f64,
+    pub letters: f64,
 }
 
 impl Page {
-    fn around(slice: &SliceObject) -> Self {
-        let extent = Extent::of(slice).unwrap_or(EMPTY_SLICE);
+    /// The page of a drawing with this extent.
+    pub(crate) fn around(extent: Extent) -> Self {
         let (size, letters) = (extent.size(), extent.letter_height());
         let margin = MARGIN * size;
         let [min, max] =
@@ -77,28 +54,37 @@ impl Page {
         Self { min, max, size, letters }
     }
 
-    fn open(&self, slice: &SliceObject, title: &str) -> String {
+    /// The whole file with these contents.
+    pub(crate) fn write(&self, heading: &Heading<'_>, contents: &str) -> String {
+        let mut svg = self.open(heading);
+        svg.push_str(contents);
+        self.axes(&mut svg, heading.axes.map(escaped));
+        svg.push_str("</g>\n</svg>\n");
+        svg
+    }
+
+    /// The place of a line of text below the axes.
+    pub(crate) fn footer(&self) -> [f64; 2] {
+        [self.min[0] + self.letters, -self.min[1] - 0.4 * self.letters]
+    }
+
+    fn open(&self, heading: &Heading<'_>) -> String {
         let [width, height] = [self.max[0] - self.min[0], self.max[1] - self.min[1]];
-        let seen = match slice.frame {
-            FrameName::Base => "base frame, y up: seen from below, as z points down",
-            FrameName::Part => "part frame, y up: seen from above",
-        };
-        let title = escaped(title);
+        let (title, seen) = (escaped(heading.title), heading.seen);
         let letters = self.letters;
         // Page and view agree to the last digit. Otherwise a unit of the view would not be 1 mm.
         let [width, height] = [width, height].map(|side| format!("{side:.4}"));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
              viewBox=\"{:.4} {:.4} {width} {height}\">\n<title>{title}</title>\n\
-             <desc>mm; {seen}; area {:.3} mm²; {}</desc>\n\
+             <desc>mm; {seen}; {}</desc>\n\
              <rect x=\"{0:.4}\" y=\"{1:.4}\" width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n\
              <g font-family=\"sans-serif\" font-size=\"{letters:.3}\" stroke-width=\"{:.3}\">\n\
-             <text x=\"{5:.3}\" y=\"{6:.3}\">{title}</text>\n\
-             <text x=\"{5:.3}\" y=\"{7:.3}\">{seen}</text>\n",
+             <text x=\"{4:.3}\" y=\"{5:.3}\">{title}</text>\n\
+             <text x=\"{4:.3}\" y=\"{6:.3}\">{seen}</text>\n",
             self.min[0],
             -self.max[1],
-            slice.area,
-            slice.id,
+            heading.figures,
             0.002 * self.size,
             self.min[0] + letters,
             1.5 * letters - self.max[1],
@@ -107,7 +93,7 @@ impl Page {
     }
 
     /// A scale along the lower and one along the left side.
-    fn axes(&self, svg: &mut String) {
+    fn axes(&self, svg: &mut String, [horizontal, vertical]: [String; 2]) {
         let step = round_step(self.size / TICKS);
         let (letters, tick) = (self.letters, 0.01 * self.size);
         let [left, bottom] = self.min.map(|least| least + 3.0 * letters);
@@ -136,13 +122,12 @@ impl Page {
                 0.35 * letters - y
             );
         }
+        let [right, above] = [self.max[0] - letters, -bottom - 0.4 * letters];
+        let [beside, top] = [left + 0.4 * letters, 4.4 * letters - self.max[1]];
         let _ = writeln!(
             svg,
-            r#"<text x="{:.3}" y="{:.3}" text-anchor="end">x, mm</text><text x="{:.3}" y="{:.3}">y, mm</text>"#,
-            self.max[0] - letters,
-            -bottom - 0.4 * letters,
-            left + 0.4 * letters,
-            4.4 * letters - self.max[1]
+            "<text x=\"{right:.3}\" y=\"{above:.3}\" text-anchor=\"end\">{horizontal}, mm</text>\
+             <text x=\"{beside:.3}\" y=\"{top:.3}\">{vertical}, mm</text>"
         );
     }
 }

@@ -1,25 +1,23 @@
 //! `verne dexterity`: computes a dexterity map without a server.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::Value;
 
-use crate::operations::dexterity_map::{DexterityMap, compute_map};
+use crate::operations::dexterity_map::compute_map;
 use crate::operations::dexterity_question::DexterityQuestion;
 use crate::operations::machine_registry::MachineRegistry;
-use crate::operations::mesh_files::{MeshDescription, write_mesh};
+use crate::operations::mesh_files::MeshDescription;
 use crate::operations::question_text::QuestionKind;
 use crate::process::cli::answer::{machine, with_flags};
 use crate::process::cli::answer_format::AnswerFormat;
-use crate::process::cli::files::refuse_equal_files;
-use crate::process::cli::map_files::{format_of, write_cells};
+use crate::process::cli::map_files::MapFiles;
 use crate::process::cli::progress::TerminalProgress;
 use crate::process::cli::terminal::Terminal;
 use crate::process::cli::words::workspaces;
 use crate::wire::dexterity::{DexterityBody, Inclinations, SetName};
-use crate::wire::format::MeshFormat;
 use crate::wire::machine_ref::REFERENCE;
 use crate::wire::parse::parse_body;
 
@@ -66,14 +64,7 @@ pub(crate) struct DexterityCommand {
 impl DexterityCommand {
     /// Writes the files, and the summary to `out`.
     pub(crate) fn run(self, out: &mut impl Write, terminal: Option<Terminal>) -> Result<(), String> {
-        let (output, cells) = (self.output.as_deref(), self.cells.as_deref());
-        let machine_file = Some(Path::new(&self.machine)).filter(|path| path.is_file());
-        refuse_equal_files(&[("the machine", machine_file)], &[("--output", output), ("--cells", cells)])?;
-        // Before the computation: the extension may be unknown.
-        let mesh_format =
-            output.map(|path| format_of("--output", path, ".glb, .stl, .ply or .json")).transpose()?;
-        let cells_format =
-            cells.map(|path| format_of("--cells", path, ".json, .csv, .ndjson or .arrow")).transpose()?;
+        let files = MapFiles::new(&self.machine, self.output.as_deref(), self.cells.as_deref())?;
         let body = DexterityBody {
             machine: machine(&self.machine)?,
             tool_length: self.tool_length,
@@ -87,12 +78,10 @@ impl DexterityCommand {
         let progress = TerminalProgress::new();
         let map = compute_map(&question, &progress).map_err(with_flags)?;
         drop(progress);
-        if let (Some(path), Some(format)) = (output, mesh_format) {
-            write_set(&question, &map, self.set, format, path)?;
-        }
-        if let (Some(path), Some(format)) = (cells, cells_format) {
-            write_cells(QuestionKind::Dexterity, &map.cells, format, path)?;
-        }
+        let [reachable, dexterous] = &map.meshes;
+        let mesh = if self.set == SetName::Reachable { reachable } else { dexterous };
+        files.write_mesh(&MeshDescription::of_set(&question, self.set), mesh)?;
+        files.write_cells(QuestionKind::Dexterity, &map.cells)?;
         let summary: Value = parse_body(&map.summary).map_err(with_flags)?;
         self.format.write(&summary, workspaces::dexterity, out, terminal)
     }
@@ -105,17 +94,4 @@ fn inclinations(text: &str) -> Result<Inclinations, String> {
         Some((Ok(from), Ok(to))) => Ok(Inclinations { from, to }),
         _ => Err("expected two numbers separated by a comma".to_owned()),
     }
-}
-
-fn write_set(
-    question: &DexterityQuestion,
-    map: &DexterityMap,
-    set: SetName,
-    format: MeshFormat,
-    path: &Path,
-) -> Result<(), String> {
-    let [reachable, dexterous] = &map.meshes;
-    let mesh = if set == SetName::Reachable { reachable } else { dexterous };
-    let file = write_mesh(&MeshDescription::of_set(question, set), mesh, format).map_err(with_flags)?;
-    std::fs::write(path, file).map_err(|error| format!("{}: {error}", path.display()))
 }

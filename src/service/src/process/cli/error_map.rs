@@ -1,25 +1,24 @@
 //! `verne error-map`: computes an error map without a server.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::Value;
 
-use crate::operations::error_map::{ErrorMap, compute_error_map};
+use crate::operations::error_map::compute_error_map;
 use crate::operations::error_map_question::ErrorMapQuestion;
 use crate::operations::machine_registry::MachineRegistry;
-use crate::operations::mesh_files::{MeshDescription, write_mesh};
+use crate::operations::mesh_files::MeshDescription;
 use crate::operations::question_text::QuestionKind;
 use crate::process::cli::answer::{machine, with_flags};
 use crate::process::cli::answer_format::AnswerFormat;
-use crate::process::cli::files::refuse_equal_files;
-use crate::process::cli::map_files::{format_of, write_cells};
+use crate::process::cli::map_files::MapFiles;
 use crate::process::cli::progress::TerminalProgress;
 use crate::process::cli::terminal::Terminal;
 use crate::process::cli::words::error_budgets;
-use crate::wire::error_map::{ErrorMapBody, ErrorName, default_cell, default_tolerance};
-use crate::wire::format::MeshFormat;
+use crate::wire::dexterity::default_cell;
+use crate::wire::error_map::{ErrorMapBody, ErrorName, default_tolerance};
 use crate::wire::json_text::JsonText;
 use crate::wire::machine_ref::REFERENCE;
 use crate::wire::parameter_tolerances::ParameterTolerances;
@@ -79,25 +78,15 @@ pub(crate) struct ErrorMapCommand {
 impl ErrorMapCommand {
     /// Writes the files, and the summary to `out`.
     pub(crate) fn run(self, out: &mut impl Write, terminal: Option<Terminal>) -> Result<(), String> {
-        let (output, cells) = (self.output.as_deref(), self.cells.as_deref());
-        let machine_file = Some(Path::new(&self.machine)).filter(|path| path.is_file());
-        refuse_equal_files(&[("the machine", machine_file)], &[("--output", output), ("--cells", cells)])?;
-        // Before the computation: the extension may be unknown.
-        let mesh_format =
-            output.map(|path| format_of("--output", path, ".glb, .stl, .ply or .json")).transpose()?;
-        let cells_format =
-            cells.map(|path| format_of("--cells", path, ".json, .csv, .ndjson or .arrow")).transpose()?;
+        let files = MapFiles::new(&self.machine, self.output.as_deref(), self.cells.as_deref())?;
         let question =
             ErrorMapQuestion::new(&self.body()?, &MachineRegistry::default()).map_err(with_flags)?;
         let progress = TerminalProgress::new();
         let map = compute_error_map(&question, &progress).map_err(with_flags)?;
         drop(progress);
-        if let (Some(path), Some(format)) = (output, mesh_format) {
-            write_surface(&question, &map, self.error, format, path)?;
-        }
-        if let (Some(path), Some(format)) = (cells, cells_format) {
-            write_cells(QuestionKind::ErrorMap, &map.cells, format, path)?;
-        }
+        let description = MeshDescription::of_errors(&question, self.error);
+        files.write_mesh(&description, &map.meshes[self.error as usize])?;
+        files.write_cells(QuestionKind::ErrorMap, &map.cells)?;
         let summary: Value = parse_body(&map.summary).map_err(with_flags)?;
         self.format.write(&summary, error_budgets::map, out, terminal)
     }
@@ -116,16 +105,4 @@ impl ErrorMapCommand {
             tolerance: self.tolerance,
         })
     }
-}
-
-fn write_surface(
-    question: &ErrorMapQuestion,
-    map: &ErrorMap,
-    error: ErrorName,
-    format: MeshFormat,
-    path: &Path,
-) -> Result<(), String> {
-    let mesh = &map.meshes[error as usize];
-    let file = write_mesh(&MeshDescription::of_errors(question, error), mesh, format).map_err(with_flags)?;
-    std::fs::write(path, file).map_err(|error| format!("{}: {error}", path.display()))
 }

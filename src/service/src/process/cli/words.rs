@@ -1,6 +1,8 @@
 //! Answers as tables and words for a terminal. `page` and `table` lay them out; the others read the JSON that the HTTP
 //! service answers.
 
+pub(crate) mod atlases;
+pub(crate) mod calibration;
 pub(crate) mod error_budgets;
 pub(crate) mod jobs;
 pub(crate) mod machines;

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::constraining::constraining_places;
+use super::cut_windings::Windings;
 use super::membership::Membership;
 use crate::machine::Machine;
 use crate::pose::Point;
@@ -10,7 +11,7 @@ use crate::toolpath::PlanError;
 use crate::toolpath::placement::interior_set_ups;
 use crate::toolpath::planned_places::PlannedPlaces;
 use crate::toolpath::set_up::SetUp;
-use crate::workspace::dexterity::{Grid, MOST_NODES};
+use crate::workspace::dexterity::Grid;
 use crate::workspace::observer::check_cancelled;
 use crate::workspace::{Observer, WorkspaceError};
 
@@ -38,7 +39,7 @@ pub struct OriginExtent {
 pub(super) fn extent(
     machine: &Machine,
     places: &PlannedPlaces,
-    admitted: &[[bool; 2]],
+    windings: &[Windings],
     observer: &dyn Observer,
 ) -> Result<OriginExtent, WorkspaceError> {
     let bounds = reach(machine, places);
@@ -48,8 +49,8 @@ pub(super) fn extent(
     })?;
     let interior: Vec<(Point, bool)> =
         interior.iter().map(|found| (found.set_up.origin, found.other)).collect();
-    let set = constraining_places(machine, places, admitted, &interior, observer)?;
-    let membership = Membership::new(machine, places, &set, admitted);
+    let set = constraining_places(machine, places, windings, &interior, observer)?;
+    let membership = Membership::new(machine, places, &set, windings);
     let mut around: Option<[Point; 2]> = None;
     for (origin, _) in interior {
         if !membership.contains(origin, &mut 0) {
@@ -134,20 +135,8 @@ fn reach(machine: &Machine, places: &PlannedPlaces) -> [[f64; 2]; SetUp::PARAMET
 /// A grid over the box with at least one layer beyond it.
 pub(super) fn grid(bounds: Option<[Point; 2]>, step: f64) -> Result<Grid, WorkspaceError> {
     let Some([low, high]) = bounds else {
-        return Ok(Grid { origin: [0.0; 3], step, counts: [0; 3], turn: 0.0 });
+        return Ok(Grid::empty(step, 0.0));
     };
     let room = [0, 1, 2].map(|axis| ROOM * (high[axis] - low[axis]));
-    let first = [0, 1, 2].map(|axis| ((low[axis] - room[axis]) / step).floor() - 1.0);
-    let last = [0, 1, 2].map(|axis| ((high[axis] + room[axis]) / step).ceil() + 1.0);
-    let counts = [0, 1, 2].map(|axis| last[axis] - first[axis] + 1.0);
-    let nodes = counts[0] * counts[1] * counts[2];
-    if nodes > MOST_NODES {
-        return Err(WorkspaceError::TooManyNodes { nodes });
-    }
-    Ok(Grid { origin: first.map(|n| n * step), step, counts: counts.map(whole), turn: 0.0 })
-}
-
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 2^32, and positive")]
-fn whole(count: f64) -> u32 {
-    count as u32
+    Grid::over([low, high], room, step, 0.0)
 }

@@ -1,6 +1,7 @@
 //! The grid of nodes over the reachable set.
 
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
 
 use super::monotone_piece::MonotonePiece;
 use super::request::{DexterityRequest, MOST_NODES};
@@ -73,9 +74,24 @@ impl Grid {
         let (step, turn) = (request.cell, request.phi2);
         let tool = ToolWorkspace::new(machine, request);
         let Some([low, high]) = extent(&tool, request.phi1, observer)? else {
-            return Ok(Self { origin: [0.0; 3], step, counts: [0; 3], turn });
+            return Ok(Self::empty(step, turn));
         };
         let room = [0, 1, 2].map(|axis| ROOM * (high[axis] - low[axis]));
+        Self::over([low, high], room, step, turn)
+    }
+
+    /// A grid without nodes.
+    pub(crate) fn empty(step: f64, turn: f64) -> Self {
+        Self { origin: [0.0; 3], step, counts: [0; 3], turn }
+    }
+
+    /// Places a grid over a box and over the room on each side of it, with at least one layer of nodes beyond.
+    pub(crate) fn over(
+        [low, high]: [Point; 2],
+        room: Point,
+        step: f64,
+        turn: f64,
+    ) -> Result<Self, WorkspaceError> {
         let first = [0, 1, 2].map(|axis| ((low[axis] - room[axis]) / step).floor() - 1.0);
         let last = [0, 1, 2].map(|axis| ((high[axis] + room[axis]) / step).ceil() + 1.0);
         let counts = [0, 1, 2].map(|axis| last[axis] - first[axis] + 1.0);
@@ -98,6 +114,25 @@ impl Grid {
     /// ```
     pub fn nodes(&self) -> usize {
         self.counts.iter().map(|&count| count as usize).product()
+    }
+
+    /// The layers of slab `number` of `count` slabs along the first axis. The slabs cover the grid, and no two share a
+    /// layer.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use verne_solver::workspace::dexterity::Grid;
+    ///
+    /// let grid = Grid { origin: [0.0; 3], step: 10.0, counts: [5, 3, 4], turn: 0.0 };
+    /// assert_eq!([0, 1].map(|number| grid.layers_of_slab(number, 2)), [0..2, 2..5]);
+    /// ```
+    pub fn layers_of_slab(&self, number: u32, count: u32) -> Range<u32> {
+        let first = |number: u32| {
+            let layers = u64::from(self.counts[0]) * u64::from(number) / u64::from(count.max(1));
+            u32::try_from(layers).unwrap_or(u32::MAX)
+        };
+        first(number)..first(number + 1)
     }
 
     /// A node's position in the turned frame.

@@ -2,7 +2,7 @@
 
 use super::request::ErrorMapRequest;
 use crate::machine::Machine;
-use crate::workspace::dexterity::{Grid, MOST_NODES};
+use crate::workspace::dexterity::Grid;
 use crate::workspace::observer::Observer;
 use crate::workspace::request::{Request, WorkspaceError};
 use crate::workspace::surface::surface;
@@ -21,7 +21,8 @@ const FINEST_TOLERANCE: f64 = 0.5;
 ///
 /// - Those of [`surface()`].
 /// - [`WorkspaceError::OutOfDomain`]: the cell is below 0.1 mm.
-/// - [`WorkspaceError::TooManyNodes`]: the grid would have more nodes than [`MOST_NODES`].
+/// - [`WorkspaceError::TooManyNodes`]: the grid would have more nodes than
+///   [`MOST_NODES`](crate::workspace::dexterity::MOST_NODES).
 ///
 /// # Examples
 ///
@@ -47,21 +48,8 @@ pub fn error_grid(
     // A surface within half a cell suffices: at least a whole cell is added on each side.
     let tolerance = request.workspace.tolerance.max(FINEST_TOLERANCE * step);
     let surface = surface(machine, &Request { tolerance, ..request.workspace }, observer)?;
-    let Some([low, high]) = surface.bounds() else {
-        return Ok(Grid { origin: [0.0; 3], step, counts: [0; 3], turn });
-    };
-    let first = [0, 1, 2].map(|axis| ((low[axis] - tolerance) / step).floor() - 1.0);
-    let last = [0, 1, 2].map(|axis| ((high[axis] + tolerance) / step).ceil() + 1.0);
-    let counts = [0, 1, 2].map(|axis| last[axis] - first[axis] + 1.0);
-    let nodes = counts[0] * counts[1] * counts[2];
-    if nodes > MOST_NODES {
-        return Err(WorkspaceError::TooManyNodes { nodes });
+    match surface.bounds() {
+        Some(bounds) => Grid::over(bounds, [tolerance; 3], step, turn),
+        None => Ok(Grid::empty(step, turn)),
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "at most the number of nodes"
-    )]
-    let counts = counts.map(|count| count as u32);
-    Ok(Grid { origin: first.map(|n| n * step), step, counts, turn })
 }
