@@ -92,7 +92,7 @@ pub struct Atlas {
     pub regions: Vec<Region>,
     /// The part of the window with a solution in the working mode, without regard to strokes and joints.
     pub working: Vec<Face>,
-    /// The number of points at which the solver counted the solutions: up to three in each face between the curves.
+    /// The number of points at which the solver counted the solutions: up to 24 in each face between the curves.
     /// They agreed wherever they are farther than the tolerance from all curves.
     pub checked_points: usize,
 }
