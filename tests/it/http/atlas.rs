@@ -146,7 +146,8 @@ async fn formats_are_negotiated_and_have_etags() {
 async fn a_posted_machine_has_the_atlas_of_its_name() {
     let definition = get("/machines/linear-delta").await.json["definition"].clone();
     let body = |machine: Value| json!({"machine": machine, "space": "joints", "tolerance": 10});
-    let [posted, named] = [post("/atlas", body(definition)).await, post("/atlas", body(json!("linear-delta"))).await];
+    let [posted, named] =
+        [post("/atlas", body(definition)).await, post("/atlas", body(json!("linear-delta"))).await];
     assert_eq!(posted.status, 200, "{}", posted.json);
     assert_eq!(posted.json, named.json);
     let asked = get("/atlas?machine=linear-delta&space=joints&tolerance=10").await;
@@ -193,7 +194,11 @@ async fn dxf_has_a_layer_for_each_number_of_solutions() {
         let regions: Vec<_> = atlas["regions"].as_array().unwrap().iter().filter(of_number).collect();
         let layer = format!("SOLUTIONS_{solutions}");
         let outlines: usize = regions.iter().map(|region| 1 + count(&region["holes"])).sum();
-        assert_eq!((kinds("LWPOLYLINE", &layer), kinds("TEXT", &layer)), (outlines, regions.len()), "{layer}");
+        assert_eq!(
+            (kinds("LWPOLYLINE", &layer), kinds("TEXT", &layer)),
+            (outlines, regions.len()),
+            "{layer}"
+        );
     }
     assert_eq!(kinds("LWPOLYLINE", "PARALLEL"), count(&atlas["curves"]));
     assert_eq!(kinds("POINT", "POINTS"), count(&atlas["points"]));

@@ -30,7 +30,9 @@ fn formats(path: &str) -> Vec<NameAndMedia> {
         "/workspace/{id}/slice" | "/toolpath/{id}/slice" => {
             SliceFormat::ALL.map(|format| (format.name(), format.media()[0])).into()
         }
-        "/atlas" => [SliceFormat::Svg, SliceFormat::Dxf].map(|format| (format.name(), format.media()[0])).into(),
+        "/atlas" => {
+            [SliceFormat::Svg, SliceFormat::Dxf].map(|format| (format.name(), format.media()[0])).into()
+        }
         "/toolpath/{id}/rows" | "/workspace/{id}/cells" => {
             RowFormat::ALL.map(|format| (format.name(), format.media())).into()
         }

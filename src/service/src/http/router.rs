@@ -18,8 +18,8 @@ use utoipa_axum::routes;
 use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
 use crate::http::format_paths;
 use crate::http::handlers::{
-    atlas, batch, dexterity, error_budget, jobs, joint_program, kinematics, machines, origins, placement, programs,
-    results, service, toolpath, toolpath_rows, window, workspace,
+    atlas, batch, dexterity, error_budget, jobs, joint_program, kinematics, machines, origins, placement,
+    programs, results, service, toolpath, toolpath_rows, window, workspace,
 };
 use crate::http::openapi::{self, Document, problem_responses, security};
 use crate::http::state::SharedState;

@@ -97,7 +97,8 @@ fn side(
 /// Maps an error of the solver to the field that caused it.
 fn atlas_error(error: AtlasError, machine: &Machine) -> OperationError {
     let text = error.to_string();
-    let fault = |pointer: &str, detail: String| OperationError::Fields(vec![FieldError::new(pointer, detail)]);
+    let fault =
+        |pointer: &str, detail: String| OperationError::Fields(vec![FieldError::new(pointer, detail)]);
     match error {
         AtlasError::OutOfDomain { field: "tolerance" } => fault("/tolerance", text),
         AtlasError::OutOfDomain { field } => fault(&format!("/{field}_max"), text),

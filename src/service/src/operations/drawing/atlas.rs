@@ -80,12 +80,8 @@ pub(crate) fn svg(atlas: &AtlasObject, title: &str) -> String {
         SpaceName::Platform => "base frame, y up: seen from below, as z points down",
         SpaceName::Joints => "u = rho2 - rho1, v = rho3 - rho1",
     };
-    let figures = format!(
-        "tolerance {} mm; {} regions; {}",
-        atlas.tolerance,
-        atlas.regions.len(),
-        atlas.machine.hash
-    );
+    let figures =
+        format!("tolerance {} mm; {} regions; {}", atlas.tolerance, atlas.regions.len(), atlas.machine.hash);
     page.write(&Heading { title, seen, figures: &figures, axes: atlas.coordinates }, &contents)
 }
 
@@ -230,8 +226,11 @@ fn legend(svg: &mut String, atlas: &AtlasObject, page: &Page) {
 
 fn stroke(style: &CurveStyle, page: &Page) -> String {
     let dashes: Vec<String> = style.dashes.iter().map(|part| format!("{:.4}", part * page.size)).collect();
-    let dashes =
-        if dashes.is_empty() { String::new() } else { format!(r#" stroke-dasharray="{}""#, dashes.join(" ")) };
+    let dashes = if dashes.is_empty() {
+        String::new()
+    } else {
+        format!(r#" stroke-dasharray="{}""#, dashes.join(" "))
+    };
     format!(r#"stroke="{}"{dashes}"#, style.colour)
 }
 

@@ -172,7 +172,8 @@ fn header(file: &mut Dxf, extent: Option<Extent>, z: f64) {
 /// The first view shows the extent. Beside the layers of the drawing there is layer 0.
 fn tables_and_blocks(Extent { min, max }: Extent, layers: usize, table: &str) -> String {
     let [width, height] = [max[0] - min[0], max[1] - min[1]].map(|side| VIEW * side.max(1e-3));
-    let text = TABLES_AND_BLOCKS.replace("{layer_count}", &(layers + 1).to_string()).replace("{layers}", table);
+    let text =
+        TABLES_AND_BLOCKS.replace("{layer_count}", &(layers + 1).to_string()).replace("{layers}", table);
     [
         ("{centre_x}", f64::midpoint(min[0], max[0])),
         ("{centre_y}", f64::midpoint(min[1], max[1])),

@@ -4,14 +4,13 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use clap::ValueEnum;
 use verne_mesh::Mesh;
 
 use crate::operations::map_table::MapTable;
 use crate::operations::mesh_files::{MeshDescription, write_mesh};
 use crate::operations::question_text::QuestionKind;
 use crate::process::cli::answer::with_flags;
-use crate::process::cli::files::refuse_equal_files;
+use crate::process::cli::files::{refuse_equal_files, with_format};
 use crate::wire::format::MeshFormat;
 use crate::wire::row_format::RowFormat;
 
@@ -46,13 +45,6 @@ impl<'a> MapFiles<'a> {
     pub(crate) fn write_cells(&self, kind: QuestionKind, cells: &[u8]) -> Result<(), String> {
         self.cells.map_or(Ok(()), |(path, format)| write_cells(kind, cells, format, path))
     }
-}
-
-/// A path with the format that its extension names.
-fn with_format<'a, F: ValueEnum>(flag: &str, path: &'a Path, known: &str) -> Result<(&'a Path, F), String> {
-    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    let format = F::from_str(extension, true);
-    format.map(|format| (path, format)).map_err(|_| format!("{flag} {} must end in {known}", path.display()))
 }
 
 /// Writes the points of a map of this kind, which are JSON, to a file in a format.

@@ -21,7 +21,8 @@ struct Share {
 pub(crate) fn atlas(answer: &Value) -> Page {
     let number = |pointer: &str| number_at(answer, pointer).unwrap_or_default();
     let name = |axis: usize| text_at(answer, &format!("/coordinates/{axis}"));
-    let range = |side: &str| format!("{} to {} mm", number(&format!("{side}/0")), number(&format!("{side}/1")));
+    let range =
+        |side: &str| format!("{} to {} mm", number(&format!("{side}/0")), number(&format!("{side}/1")));
     let counted_solutions = match text_at(answer, "/space") {
         "joints" => "forward solutions",
         _ => "inverse solutions",
