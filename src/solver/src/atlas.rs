@@ -1,12 +1,14 @@
-//! The atlas of the parallel module: the plane of the platform and that of the sliders, divided by the number of solutions.
+//! The atlas of the parallel module: the plane of the platform and that of the sliders, divided by the number of
+//! solutions.
 //!
-//! [`atlas()`] computes the curves on which solutions merge, the regions between them, and the working mode's domain. An
-//! [`Observer`](crate::workspace::Observer) can stop it.
+//! [`atlas()`] computes the curves on which solutions merge, the regions between them, and the working mode's
+//! domain. An [`Observer`](crate::workspace::Observer) can stop it.
 //!
 #![doc = include_str!("atlas/derivation.md")]
 
 mod answer;
 mod arc;
+mod arc_node;
 mod arrangement;
 mod chart;
 mod clip;
@@ -22,9 +24,11 @@ mod interior;
 mod leg_one;
 mod path;
 mod place;
+mod rectangle;
 mod regions;
 mod request;
 mod scalar;
+mod search;
 mod segment_grid;
 mod target;
 mod trace;

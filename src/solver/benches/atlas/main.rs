@@ -34,7 +34,9 @@ const MACHINES: usize = 10;
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let part = if arguments.iter().any(|argument| argument == "--bench") { 1 } else { 100 };
-    println!("| machine | space | ms | curves | regions | compared | disagree | areas, greatest difference |");
+    println!(
+        "| machine | space | ms | curves | regions | compared | disagree | areas, greatest difference |"
+    );
     println!("|---|---|---:|---:|---:|---:|---:|---:|");
     let machines = if arguments.iter().any(|argument| argument == "near") { near() } else { usual(part) };
     for (name, machine) in machines {
@@ -53,7 +55,8 @@ fn usual(part: usize) -> Vec<(String, Machine)> {
         ("verne, e1 = e2".into(), equal),
     ];
     let random = (0..MACHINES.div_ceil(part)).map(|i| {
-        let machine = if i % 2 == 0 { draw.machine() } else { spread(&mut draw).unwrap_or_else(Machine::verne) };
+        let machine =
+            if i % 2 == 0 { draw.machine() } else { spread(&mut draw).unwrap_or_else(Machine::verne) };
         (format!("random {}", i + 1), machine)
     });
     built_in.into_iter().chain(random).collect()
@@ -83,7 +86,8 @@ fn line(name: &str, machine: &Machine, space: Space, part: usize) {
         Err(error) => println!("| {name} | {space:?} | {ms:.0} | {error} |"),
         Ok(found) => {
             // The forward solution near the special machines takes some hundred times as long.
-            let (points, lattice) = if name.contains(" = ") { (POINTS / 10, LATTICE / 20) } else { (POINTS, LATTICE) };
+            let (points, lattice) =
+                if name.contains(" = ") { (POINTS / 10, LATTICE / 20) } else { (POINTS, LATTICE) };
             let compared = compare_numbers(machine, &request, &found, points / part);
             let lattice = lattice / u32::try_from(part.isqrt()).unwrap();
             let (expected, areas) = (lattice_areas(machine, &request, lattice), region_areas(&found));

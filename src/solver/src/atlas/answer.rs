@@ -52,8 +52,8 @@ pub struct SpecialPoint {
     pub at: [f64; 2],
 }
 
-/// A polygon with holes. The last corner of a ring joins the first. Its corners are on the true curves, its sides within
-/// the tolerance of them.
+/// A polygon with holes. The last corner of a ring joins the first. Its corners are on the true curves, its sides
+/// within the tolerance of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Face {
     /// Counter-clockwise.
@@ -69,8 +69,8 @@ pub struct Face {
     pub area_error: f64,
 }
 
-/// A region in which the number of solutions is constant. Faces that meet along a curve on both sides of which the number
-/// is the same are one region.
+/// A region in which the number of solutions is constant. Faces that meet along a curve on both sides of which the
+/// number is the same are one region.
 ///
 /// A strip between curves that is narrower than a fiftieth of the tolerance has the number of its neighbour.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! The faces between segments of a plane, with exact arithmetic on a grid of integers.
 //!
-//! Segments are cut where they meet; each new end is rounded to the grid, so that cuts may make new meetings. They are
-//! cut again until there is none. All decisions about sides and order are exact, and the faces are those of a planar
-//! graph whatever the rounding did.
+//! Segments are cut where they meet; each new end is rounded to the grid, so that cuts may make new meetings. They
+//! are cut again until there is none. All decisions about sides and order are exact, and the faces are those of a
+//! planar graph whatever the rounding did.
 
 mod faces;
 mod split;

@@ -1,9 +1,9 @@
 //! Two coordinates t and θ of the configurations of leg I, for the search over boxes.
 //!
-//! X1 = r sin θ and m = r cos θ with r² = L1² - ℓ², and φ is a function of t: φ = π/2 + δ sinh t with δ² = 1 - (r1/R1)²,
-//! because the angles of leg I bend within δ of π/2; or a function with a stationary end where leg I does not reach all
-//! φ. On the level branch y takes the place of m, and w1 = L1 cos t, r = L1 sin t: there t = 0 is a place that no curve
-//! meets but by chance.
+//! X1 = r sin θ and m = r cos θ with r² = L1² - ℓ², and φ is a function of t: φ = π/2 + δ sinh t with δ² = 1 -
+//! (r1/R1)², because the angles of leg I bend within δ of π/2; or a function with a stationary end where leg I does
+//! not reach all φ. On the level branch y takes the place of m, and w1 = L1 cos t, r = L1 sin t: there t = 0 is a
+//! place that no curve meets but by chance.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

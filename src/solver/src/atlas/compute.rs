@@ -2,9 +2,9 @@
 
 use super::answer::{Atlas, Curve, PointKind, Region, SpecialPoint};
 use super::arc::Arc;
-use super::clip::Rectangle;
 use super::crossings::{insert_crossings, insert_ends};
 use super::leg_one::Shape;
+use super::rectangle::Rectangle;
 use super::regions::{Count, Grid, counted, polygon};
 use super::request::{AtlasError, AtlasRequest, Space, SpecialMachine};
 use super::trace::{Traced, traced};
@@ -20,7 +20,8 @@ use crate::workspace::Observer;
 ///
 /// # Units
 ///
-/// Millimetres. The frame of `Space::Platform` is the base frame; `Space::Joints` has differences of slider positions.
+/// Millimetres. The frame of `Space::Platform` is the base frame; `Space::Joints` has differences of slider
+/// positions.
 ///
 /// # Errors
 ///
@@ -61,11 +62,7 @@ pub fn atlas(
     })
 }
 
-fn computed(
-    machine: &Machine,
-    request: &AtlasRequest,
-    observer: &dyn Observer,
-) -> Result<Atlas, AtlasError> {
+fn computed(machine: &Machine, request: &AtlasRequest, observer: &dyn Observer) -> Result<Atlas, AtlasError> {
     let unit = machine.longest();
     let shapes: Vec<Shape> =
         Shape::branches(machine).iter().map(|branch| Shape::new(machine, *branch)).collect();

@@ -186,8 +186,8 @@ impl System<'_> {
         (points, End::Open)
     }
 
-    /// The next point. The tangent has the same sense all along a curve, but the opposite one on the curve beside it. So
-    /// a step that leads to another curve is refused, unless it is so short that the two cross within it.
+    /// The next point. The tangent has the same sense all along a curve, but the opposite one on the curve beside
+    /// it. So a step that leads to another curve is refused, unless it is so short that the two cross within it.
     fn step(&self, from: &Walker) -> Option<Walker> {
         let mut length = from.length;
         let along = from.tangent.map(|component| component * from.sense);
@@ -263,8 +263,8 @@ impl System<'_> {
         }
     }
 
-    /// The configurations that are the same point: the crossed branch has two coordinates for one, and in the plane of the
-    /// platform mirror images are the same.
+    /// The configurations that are the same point: the crossed branch has two coordinates for one, and in the plane
+    /// of the platform mirror images are the same.
     fn images(&self, q: &Configuration) -> Vec<Configuration> {
         let mut images = vec![*q];
         if self.shape.branch == Branch::Crossed {

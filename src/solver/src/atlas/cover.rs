@@ -1,6 +1,6 @@
 //! Boxes that cover all configurations near a curve, and points on all of its components.
 //!
-//! A box is a range of two coordinates t and θ (see [`Chart`]), and a side of each of legs II and III:
+//! A box is a range of two coordinates t and θ (see [`super::chart`]), and a side of each of legs II and III:
 //! above, below, or both where the leg may be level in the box. It is dropped if an equation has no zero in it. It is
 //! halved until one component of the curve's tangent has the same sign all over it. Then no closed curve lies inside
 //! it, so each component of the curve crosses edges of boxes, where [`super::edges`] finds it. Boxes whose image is
@@ -8,11 +8,11 @@
 
 use std::f64::consts::PI;
 
-use super::chart::Chart;
 use super::enclosure::Enclosure;
 use super::place::Configuration;
 use super::request::AtlasError;
-use super::target::{System, Target};
+use super::search::{Cell, Found, LegSide, MOST, Search};
+use super::target::Target;
 use crate::interval::Interval;
 use crate::workspace::Observer;
 
@@ -20,47 +20,8 @@ use crate::workspace::Observer;
 const START: [u32; 2] = [4, 8];
 /// By how much edges are off the planes of symmetry, on which whole curves may lie.
 const SHIFT: f64 = 0.0618;
-/// Most boxes, and most parts of edges, that are examined.
-pub(super) const MOST: usize = 400_000;
 /// Boxes between two questions to the observer.
 const ASK: usize = 1024;
-
-/// The side of leg II or III in a box.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum LegSide {
-    Above,
-    Below,
-    /// Either: the leg may be level.
-    Either,
-    /// Exactly level, as a target wants it.
-    Level,
-}
-
-/// A range of t and θ (see [`Chart`]), with a side of legs II and III.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cell {
-    pub(super) ranges: [Interval; 2],
-    pub(super) sides: [LegSide; 2],
-}
-
-/// What a search has found on edges, and how many parts of them it has examined.
-#[derive(Default)]
-pub(super) struct Found {
-    pub(super) points: Vec<Configuration>,
-    pub(super) examined: usize,
-}
-
-/// What a search covers.
-pub(super) struct Search<'a> {
-    pub(super) system: System<'a>,
-    pub(super) chart: Chart,
-    /// The part of the plane.
-    pub(super) window: [Interval; 2],
-    /// Boxes with a smaller image are not halved.
-    pub(super) tolerance: f64,
-    /// Whether only the sides above count, for legs II and III.
-    pub(super) above_only: [bool; 2],
-}
 
 impl Search<'_> {
     /// Points of the curve, at least one on each component whose image in the window is larger than the tolerance.
@@ -123,7 +84,7 @@ impl Search<'_> {
                 return [Some(with(LegSide::Above)), below];
             }
         }
-        let axis = enclosure.axis(cell);
+        let axis = enclosure.axis();
         cell.halved(axis).map(Some)
     }
 
@@ -134,15 +95,5 @@ impl Search<'_> {
             edge.ranges[axis] = Interval::of(cell.ranges[axis].high);
             self.edge(&edge, axis, 0, found);
         }
-    }
-}
-
-impl Cell {
-    pub(super) fn halved(&self, axis: usize) -> [Self; 2] {
-        let middle = self.ranges[axis].middle();
-        let [mut below, mut above] = [*self, *self];
-        below.ranges[axis].high = middle;
-        above.ranges[axis].low = middle;
-        [below, above]
     }
 }

@@ -1,7 +1,8 @@
 //! The points at which arcs cross, on the true curves.
 
 use super::answer::PointKind;
-use super::arc::{Arc, ArcNode, distance_to_segment};
+use super::arc::Arc;
+use super::arc_node::{ArcNode, distance_to_segment};
 use super::segment_grid::SegmentGrid;
 use crate::workspace::zero;
 

@@ -1,6 +1,6 @@
 //! The cubic between two nodes of an arc, with the tangents of the curve at both.
 
-use super::arc::ArcNode;
+use super::arc_node::ArcNode;
 
 /// c(t) for t from 0 to 1: a Hermite cubic, in power form.
 #[derive(Clone, Copy, Debug)]

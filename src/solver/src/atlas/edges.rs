@@ -2,9 +2,9 @@
 
 use super::chart::Chart;
 use super::continuation::norm;
-use super::cover::{Cell, Found, LegSide, MOST, Search};
 use super::enclosure::Enclosure;
 use super::place::Configuration;
+use super::search::{Cell, Found, LegSide, MOST, Search};
 use crate::interval::Interval;
 use crate::workspace::zero;
 
@@ -14,8 +14,8 @@ const DEEPEST: u32 = 24;
 const STEPS: usize = 20;
 
 impl Search<'_> {
-    /// Adds the points of the curve on an edge, on which the coordinate `axis` is constant. A point at the end of a part
-    /// of the edge may be added twice.
+    /// Adds the points of the curve on an edge, on which the coordinate `axis` is constant. A point at the end of a
+    /// part of the edge may be added twice.
     pub(super) fn edge(&self, edge: &Cell, axis: usize, depth: u32, found: &mut Found) {
         found.examined += 1;
         if found.examined > MOST {

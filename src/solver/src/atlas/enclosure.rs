@@ -1,7 +1,7 @@
 //! The ranges of a curve's equations over a box.
 
-use super::cover::{Cell, LegSide, Search};
 use super::place::Place;
+use super::search::{Cell, LegSide, Search};
 use crate::interval::Interval;
 use crate::jet::Jet;
 
@@ -113,18 +113,8 @@ impl Enclosure {
     }
 
     /// The axis along which the equations change more.
-    pub(super) fn axis(&self, _cell: &Cell) -> usize {
+    pub(super) fn axis(&self) -> usize {
         usize::from(self.changes[1] > self.changes[0])
-    }
-}
-
-impl LegSide {
-    pub(super) fn sign(self) -> f64 {
-        match self {
-            Self::Above => 1.0,
-            Self::Below => -1.0,
-            Self::Either | Self::Level => 0.0,
-        }
     }
 }
 
@@ -156,8 +146,8 @@ fn smooth(heights: &[Jet; 2], sides: [LegSide; 2]) -> bool {
     })
 }
 
-/// The tangent's components. In the space of t, θ, w2 and w3 the tangent is perpendicular to the gradients of D, of h2 -
-/// w2² and of h3 - w3², where D is the target.
+/// The tangent's components. In the space of t, θ, w2 and w3 the tangent is perpendicular to the gradients of D, of
+/// h2 - w2² and of h3 - w3², where D is the target.
 fn tangent(
     coefficients: &[Jet; 4],
     value: &Jet,

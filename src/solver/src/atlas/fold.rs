@@ -1,8 +1,8 @@
 //! Leg I's fold, the curve on which two of its angles merge, in closed form.
 //!
-//! At constant X1 the platform's y = m sin φ is stationary along leg I's motion where
-//! m² R1 cos ψ cos φ = r1 ℓ² sin² φ. With X1² = L1² - ℓ² - m² the curve is a function of φ, up to the signs of X1 and m.
-//! For R1 = r1 it is the circle w1 = 0, X1² + y² = L1². The parameter is the angle of (|X1|, |m|), from 0 to π/2.
+//! At constant X1 the platform's y = m sin φ is stationary along leg I's motion where m² R1 cos ψ cos φ = r1 ℓ²
+//! sin² φ. With X1² = L1² - ℓ² - m² the curve is a function of φ, up to the signs of X1 and m. For R1 = r1 it is
+//! the circle w1 = 0, X1² + y² = L1². The parameter is the angle of (|X1|, |m|), from 0 to π/2.
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,6 +1,6 @@
 //! Points in the interior of a face, far from its sides.
 
-use super::arc::distance_to_segment;
+use super::arc_node::distance_to_segment;
 use super::arrangement::Faces;
 
 /// A point in the interior, in grid steps from the window's corner.

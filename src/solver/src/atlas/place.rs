@@ -1,8 +1,8 @@
 //! A configuration of the parallel module, which is a posture up to a common shift along z, and what follows from it.
 //!
-//! Its coordinates are X1, m, φ (see [`super::leg_one`]) and the heights w2 and w3 of legs II and III, in units of the
-//! longest dimension; on the level branch X1, y, w1, w2 and w3. Three equations hold: leg I closes, and both heights fit
-//! the lengths of their legs.
+//! Its coordinates are X1, m, φ (see [`super::leg_one`]) and the heights w2 and w3 of legs II and III, in units of
+//! the longest dimension; on the level branch X1, y, w1, w2 and w3. Three equations hold: leg I closes, and both
+//! heights fit the lengths of their legs.
 
 use super::leg_one::{Branch, LegOneAngles, Shape};
 use super::request::Space;
@@ -88,10 +88,12 @@ impl<'a, T: Scalar> Place<'a, T> {
         (self.x1.square() + across).plus(-self.shape.squares[0])
     }
 
-    /// Zero where two angles of leg I merge: the platform's y is stationary along leg I's motion at constant X1. On the
-    /// branches of R1 = r1 that is where they meet.
+    /// Zero where two angles of leg I merge: the platform's y is stationary along leg I's motion at constant X1. On
+    /// the branches of R1 = r1 that is where they meet.
     pub(super) fn leg_one_fold(&self) -> T {
-        let Some((LegOneAngles { cos_phi, sin_phi, arm, cos_psi, .. }, m)) = self.angles else { return self.w1 };
+        let Some((LegOneAngles { cos_phi, sin_phi, arm, cos_psi, .. }, m)) = self.angles else {
+            return self.w1;
+        };
         if self.shape.branch == Branch::Crossed {
             return cos_phi;
         }
@@ -99,8 +101,8 @@ impl<'a, T: Scalar> Place<'a, T> {
             - (arm.square() * sin_phi.square()).times(self.shape.r1)
     }
 
-    /// The coordinates in the plane of an atlas, in units of the longest dimension, without the heights of legs II and
-    /// III; the second number is the factor of these.
+    /// The coordinates in the plane of an atlas, in units of the longest dimension, without the heights of legs II
+    /// and III; the second number is the factor of these.
     pub(super) fn image(&self, space: Space) -> ([T; 2], f64) {
         match space {
             Space::Platform => ([self.x1.plus(-self.shape.e1), self.y], 0.0),
@@ -108,9 +110,9 @@ impl<'a, T: Scalar> Place<'a, T> {
         }
     }
 
-    /// The second to fourth numbers of half the difference of leg I's rows in the parallel matrix; and y times the third
-    /// less w1 times the second. The factor cos ψ, which is positive, is left out; for R1 = r1 it vanishes where the two
-    /// branches meet. On the level branch the factor m is left out besides: w1 = m cos ψ there.
+    /// The second to fourth numbers of half the difference of leg I's rows in the parallel matrix; and y times the
+    /// third less w1 times the second. The factor cos ψ, which is positive, is left out; for R1 = r1 it vanishes
+    /// where the two branches meet. On the level branch the factor m is left out besides: w1 = m cos ψ there.
     fn difference(&self) -> ([T; 3], T) {
         let (zero, r1) = (T::constant(0.0), self.shape.R1);
         let Some((LegOneAngles { cos_phi, sin_phi, scaled_arm, .. }, m)) = self.angles else {

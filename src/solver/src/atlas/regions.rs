@@ -3,9 +3,9 @@
 use super::answer::Face;
 use super::arc::Arc;
 use super::arrangement::{Edge, Faces, GridPoint, Origin, Ring, STEPS, split_at_meetings};
-use super::clip::Rectangle;
 use super::cubic::Cubic;
 use super::interior::{Interior, interior};
+use super::rectangle::Rectangle;
 use super::request::AtlasError;
 use crate::workspace::Observer;
 
@@ -90,7 +90,8 @@ fn edges(arcs: &[Arc<'_>], grid: &Grid) -> Vec<Edge> {
     edges
 }
 
-/// Divides the window along all arcs and counts the solutions in each face. `count` is `None` where there is no number.
+/// Divides the window along all arcs and counts the solutions in each face. `count` is `None` where there is no
+/// number.
 pub(super) fn counted(
     arcs: &[Arc<'_>],
     grid: &Grid,

@@ -205,7 +205,9 @@ impl fmt::Display for AtlasError {
         match self {
             Self::OutOfDomain { field } => write!(f, "{field} is out of range"),
             Self::Cancelled => write!(f, "cancelled"),
-            Self::TooFine { near } => write!(f, "the curves need more points than the limit{}", because(*near)),
+            Self::TooFine { near } => {
+                write!(f, "the curves need more points than the limit{}", because(*near))
+            }
             Self::Disagreement { near } => {
                 write!(f, "the numbers of solutions do not agree with the curves{}", because(*near))
             }

@@ -1,22 +1,27 @@
 //! All arcs of an atlas.
 
 use super::answer::{CurveKind, PointKind};
-use super::arc::{Arc, ArcNode, Fineness};
+use super::arc::{Arc, Fineness};
+use super::arc_node::ArcNode;
 use super::chart::Chart;
-use super::clip::Rectangle;
 use super::continuation::End;
-use super::cover::Search;
 use super::fold::Fold;
 use super::leg_one::{Branch, Shape};
 use super::path::Path;
 use super::place::Configuration;
+use super::rectangle::Rectangle;
 use super::request::{AtlasError, Space};
+use super::search::Search;
 use super::target::{Bound, Bounds, System, Target};
 use crate::interval::Interval;
 use crate::workspace::Observer;
 
 /// The part of the window's side by which boxes are searched beyond it, and by which curves are followed.
 const BEYOND: [f64; 2] = [0.5, 1.5];
+
+/// Most points on edges from which a family of curves is followed, and most points of its components.
+const MOST_STARTS: usize = 20_000;
+const MOST_POINTS: usize = 100_000;
 
 /// One family of curves: which function, what it is called, which part of it matters.
 struct Curves {
@@ -166,7 +171,14 @@ fn components(
         }
     }
     let mut chains: Vec<Chain> = Vec::new();
-    for start in starts {
+    let mut points = 0;
+    for (number, start) in starts.into_iter().enumerate() {
+        if number > MOST_STARTS || points > MOST_POINTS {
+            return Err(AtlasError::TooFine { near: None });
+        }
+        if observer.cancelled() {
+            return Err(AtlasError::Cancelled);
+        }
         if system.reserve(&start) < 0.0 || !beyond[1].contains(system.image(&start)) {
             continue;
         }
@@ -174,7 +186,9 @@ fn components(
             .iter()
             .any(|(chain, _, _)| chain.windows(2).any(|pair| system.contains([&pair[0], &pair[1]], &start)));
         if !is_known {
-            chains.push(component(system, &start, &beyond[1]));
+            let chain = component(system, &start, &beyond[1]);
+            points += chain.0.len();
+            chains.push(chain);
         }
     }
     Ok(chains)

@@ -37,17 +37,15 @@ fn areas_are_those_of_a_lattice() {
         (Machine::verne(), Space::Joints, Some(wide)),
         (Machine::linear_delta(), Space::Platform, None),
     ] {
-        {
-            let request = AtlasRequest::new(&machine, space, window);
-            let found = atlas(&machine, &request, &Unobserved).unwrap();
-            let (expected, areas) = (lattice_areas(&machine, &request, POINTS), region_areas(&found));
-            let Window { u, v } = request.window;
-            let whole = (u[1] - u[0]) * (v[1] - v[0]);
-            for number in 0..expected.len() {
-                // A lattice of n² points is off by about n^-1.5.
-                let off = (areas[number] - expected[number]).abs() / whole;
-                assert!(off < 3e-4, "{space:?}, {number} solutions: {off}");
-            }
+        let request = AtlasRequest::new(&machine, space, window);
+        let found = atlas(&machine, &request, &Unobserved).unwrap();
+        let (expected, areas) = (lattice_areas(&machine, &request, POINTS), region_areas(&found));
+        let Window { u, v } = request.window;
+        let whole = (u[1] - u[0]) * (v[1] - v[0]);
+        for number in 0..expected.len() {
+            // A lattice of n² points is off by about n^-1.5.
+            let off = (areas[number] - expected[number]).abs() / whole;
+            assert!(off < 3e-4, "{space:?}, {number} solutions: {off}");
         }
     }
 }
@@ -59,8 +57,7 @@ fn area_errors_hold_against_a_finer_tolerance() {
         let request = AtlasRequest::new(&machine, space, None);
         let fine = AtlasRequest { tolerance: 0.05 * request.tolerance, ..request };
         let coarse = AtlasRequest { tolerance: 10.0 * request.tolerance, ..request };
-        let [fine, coarse] =
-            [fine, coarse].map(|request| atlas(&machine, &request, &Unobserved).unwrap());
+        let [fine, coarse] = [fine, coarse].map(|request| atlas(&machine, &request, &Unobserved).unwrap());
         let (expected, areas) = (region_areas(&fine), region_areas(&coarse));
         for number in 0..expected.len() {
             let regions = coarse.regions.iter().chain(&fine.regions);

@@ -98,7 +98,8 @@ pub(crate) fn compare_working(
 
 fn random_points(window: &Window, count: usize) -> impl Iterator<Item = [f64; 2]> {
     let mut draw = Random::new(0xA71A5);
-    std::iter::repeat_with(move || [window.u, window.v].map(|[low, high]| draw.between(low, high))).take(count)
+    std::iter::repeat_with(move || [window.u, window.v].map(|[low, high]| draw.between(low, high)))
+        .take(count)
 }
 
 /// Whether a point is inside a face, and its distance from the nearest side that is none of the window's.

@@ -83,8 +83,8 @@ fn solutions_merge_on_curves() {
 
 /// The numbers of solutions around a point, one after another.
 fn around(machine: &Machine, space: Space, [u, v]: [f64; 2], radius: f64) -> Vec<usize> {
-    (0..720_u32)
-        .map(|i| (f64::from(i) + 0.5).to_radians() / 2.0)
+    (0..3_600_u32)
+        .map(|i| (f64::from(i) + 0.5).to_radians() / 10.0)
         .filter_map(|angle| solutions(machine, space, [u + radius * angle.cos(), v + radius * angle.sin()]))
         .collect()
 }
@@ -98,10 +98,10 @@ fn a_cusp_ends_a_narrow_tongue_of_two_more_solutions() {
             if point.kind != PointKind::Cusp || !is_apart(&found, &machine, point.at) {
                 continue;
             }
-            let numbers = around(&machine, Space::Joints, point.at, 2e-3 * machine.longest());
+            let numbers = around(&machine, Space::Joints, point.at, 2e-4 * machine.longest());
             let (fewer, more) = (numbers.iter().min().unwrap(), numbers.iter().max().unwrap());
             let tongue = numbers.iter().filter(|number| *number == more).count();
-            assert!(more - fewer == 2 && tongue < numbers.len() / 8, "{name}, {point:?}: {numbers:?}");
+            assert!(more - fewer == 2 && tongue < numbers.len() / 4, "{name}, {point:?}: {tongue}");
             cusps += 1;
         }
     }
@@ -120,7 +120,7 @@ fn numbers_change_four_times_around_a_crossing() {
             let numbers = around(&Machine::verne(), space, point.at, 1e-4);
             let next = numbers.iter().cycle().skip(1);
             let changes = numbers.iter().zip(next).filter(|(a, b)| a != b).count();
-            assert_eq!(changes, 4, "{space:?}, {point:?}: {numbers:?}");
+            assert_eq!(changes, 4, "{space:?}, {point:?}");
             crossings += 1;
         }
     }

@@ -24,10 +24,20 @@ fn machine(from_delta: Option<f64>, from_equal: Option<f64>) -> Machine {
     })
 }
 
-/// Whether the answer agrees with the solver, in a window of 1.6 times the longest dimension to each side; or the error.
-fn check(machine: &Machine, space: Space) -> Result<(), AtlasError> {
-    let range = [-1.6 * machine.longest(), 1.6 * machine.longest()];
-    let request = AtlasRequest::new(machine, space, Some(Window { u: range, v: range }));
+/// Whether the answer agrees with the solver in the default window and, if it is special itself, in a wide one; or the
+/// error.
+fn check(machine: &Machine, space: Space, is_special: bool) -> Result<(), AtlasError> {
+    check_window(machine, &AtlasRequest::new(machine, space, None))?;
+    if is_special {
+        let range = [-1.6 * machine.longest(), 1.6 * machine.longest()];
+        let window = Window { u: range, v: range };
+        check_window(machine, &AtlasRequest::new(machine, space, Some(window)))?;
+    }
+    Ok(())
+}
+
+fn check_window(machine: &Machine, request: &AtlasRequest) -> Result<(), AtlasError> {
+    let (request, space) = (*request, request.space);
     let found = atlas(machine, &request, &Unobserved)?;
     let comparisons = [
         compare_numbers(machine, &request, &found, POINTS),
@@ -44,7 +54,7 @@ fn check(machine: &Machine, space: Space) -> Result<(), AtlasError> {
 fn linear_deltas_have_an_atlas() {
     for machine in [Machine::linear_delta(), machine(Some(0.0), None)] {
         for space in SPACES {
-            assert_eq!(check(&machine, space), Ok(()), "{space:?}");
+            assert_eq!(check(&machine, space, true), Ok(()), "{space:?}");
         }
     }
 }
@@ -53,20 +63,20 @@ fn linear_deltas_have_an_atlas() {
 fn machines_with_equal_offsets_have_an_atlas() {
     for machine in [machine(None, Some(0.0)), machine(Some(0.0), Some(0.0))] {
         for space in SPACES {
-            assert_eq!(check(&machine, space), Ok(()), "{space:?}");
+            assert_eq!(check(&machine, space, true), Ok(()), "{space:?}");
         }
     }
 }
 
 #[test]
 fn machines_near_the_special_ones_are_right_or_refused_by_name() {
-    for difference in [1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 9e-3] {
+    for difference in [1e-9, 1e-6, 1e-3] {
         for (machine, near) in [
             (machine(Some(difference), None), SpecialMachine::LinearDelta),
             (machine(None, Some(difference)), SpecialMachine::EqualOffsets),
         ] {
-            assert_eq!(check(&machine, Space::Platform), Ok(()), "{near:?}, {difference}");
-            match check(&machine, Space::Joints) {
+            assert_eq!(check(&machine, Space::Platform, false), Ok(()), "{near:?}, {difference}");
+            match check(&machine, Space::Joints, false) {
                 Ok(()) => {}
                 Err(AtlasError::TooFine { near: named } | AtlasError::Disagreement { near: named }) => {
                     assert_eq!(named, Some(near), "{difference}");
@@ -80,10 +90,10 @@ fn machines_near_the_special_ones_are_right_or_refused_by_name() {
 #[test]
 fn random_machines_near_the_special_ones_are_right_or_refused_by_name() {
     let mut draw = Random::new(0xED6E);
-    for _ in 0..24 {
+    for _ in 0..8 {
         let Some(machine) = near_the_edge(&mut draw) else { continue };
         for space in SPACES {
-            match check(&machine, space) {
+            match check(&machine, space, false) {
                 Ok(()) => {}
                 Err(error) => {
                     let g = machine.data().geometry;
