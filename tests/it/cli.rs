@@ -1,6 +1,7 @@
 //! The command line, as its users type it.
 
 mod batch;
+mod calibrate;
 mod commands;
 mod terminal;
 

@@ -4,6 +4,7 @@ mod admission;
 mod atlas;
 mod bad_input;
 mod batch;
+mod calibration;
 mod certificates;
 mod client_quotas;
 mod continuous_batch;

@@ -8,6 +8,8 @@ import { retrying, type Send } from "./retry.js";
 import type {
   Atlas,
   AtlasRequest,
+  CalibrationAnswer,
+  CalibrationRequest,
   DexterityBody,
   DexteritySummary,
   ErrorBudgetAnswer,
@@ -137,6 +139,11 @@ export class Verne {
       unwrap(await this.api.POST("/toolpath/origins", { body, ...asked(options) })),
       options,
     );
+  }
+
+  /** The parameters of a machine as measurements determine them. `machine` of the answer is ready for requests. */
+  async calibrate(body: CalibrationRequest): Promise<CalibrationAnswer> {
+    return unwrap(await this.api.POST("/machines/calibration", { body }));
   }
 
   /** A file of a stored result, such as `/workspace/ID/mesh.glb`. If the service evicted it, a job computes it again. */

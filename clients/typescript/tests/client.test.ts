@@ -136,6 +136,30 @@ suite("a client of a service", () => {
     assert.equal(stl.getUint32(80, true), map.triangles);
   });
 
+  test("measurements determine a machine", async () => {
+    const rho = Array.from({ length: 12 }, (_, i): [number, number, number] => [
+      450 + 100 * Math.sin(0.7 * i),
+      450 + 100 * Math.sin(1.3 * i),
+      450 + 100 * Math.cos(2.1 * i),
+    ]);
+    const plan = await verne.calibrate({ rho, kind: "tracker", tool_length: 100 });
+    assert.deepEqual([plan.rank, plan.unknowns, plan.rms], [17, 19, null]);
+    const points: [number, number, number][] = [];
+    for (const joints of rho) {
+      const machine = { ...plan.machine, geometry: { ...plan.machine.geometry, L1: 1050.3 } };
+      const body = { joints: { rho: joints }, tool_length: 100, machine };
+      const [solution] = unwrap(await verne.api.POST("/fk", { body })).solutions;
+      assert.ok(solution);
+      points.push([solution.tool.x, solution.tool.y, solution.tool.z]);
+    }
+    const found = await verne.calibrate({ rho, points, tool_length: 100, sigma: 0.002 });
+    assert.ok(Math.abs(found.machine.geometry.L1 - 1050.3) < 1e-4);
+    const body = { joints: { rho: [500, 480, 520] as [number, number, number] }, machine: found.machine };
+    assert.equal(unwrap(await verne.api.POST("/fk", { body })).machine.hash, found.hash);
+    const unfit = verne.calibrate({ rho, points: rho, tool_length: 100, sigma: 0.002 });
+    await assert.rejects(unfit, { status: 422, code: "no_fit" });
+  });
+
   test("a tool path has a report, rows and a program", async () => {
     const start = { x: 0, y: 0, i: 0, j: 0, k: 1, feed: 800 };
     const end = { x: 80, y: 0, z: 300, i: 0, j: 0.6, k: 0.8, feed: 800 };

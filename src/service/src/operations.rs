@@ -5,6 +5,7 @@
 //! - Kinematics: [`forward`], [`inverse`] and their batches. The solver computes the margins; [`solutions`] puts them
 //!   into answers.
 //! - [`atlas`] is the plane map of their solutions.
+//! - Calibration: [`calibration_request`] and [`calibration_table`] read measurements, [`calibration`] answers.
 //! - Error budgets: [`error_budget`] of poses, [`error_map`] over a workspace.
 //! - Workspaces: [`workspace_question`], [`family_question`] and [`dexterity_question`] check requests; [`workspace`]
 //!   and [`dexterity_map`] compute answers; [`mesh_files`], [`slice`] and [`drawing`] write files.
@@ -22,6 +23,10 @@ pub(crate) mod answer_columns;
 pub(crate) mod atlas;
 pub(crate) mod batch_rows;
 pub(crate) mod blocking_results;
+pub(crate) mod calibration;
+pub(crate) mod calibration_options;
+pub(crate) mod calibration_request;
+pub(crate) mod calibration_table;
 pub(crate) mod column_rows;
 pub(crate) mod compute_pool;
 pub(crate) mod contains;

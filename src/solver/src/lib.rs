@@ -24,6 +24,7 @@ mod random;
 
 pub mod atlas;
 pub mod axis;
+pub mod calibration;
 pub mod certificate;
 mod clearance;
 mod error;

@@ -213,7 +213,8 @@ fn planned(
     };
     let part = |index: usize| fraction(index, motions.count());
     let weights = machine.data().drives.map_or([1.0; 2], |drives| drives.turning_weights());
-    let chooser = Chooser::new(setting, weights, options.start, options.on_limit != OnLimit::Fail);
+    let may_retract = options.on_limit != OnLimit::Fail;
+    let chooser = Chooser::new(setting, weights, options.start, may_retract, options.joint_rapids);
     let choice = chooser.choose(motions, Meridian::new(cap, &stretches, standstill), |index| {
         progress(CHOICE_SHARE * part(index))
     });

@@ -45,7 +45,7 @@ const QUERIES: [(&str, &[&str]); 14] = [
 ];
 
 /// Operations with a body, and a valid body.
-static BODIES: LazyLock<[(&str, Value); 7]> = LazyLock::new(|| {
+static BODIES: LazyLock<[(&str, Value); 9]> = LazyLock::new(|| {
     let near = json!({"rho": [600, 600, 300]});
     [
         (
@@ -83,6 +83,19 @@ static BODIES: LazyLock<[(&str, Value); 7]> = LazyLock::new(|| {
             "/workspace/dexterity",
             json!({"machine": "verne", "tool_length": 50, "phi1": {"from": -20, "to": 20}, "phi2": 0,
             "cell": 400}),
+        ),
+        (
+            "/machines/calibration",
+            json!({"machine": "verne", "kind": "part", "tool_length": 100, "sigma": 0.01, "loss": "huber", "next": 2,
+            "rho": [[500, 500, 500], [450, 480, 520], [560, 400, 470], [380, 500, 420]],
+            "table": [[10, 20], [-20, 90], [5, -60], [0, 180]],
+            "points": [[90, 30, 320], [10, -200, 260], [-30, 80, 350], [60, 40, 400]], "fixed": ["R2", "da"],
+            "priors": {"L1": {"value": 1050.1, "sigma": 0.02}}, "bounds": {"R1": [270, 280]}}),
+        ),
+        (
+            "/machines/calibration",
+            json!({"kind": "distances", "rho": [[500, 500, 500], [450, 480, 520], [560, 400, 470]],
+            "pairs": [[0, 1, 120.5], [1, 2, 80], [2, 0, 95.25]]}),
         ),
     ]
 });

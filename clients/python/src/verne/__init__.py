@@ -4,6 +4,7 @@ Lengths are millimetres and angles degrees.
 """
 
 from verne.answers.atlas import Atlas
+from verne.answers.calibration import Calibration, ParameterEstimate
 from verne.answers.error_budget import ErrorBudget, ErrorBudgetResult, ErrorMapSummary
 from verne.answers.fitting import OriginsSummary, Placement, Window
 from verne.answers.machine import Machine, MachineEntry, MachineId
@@ -52,6 +53,7 @@ __all__ = [
     "AsyncWindowJob",
     "AsyncWorkspaceJob",
     "Atlas",
+    "Calibration",
     "Client",
     "DecodingError",
     "DexterityJob",
@@ -75,6 +77,7 @@ __all__ = [
     "Membership",
     "OriginsJob",
     "OriginsSummary",
+    "ParameterEstimate",
     "PartPose",
     "Placement",
     "PlacementJob",

@@ -17,7 +17,17 @@ from verne.async_job import (
     AsyncWindowJob,
     AsyncWorkspaceJob,
 )
-from verne.operations import atlases, batches, error_budgets, fitting, kinematics, publications, toolpaths, workspaces
+from verne.operations import (
+    atlases,
+    batches,
+    calibration,
+    error_budgets,
+    fitting,
+    kinematics,
+    publications,
+    toolpaths,
+    workspaces,
+)
 from verne.runners import Awaiting, awaiting, awaiting_job
 from verne.session import DEFAULT_RETRIES, DEFAULT_URL, TIMEOUT, Session
 
@@ -77,3 +87,4 @@ class AsyncClient(Awaiting[Session]):
     origins = awaiting_job(fitting.origins, AsyncOriginsJob)
     machines = awaiting(publications.machines)
     machine = awaiting(publications.machine)
+    calibrate = awaiting(calibration.calibrate)

@@ -17,7 +17,17 @@ from verne.job import (
     WindowJob,
     WorkspaceJob,
 )
-from verne.operations import atlases, batches, error_budgets, fitting, kinematics, publications, toolpaths, workspaces
+from verne.operations import (
+    atlases,
+    batches,
+    calibration,
+    error_budgets,
+    fitting,
+    kinematics,
+    publications,
+    toolpaths,
+    workspaces,
+)
 from verne.runners import Blocking, blocking, blocking_job
 from verne.session import DEFAULT_RETRIES, DEFAULT_URL, TIMEOUT, Session
 
@@ -85,3 +95,4 @@ class Client(Blocking[Session]):
     origins = blocking_job(fitting.origins, OriginsJob)
     machines = blocking(publications.machines)
     machine = blocking(publications.machine)
+    calibrate = blocking(calibration.calibrate)

@@ -112,7 +112,24 @@ impl FromRequest<SharedState> for BatchBody {
     type Rejection = HttpError;
 
     async fn from_request(request: Request, state: &SharedState) -> Result<Self, HttpError> {
-        let (coding, limit) = (coding_of_json(request.headers())?, state.limits.body_bytes);
+        let coding = coding_of_json(request.headers())?;
+        Self::with_coding(coding, request, state).await
+    }
+}
+
+impl BatchBody {
+    /// A body of any media type.
+    pub(crate) async fn of_any_media(request: Request, state: &SharedState) -> Result<Self, HttpError> {
+        let coding = Coding::of(request.headers())?;
+        Self::with_coding(coding, request, state).await
+    }
+
+    async fn with_coding(
+        coding: Option<Coding>,
+        request: Request,
+        state: &SharedState,
+    ) -> Result<Self, HttpError> {
+        let limit = state.limits.body_bytes;
         let client = request.extensions().get::<Client>().cloned().ok_or(OperationError::Internal)?;
         let mut memory = state.admission.body(client.quota())?;
         let body = read(request.into_body(), limit, |bytes| memory.grow_to(bytes)).await?;

@@ -36,7 +36,7 @@ fn formats(path: &str) -> Vec<NameAndMedia> {
         "/toolpath/{id}/rows" | "/workspace/{id}/cells" => {
             RowFormat::ALL.map(|format| (format.name(), format.media())).into()
         }
-        "/fk/batch" | "/ik/batch" | "/error-budget" | "/workspace/contains" => {
+        "/fk/batch" | "/ik/batch" | "/error-budget" | "/machines/calibration" | "/workspace/contains" => {
             Format::ALL.map(|format| (format.name(), format.media())).into()
         }
         _ => Vec::new(),
@@ -90,7 +90,10 @@ fn narrow(operation: &mut Operation, (name, media): NameAndMedia) {
     {
         body.content.retain(|known, _| known == media);
     }
-    if let Some(RefOr::T(Response { content, .. })) = operation.responses.responses.get_mut("200") {
+    if let Some(RefOr::T(Response { content, .. })) = operation.responses.responses.get_mut("200")
+        // The answer to a table may be a JSON document.
+        && content.contains_key(media)
+    {
         content.retain(|known, _| known == media);
     }
 }

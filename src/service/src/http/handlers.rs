@@ -2,6 +2,7 @@
 
 pub(crate) mod atlas;
 pub(crate) mod batch;
+pub(crate) mod calibration;
 pub(crate) mod dexterity;
 pub(crate) mod error_budget;
 pub(crate) mod jobs;

@@ -18,8 +18,8 @@ use utoipa_axum::routes;
 use crate::http::access_control::{Access, Access::Key, Access::Open, Access::Probe, AccessControl};
 use crate::http::format_paths;
 use crate::http::handlers::{
-    atlas, batch, dexterity, error_budget, jobs, joint_program, kinematics, machines, origins, placement,
-    programs, results, service, toolpath, toolpath_rows, window, workspace,
+    atlas, batch, calibration, dexterity, error_budget, jobs, joint_program, kinematics, machines, origins,
+    placement, programs, results, service, toolpath, toolpath_rows, window, workspace,
 };
 use crate::http::openapi::{self, Document, problem_responses, security};
 use crate::http::state::SharedState;
@@ -35,7 +35,7 @@ pub fn document() -> Value {
 }
 
 /// Each route with its access.
-fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 39] {
+fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 40] {
     [
         (Key(Read, Fast), routes!(kinematics::get_fk, kinematics::post_fk)),
         (Key(Read, Fast), routes!(kinematics::get_ik, kinematics::post_ik)),
@@ -72,6 +72,7 @@ fn list() -> [(Access, UtoipaMethodRouter<SharedState>); 39] {
         (Key(Read, Fast), routes!(machines::get_machines)),
         (Key(Read, Fast), routes!(machines::get_machine_schema)),
         (Key(Read, Fast), routes!(machines::get_machine)),
+        (Key(Read, Other), routes!(calibration::post_calibration)),
         (Key(Read, Monitoring), routes!(service::get_metrics)),
         (Open, routes!(service::get_openapi)),
         (Probe, routes!(service::get_livez)),

@@ -16,7 +16,7 @@ use crate::wire::error_budget::{
 };
 use crate::wire::fixed_array::FixedArray;
 use crate::wire::json::write_json;
-use crate::wire::parameter_tolerances::to_wire;
+use crate::wire::parameter::to_wire;
 use crate::wire::parse::{parse_body, parse_expected};
 
 /// Most rows of an answer in JSON, which has all contributions. Rows in columns are not limited.
@@ -99,7 +99,7 @@ fn figure(
     parameters: &[Parameter],
     unit: fn(f64) -> f64,
 ) -> FigureObject {
-    let changes = parameters.iter().map(|of| to_wire(*of, figure.worst_changes[of.index()]));
+    let changes = parameters.iter().map(|of| to_wire(of.unit(), figure.worst_changes[of.index()]));
     FigureObject {
         rms: unit(figure.rms),
         standard_deviations: FixedArray(figure.standard_deviations.map(unit)),

@@ -23,7 +23,8 @@ use crate::wire::batch::Row;
 use crate::wire::error::OperationError;
 use crate::wire::error_budget::{ErrorBudgetRequest, ParameterObject};
 use crate::wire::field_errors::FieldErrors;
-use crate::wire::parameter_tolerances::{ParameterTolerances, to_wire, unit_of};
+use crate::wire::parameter::{to_wire, unit_of};
+use crate::wire::parameter_tolerances::ParameterTolerances;
 use crate::wire::request::Frame;
 use crate::wire::tool::Tool;
 
@@ -83,8 +84,8 @@ impl BudgetBatch {
         let each = self.stated.each().into_iter();
         each.map(|(parameter, tolerance)| ParameterObject {
             name: parameter.name(),
-            unit: unit_of(parameter),
-            nominal: to_wire(parameter, nominal.value(parameter)),
+            unit: unit_of(parameter.unit()),
+            nominal: to_wire(parameter.unit(), nominal.value(parameter)),
             tolerance,
         })
         .collect()

@@ -117,8 +117,9 @@ impl MachineRegistry {
         let refused = |detail: String| {
             Err(MachineFileError { path: path.to_owned(), faults: vec![FieldError::new("/name", detail)] })
         };
-        // GET /machines/schema returns the schema, and a name is one segment of a path.
-        if name == "schema" || name.contains('/') {
+        // /machines/schema and /machines/calibration are no machines, and a name is one segment of a path.
+        let is_reserved = ["schema", "calibration"].contains(&name.split('.').next().unwrap_or_default());
+        if is_reserved || name.contains('/') {
             return refused(format!("a machine cannot be published as {name:?}"));
         }
         if self.0.contains_key(&name) {

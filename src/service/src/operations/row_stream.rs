@@ -116,7 +116,8 @@ impl RowStream {
     }
 }
 
-fn read_error(error: ReadError) -> OperationError {
+/// The error of rows that cannot be read.
+pub(crate) fn read_error(error: ReadError) -> OperationError {
     match error {
         ReadError::Column { name, detail } => {
             OperationError::Fields(vec![FieldError::new(pointer(&name), detail)])

@@ -4,6 +4,7 @@ pub(crate) mod answer;
 pub(crate) mod answer_format;
 pub(crate) mod atlas;
 pub(crate) mod batch;
+pub(crate) mod calibrate;
 pub(crate) mod dexterity;
 pub(crate) mod error_budget;
 pub(crate) mod error_map;
@@ -40,6 +41,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use crate::http::router::document;
 use crate::process::cli::answer::to_json;
 use crate::process::cli::atlas::AtlasCommand;
+use crate::process::cli::calibrate::CalibrateCommand;
 use crate::process::cli::dexterity::DexterityCommand;
 use crate::process::cli::error_budget::ErrorBudgetCommand;
 use crate::process::cli::error_map::ErrorMapCommand;
@@ -115,6 +117,13 @@ enum Command {
     ///
     /// The exit status is 3 if there is none.
     ToolpathWindow(Box<WindowCommand>),
+    /// Determine a machine's parameters from measurements in a file: the machine (-o FILE), and how sure each parameter
+    /// is.
+    ///
+    /// The columns of the file are rho1, rho2, rho3 and what --kind needs: x, y, z (tips, tracker), also theta1, theta2
+    /// (part), length (ballbar), or to_rho1, to_rho2, to_rho3, distance (distances). Without the measured values the
+    /// answer says what the poses would identify.
+    Calibrate(Box<CalibrateCommand>),
     /// Print a machine as a JSON file, which every --machine accepts.
     Machine(MachineCommand),
     /// Serve over HTTP.
@@ -189,6 +198,7 @@ impl Cli {
             Command::Store(command) => command.run(out),
             Command::Workspace(command) => command.run(out, terminal),
             Command::Dexterity(command) => command.run(out, terminal),
+            Command::Calibrate(command) => command.run(out, terminal),
             Command::ErrorMap(command) => command.run(out, terminal),
             Command::Atlas(command) => command.run(out, terminal),
             Command::Machine(command) => command.run(out, terminal),

@@ -66,6 +66,9 @@ pub(crate) enum OperationError {
     ProgramTooLarge,
     #[error("There is no joint program: {0}.")]
     NoJointProgram(String),
+    /// Measurements that determine no machine: a clause.
+    #[error("No machine was found: {0}.")]
+    NoFit(String),
     #[error("The computation was cancelled.")]
     Cancelled,
     #[error(

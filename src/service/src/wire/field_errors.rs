@@ -48,6 +48,14 @@ impl FieldErrors {
         }
     }
 
+    /// Checks the coordinates of a point, or the positions of the sliders: lengths in proportion to the machine.
+    pub(crate) fn point(&mut self, pointer: &str, values: &[f64], machine: &Machine) {
+        self.lengths(pointer, values);
+        for (i, &value) in values.iter().enumerate().filter(|(_, value)| is_length(**value)) {
+            self.proportion(&format!("{pointer}/{i}"), value, machine);
+        }
+    }
+
     /// Checks the length of the tool, from P to the tool end.
     pub(crate) fn tool_length(&mut self, value: f64) {
         if !is_tool_length(value) {
@@ -85,6 +93,12 @@ impl FieldErrors {
             }
             _ => {}
         }
+    }
+
+    /// Fails if there is an error, with the first `most` of all errors.
+    pub(crate) fn into_first(mut self, most: usize) -> Result<(), OperationError> {
+        self.0.truncate(most);
+        self.into_result()
     }
 
     /// Fails if there is an error.

@@ -5,10 +5,9 @@ use utoipa::ToSchema;
 use verne_solver::error_budget::Tolerances;
 use verne_solver::parameter::{PARAMETERS, Parameter, ParameterUnit};
 
-use crate::wire::constraint::Unit;
-use crate::wire::degrees::{from_degrees, to_degrees};
 use crate::wire::error::OperationError;
 use crate::wire::field_errors::FieldErrors;
+use crate::wire::parameter::of_wire;
 
 /// Largest tolerance of a length, mm, and of an angle, degrees.
 const LARGEST: [f64; 2] = [1000.0, 90.0];
@@ -151,32 +150,8 @@ impl ParameterTolerances {
     /// The tolerances were not checked.
     pub(crate) fn to_solver(self) -> Result<Tolerances, OperationError> {
         let each = self.each().into_iter();
-        let in_radians = each.map(|(parameter, tolerance)| (parameter, of_wire(parameter, tolerance)));
+        let in_radians = each.map(|(parameter, tolerance)| (parameter, of_wire(parameter.unit(), tolerance)));
         Tolerances::new(in_radians).map_err(|_| OperationError::Internal)
-    }
-}
-
-/// A value of a parameter in the solver's unit.
-fn of_wire(parameter: Parameter, value: f64) -> f64 {
-    match parameter.unit() {
-        ParameterUnit::Millimetre => value,
-        ParameterUnit::Radian => from_degrees(value),
-    }
-}
-
-/// A value of a parameter in mm or degrees, without -0.
-pub(crate) fn to_wire(parameter: Parameter, value: f64) -> f64 {
-    match parameter.unit() {
-        ParameterUnit::Millimetre => value + 0.0,
-        ParameterUnit::Radian => to_degrees(value),
-    }
-}
-
-/// The unit of a parameter.
-pub(crate) fn unit_of(parameter: Parameter) -> Unit {
-    match parameter.unit() {
-        ParameterUnit::Millimetre => Unit::Millimetre,
-        ParameterUnit::Radian => Unit::Degree,
     }
 }
 

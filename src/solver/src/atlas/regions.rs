@@ -11,8 +11,8 @@ use crate::workspace::Observer;
 
 /// Grid steps within which ends of arcs are one point.
 const SAME_END: i64 = 64;
-/// Interior points of a face at which the solver is asked.
-const QUESTIONS: usize = 3;
+/// Interior points of a face at which the solver is asked. With few of them a lost curve may stay unnoticed.
+const QUESTIONS: usize = 24;
 /// Least distance of such a point from the sides, relative to the tolerance, and in grid steps.
 const NARROWEST: f64 = 0.02;
 const FEWEST_STEPS: f64 = 64.0;

@@ -71,7 +71,7 @@ impl Margins {
 
     /// Computes the margins from a posture's pose and sliders.
     #[inline]
-    pub(super) fn of_solution(
+    pub(crate) fn of_solution(
         machine: &Machine,
         pose: &PlatformPose,
         rho: [f64; 3],

@@ -256,7 +256,7 @@ impl ActualMachine {
     }
 
     /// z of the sliders for the positions that the control indicates.
-    pub(super) fn slider_positions(&self, [a, b, c]: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn slider_positions(&self, [a, b, c]: [f64; 3]) -> [f64; 3] {
         [a + self.value(Parameter::o1), b + self.value(Parameter::o2), c + self.value(Parameter::o3)]
     }
 

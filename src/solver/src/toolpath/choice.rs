@@ -6,31 +6,30 @@
 //! has the least turning, then the greatest least margin of the rotary axis, then the least
 //! |theta2| at the start, then phi1 >= 0 there.
 
+mod along;
 mod cost;
+mod feed;
+mod rapid;
 mod rewind;
 mod stages;
 mod state;
 
 use std::cmp::Ordering;
 
+use self::along::Along;
 use self::cost::Cost;
-use self::rewind::rewound;
 use self::stages::Stages;
 pub(super) use self::stages::{Choice, Chosen, Rewind};
-use self::state::{Reserve, State, advance, has_same_posture, is_wound, keep_best_windings, useful_range};
+use self::state::{Reserve, State, has_same_posture, is_wound, keep_best_windings, useful_range};
 use super::meridian::{Meridian, Span};
 use super::motion::{Motion, MotionKind, Motions, ToolPosition};
 use super::node::{Node, Setting, half_turns};
-use super::path::{Path, places};
+use super::path::Path;
 use super::start::Start;
 use super::stretches::Place;
 
 /// Greatest number of motions of a program all of whose ends are examined.
 const ALL_EXAMINED: usize = 10_000;
-/// Angle and fraction of the machine's longest dimension between two ends of motions: in a longer program, ends that
-/// are closer to the last place are not examined.
-const LEAST_ANGLE: f64 = 0.01;
-const LEAST_LENGTH: f64 = 1.0 / 256.0;
 /// Greatest number of states at a place.
 const MOST_STATES: usize = 64;
 
@@ -44,6 +43,7 @@ pub(super) struct Chooser<'a> {
     states: Vec<State>,
     stages: Stages,
     may_retract: bool,
+    joint_rapids: bool,
     is_long: bool,
     /// Length of the tool in the last motion.
     tool_length: Option<f64>,
@@ -62,6 +62,14 @@ struct Skipped {
     angle: f64,
 }
 
+/// A rapid that begins at a known place.
+#[derive(Clone, Copy)]
+struct Rapid<'a> {
+    path: &'a Path,
+    spans: &'a [Span],
+    tool_length: f64,
+}
+
 impl<'a> Chooser<'a> {
     /// `weights` are those of turning of theta1 and theta2; `start` is where the machine stands before the program.
     pub(super) fn new(
@@ -69,10 +77,11 @@ impl<'a> Chooser<'a> {
         weights: [f64; 2],
         start: Option<Start>,
         may_retract: bool,
+        joint_rapids: bool,
     ) -> Self {
         let (states, stages) = (start.map(State::of_start).into_iter().collect(), Stages::default());
         let (is_long, tool_length, skipped) = (false, None, None);
-        Self { setting, weights, states, stages, may_retract, is_long, tool_length, skipped }
+        Self { setting, weights, states, stages, may_retract, joint_rapids, is_long, tool_length, skipped }
     }
 
     /// Examines the program; `go_on` is asked from time to time and ends the examination by `false`.
@@ -89,34 +98,35 @@ impl<'a> Chooser<'a> {
             }
             let motion = motions.motion(index);
             meridian.advance(&motion);
-            self.take_tool(motion.tool_length);
+            let is_same_tool = !self.take_tool(motion.tool_length);
+            let (spans, tool_length) = (&*meridian.spans, motion.tool_length);
             match &meridian.path {
-                Some(path) if motion.kind == MotionKind::Feed => {
-                    self.feed(index, &motion, path, &meridian.spans);
+                Some(path) if motion.kind == MotionKind::Feed => self.feed(index, &motion, path, spans),
+                Some(path) if motion.kind == MotionKind::Rapid && is_same_tool => {
+                    self.jump(&motion, spans, Some(Rapid { path, spans, tool_length }));
                 }
-                _ => self.jump(&motion, meridian.spans.last()),
+                _ => self.jump(&motion, spans, None),
             }
         }
         Some(self.traced())
     }
 
-    /// Examines the limits of the states anew if the tool is another one.
-    fn take_tool(&mut self, tool_length: f64) {
-        if self
-            .tool_length
-            .replace(tool_length)
-            .is_some_and(|before| before.to_bits() != tool_length.to_bits())
-        {
+    /// Examines the limits of the states anew if the tool is another one; the answer is whether it is.
+    fn take_tool(&mut self, tool_length: f64) -> bool {
+        let before = self.tool_length.replace(tool_length);
+        let is_other = before.is_some_and(|before| before.to_bits() != tool_length.to_bits());
+        if is_other {
             self.examine_skipped();
             for state in &mut self.states {
                 state.reserve = Reserve::of(&self.setting, state.node.as_ref(), tool_length);
             }
         }
+        is_other
     }
 
     /// The states at the end of a motion whose joints are free.
-    fn jump(&mut self, motion: &Motion, span: Option<&Span>) {
-        let Some(span) = span else { return };
+    fn jump(&mut self, motion: &Motion, spans: &[Span], rapid: Option<Rapid<'_>>) {
+        let Some(span) = spans.last() else { return };
         self.examine_skipped();
         let before = std::mem::take(&mut self.states);
         let (phi2, _) = span.meridian(self.setting.stretches, 1.0, motion.end.axis, [0, 0]);
@@ -134,7 +144,9 @@ impl<'a> Chooser<'a> {
             });
             for (node, reserve) in nodes {
                 let node = node.map(|node| node.wound_to(target.pose.phi2));
-                let state = self.entered(&before, [h, h], node, *reserve);
+                let to =
+                    State { h: [h, h], node, reserve: *reserve, cost: Cost::START, parent: 0, twin: None };
+                let state = self.entered(&before, rapid, &to);
                 self.states.push(state);
             }
             if self.states.len() >= MOST_STATES {
@@ -145,79 +157,16 @@ impl<'a> Chooser<'a> {
         self.stage(None);
     }
 
+    fn along<'p>(&self, path: &'p Path, span: &'p Span, tool_length: f64) -> Along<'p>
+    where
+        'a: 'p,
+    {
+        Along { setting: self.setting, weights: self.weights, path, span, tool_length }
+    }
+
     fn keep_useful(&mut self) {
         if self.setting.machine.limits().rotary.is_none() {
             keep_best_windings(&mut self.states);
-        }
-    }
-
-    fn entered(&self, before: &[State], h: [i32; 2], node: Option<Node>, reserve: Reserve) -> State {
-        let own = reserve.place_cost(&self.setting, node.as_ref());
-        if before.is_empty() {
-            let start = node.map_or(f64::INFINITY, |node| node.table.theta2.abs());
-            let cost = Cost { start, is_turned: h[1].rem_euclid(2) == 1, ..own };
-            return State { h, node, reserve, cost, parent: 0, twin: None };
-        }
-        let mut best: Option<(Cost, usize)> = None;
-        for (parent, state) in before.iter().enumerate() {
-            let turning =
-                node.zip(state.node).map_or(0.0, |(node, from)| node.turning_from(&from, self.weights));
-            let cost = state.cost.and(&own, turning);
-            if best.is_none_or(|(least, _)| cost.compare(&least) == Ordering::Less) {
-                best = Some((cost, parent));
-            }
-        }
-        let (cost, parent) = best.map_or((own, 0), |best| best);
-        State { h, node, reserve, cost, parent, twin: None }
-    }
-
-    fn feed(&mut self, index: usize, motion: &Motion, path: &Path, spans: &[Span]) {
-        for span in spans {
-            let stretch = span.stretch().map(|number| self.setting.stretches[number]);
-            let bounded = stretch.filter(|stretch| stretch.is_bounded && !stretch.has_rapid);
-            if let Some(stretch) =
-                bounded.filter(|stretch| stretch.start == Place { motion: index, s: span.from })
-            {
-                self.spread(stretch.phi2[1]);
-            }
-            let is_skipped = self.skips(index, motion, span, path);
-            let count = places(self.setting.machine.longest(), path, span.to - span.from);
-            let count = if is_skipped { 0 } else { count };
-            for place in 1..=count {
-                let part = f64::from(place) / f64::from(count);
-                let s = if place == count { span.to } else { span.from + (span.to - span.from) * part };
-                self.advance(Place { motion: index, s }, motion.tool_length, span, &path.at(s));
-            }
-            if bounded.is_some_and(|stretch| stretch.end == Place { motion: index, s: span.to }) {
-                self.gather();
-            }
-        }
-    }
-
-    /// Whether the end of a span is so near to the last place that it is left for later.
-    fn skips(&mut self, index: usize, motion: &Motion, span: &Span, path: &Path) -> bool {
-        if !self.is_long {
-            return false;
-        }
-        let part = span.to - span.from;
-        let (length, angle) = (path.length() * part, (path.turn() + path.sweep()) * part);
-        let before = self.skipped.as_ref().map_or((0.0, 0.0), |skipped| (skipped.length, skipped.angle));
-        let (length, angle) = (before.0 + length, before.1 + angle);
-        let is_near = length < LEAST_LENGTH * self.setting.machine.longest() && angle < LEAST_ANGLE;
-        self.skipped = is_near.then(|| Skipped {
-            motion: index,
-            tool_length: motion.tool_length,
-            span: *span,
-            at: path.at(span.to),
-            length,
-            angle,
-        });
-        is_near
-    }
-
-    fn examine_skipped(&mut self) {
-        if let Some(Skipped { motion, tool_length, span, at, .. }) = self.skipped.take() {
-            self.advance(Place { motion, s: span.to }, tool_length, &span, &at);
         }
     }
 
@@ -252,20 +201,6 @@ impl<'a> Chooser<'a> {
         }
         self.keep_useful();
         self.stage(None);
-    }
-
-    /// Moves every state to a place.
-    fn advance(&mut self, place: Place, tool_length: f64, span: &Span, at: &ToolPosition) {
-        advance(&mut self.states, &self.setting, self.weights, tool_length, |h| {
-            self.setting.target(span, place.s, at, h)
-        });
-        if self.may_retract
-            && let Some(states) = rewound(&self.states, &self.setting, self.weights)
-        {
-            self.states = states;
-            self.states.truncate(MOST_STATES);
-            self.stage(Some(place));
-        }
     }
 
     /// Notes the states, so that the chosen ones can be traced back.

@@ -10,6 +10,7 @@
 mod boundary_search;
 mod closed_surface;
 mod constraining;
+mod cut_windings;
 mod extent;
 mod measured_error;
 mod membership;
@@ -32,6 +33,7 @@ use super::set_up::{AdjustableProgram, SetUp};
 use crate::machine::Machine;
 use crate::workspace::dexterity::Grid;
 use crate::workspace::{Observer, WorkspaceError};
+use cut_windings::{Windings, cut_windings};
 use membership::Membership;
 
 /// Greatest density of places.
@@ -56,8 +58,8 @@ const OF_PLACES: f64 = 4.0;
 pub struct OriginSurvey {
     places: PlannedPlaces,
     extent: OriginExtent,
-    /// Whether the range of the rotary axis admits each cut on each preimage.
-    admitted: Vec<[bool; 2]>,
+    /// The windings of each cut.
+    windings: Vec<Windings>,
     place_tolerance: f64,
     /// The grid of origins over the region, with at least one layer of nodes beyond it on each side.
     pub grid: Grid,
@@ -87,19 +89,20 @@ impl OriginSurvey {
         known: Option<OriginExtent>,
         observer: &dyn Observer,
     ) -> Result<Self, WorkspaceError> {
-        // Between places at this distance, a curve with the radius of the machine is off by the tolerance.
-        let distance = (8.0 * request.place_tolerance * machine.longest()).sqrt();
+        // Between places at this distance, a curve of this radius is off by the tolerance.
+        let radius = machine.longest() / 8.0;
+        let distance = (8.0 * request.place_tolerance * radius).sqrt();
         let density = (machine.longest() / 16.0 / distance).clamp(1.0, MOST_DENSE);
         let places = PlannedPlaces::of_program(machine, program, given, options, density);
-        let admitted = membership::admitted_cuts(machine, &places);
+        let windings = cut_windings(machine, &places);
         let count = places.places.len();
         let known = known.filter(|known| known.places.iter().all(|place| (*place as usize) < count));
         let extent = match known {
             Some(known) => known,
-            None => extent::extent(machine, &places, &admitted, observer)?,
+            None => extent::extent(machine, &places, &windings, observer)?,
         };
         let grid = extent::grid(extent.bounds, request.cell)?;
-        Ok(Self { places, extent, admitted, place_tolerance: request.place_tolerance, grid })
+        Ok(Self { places, extent, windings, place_tolerance: request.place_tolerance, grid })
     }
 
     /// The part of the survey that takes long. Another part of the computation can begin with it.
@@ -122,7 +125,7 @@ impl OriginSurvey {
     }
 
     fn membership<'a>(&'a self, machine: &'a Machine) -> Membership<'a> {
-        Membership::new(machine, &self.places, &self.extent.places, &self.admitted)
+        Membership::new(machine, &self.places, &self.extent.places, &self.windings)
     }
 
     /// About how far the boundary is off because the program is examined at places, not everywhere.

@@ -251,8 +251,12 @@ pub(super) fn places(longest: f64, path: &Path, part: f64) -> u32 {
 
 /// The same with `density` times as many on long parts.
 pub(super) fn dense_places(longest: f64, path: &Path, part: f64, density: f64) -> u32 {
-    let count = (path.length() / (LENGTH * longest)).max((path.turn() + path.sweep()) / ANGLE) * part;
-    count_of(density * count)
+    count_of(density * way(longest, path, part))
+}
+
+/// A part of a path as a multiple of the way between two places that are examined.
+pub(super) fn way(longest: f64, path: &Path, part: f64) -> f64 {
+    (path.length() / (LENGTH * longest)).max((path.turn() + path.sweep()) / ANGLE) * part
 }
 
 #[allow(

@@ -16,7 +16,7 @@ mod verdict;
 pub use active::ActiveMargin;
 pub(super) use criteria::Criteria;
 pub(super) use interior::interior_set_ups;
-pub(super) use problem::{Problem, cut_margin, cut_ranges};
+pub(super) use problem::{Problem, cut_ranges};
 pub(super) use starts::{even_numbers, representative};
 
 use super::planned_places::PlannedPlaces;

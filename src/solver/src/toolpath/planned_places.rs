@@ -30,8 +30,10 @@ const BLOCK: usize = 256;
 pub struct PlannedPlace {
     /// Index of the motion.
     pub motion: usize,
-    /// Index of the cut that the place belongs to, or of the rapid between two cuts.
+    /// Index of the cut that the place, or the rapid through it, belongs to.
     pub cut: usize,
+    /// Whether the place is on the rapid to the cut, before its end.
+    pub is_rapid: bool,
     /// The tool's end.
     pub tip: Point,
     /// Inclination of the tool.
@@ -118,7 +120,8 @@ impl PlannedPlaces {
                     let s = span.from + (span.to - span.from) * f64::from(place) / f64::from(count);
                     let at = meridian.path.as_ref().map_or(motion.end, |path| path.at(s));
                     let pose = setting.target(span, s, &at, [0, 0]).pose;
-                    found.add(index, at.tip, [pose.phi1, pose.phi2], motion.tool_length, program);
+                    let is_rapid = motion.kind == MotionKind::Rapid && s < 1.0;
+                    found.add((index, is_rapid), at.tip, [pose.phi1, pose.phi2], motion.tool_length, program);
                 }
             }
         }
@@ -127,7 +130,7 @@ impl PlannedPlaces {
 
     fn add(
         &mut self,
-        motion: usize,
+        (motion, is_rapid): (usize, bool),
         tip: Point,
         [phi1, phi2]: [f64; 2],
         tool_length: f64,
@@ -136,7 +139,17 @@ impl PlannedPlaces {
         let is_adjusted = program.is_adjusted(motion);
         let is_turned = motion >= self.free && is_adjusted;
         let cut = self.cut;
-        self.places.push(PlannedPlace { motion, cut, tip, phi1, phi2, tool_length, is_adjusted, is_turned });
+        self.places.push(PlannedPlace {
+            motion,
+            cut,
+            is_rapid,
+            tip,
+            phi1,
+            phi2,
+            tool_length,
+            is_adjusted,
+            is_turned,
+        });
     }
 
     /// Adds the place of a row, with its tool. Rows off the part are left out: the plan alone decides about them.
@@ -151,7 +164,8 @@ impl PlannedPlaces {
         let phi2 = -row.table.theta2;
         let (sine, cosine) = sin_cos(phi2);
         let phi1 = inclination(row.position.axis, [sine, cosine]).0;
-        self.add(row.motion, row.position.tip, [phi1, phi2], tool_length, program);
+        let is_rapid = row.kind == RowKind::Rapid && !row.ends_track;
+        self.add((row.motion, is_rapid), row.position.tip, [phi1, phi2], tool_length, program);
     }
 
     /// The pose of a place in another set-up. `other` is whether it is on the other preimage than planned.

@@ -6,6 +6,8 @@ use verne_solver::axis::tool_axis;
 use verne_solver::toolpath::{Motion, MotionKind, PlanOptions, RowKind};
 use verne_solver::{Constraint, Machine, Margins, PartPose, TableAngles, part_working};
 
+use super::origins::is_feasible;
+use super::placement::contour;
 use super::random::Random;
 use super::support::{arrive, feed, planned, rapid, worst_deviation};
 
@@ -181,5 +183,15 @@ fn rows_of_random_programs_stay_within_the_tolerance() {
         }
         let worst = worst_deviation(&machine, &program, &rows, &options);
         assert!(worst <= 1.0, "{worst} of the tolerance");
+    }
+}
+
+#[test]
+fn a_limit_that_is_broken_between_distant_places_decides_the_choice() {
+    // At each of these origins a preimage keeps the limits at the ends of all motions, and breaks a stroke by some
+    // millimetres between: on a feed motion in the first, on the line of the rapid in the second. Another choice
+    // serves the whole program.
+    for origin in [[103.896, 278.710, 322.158], [131.874_477, -256.344_062, 522.433_402]] {
+        assert!(is_feasible(&Machine::verne(), &contour(), origin), "{origin:?}");
     }
 }

@@ -11,6 +11,8 @@ use crate::http::openapi::example::{Example, PROGRAM, get, json_of, post, value_
 use crate::http::openapi::examples::toolpaths::of_toolpaths;
 use crate::http::openapi::machine_schema::machine_schema;
 use crate::operations::atlas::answer_atlas;
+use crate::operations::calibration::answer_calibration;
+use crate::operations::calibration_request::read_calibration;
 use crate::operations::contains::answer_contains;
 use crate::operations::error_budget::answer_error_budget;
 use crate::operations::forward::answer_fk;
@@ -39,6 +41,7 @@ pub(crate) fn examples() -> Vec<Example> {
     let machines = MachineRegistry::default();
     let mut examples = of_service(&machines);
     examples.extend(of_kinematics(&machines));
+    examples.push(of_calibration(&machines));
     examples.extend(of_workspaces(&machines));
     examples.extend(of_programs());
     examples.extend(of_toolpaths(&machines));
@@ -120,6 +123,27 @@ fn of_kinematics(machines: &MachineRegistry) -> Vec<Example> {
             |body| value_of(answer_error_budget(body, machines, ROWS, &Unobserved)),
         ),
     ]
+}
+
+/// A plan: what six poses of a tracker would identify.
+fn of_calibration(machines: &MachineRegistry) -> Example {
+    let rho = json!([
+        [600, 500, 500],
+        [650, 420, 560],
+        [480, 600, 430],
+        [400, 380, 390],
+        [620, 610, 450],
+        [300, 420, 310]
+    ]);
+    post(
+        "/machines/calibration",
+        json!({"machine": "verne", "kind": "tracker", "tool_length": 100, "rho": rho, "fixed": ["tool_length", "R2"],
+               "sigma": 0.002, "next": 2}),
+        |body| {
+            let question = read_calibration(body, machines, ROWS)?;
+            value_of(answer_calibration(&question, &Unobserved))
+        },
+    )
 }
 
 fn of_workspaces(machines: &MachineRegistry) -> Vec<Example> {

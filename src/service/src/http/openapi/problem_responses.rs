@@ -83,6 +83,8 @@ problems! {
     AtlasBodyProblems: BODY;
     /// Problems of a batch.
     BatchProblems: BODY, &[Code::TooManyRows, Code::BadRows];
+    /// Problems of a calibration.
+    CalibrationProblems: BODY, &[Code::TooManyRows, Code::BadRows, Code::NoFit];
     /// Problems of a workspace in the query string.
     WorkspaceQueryProblems: JOB, &[Code::RangeNotSatisfiable];
     /// Problems of a workspace, or a family of workspaces, in the body.

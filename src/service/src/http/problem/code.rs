@@ -135,6 +135,9 @@ problems! {
     ProgramFault, "program_fault", UNPROCESSABLE_ENTITY,
         "The program has faults; `errors` lists them with line, column and word.";
         Operation(OperationError::ProgramFaults(_)) => OperationError::ProgramFaults(example_of_faults());
+    NoFit, "no_fit", UNPROCESSABLE_ENTITY, "No machine of the architecture was found that fits the measurements.";
+        Operation(OperationError::NoFit(_)) => OperationError::NoFit(
+            "the machine that fits best cannot stand at a measured pose, /rho/3: not in the working mode".to_owned());
     TooManyRequests, "too_many_requests", TOO_MANY_REQUESTS, "The client exceeded its request rate.";
         Limit(LimitError::TooManyRequests(_)) => LimitError::TooManyRequests(1);
     Internal, "internal", INTERNAL_SERVER_ERROR, "The service has a defect.";

@@ -10,7 +10,8 @@ use crate::operations::atlas::answer_atlas;
 use crate::operations::machine_registry::MachineRegistry;
 use crate::process::cli::answer::{machine, with_flags};
 use crate::process::cli::answer_format::AnswerFormat;
-use crate::process::cli::files::{refuse_equal_files, with_format};
+use crate::process::cli::files::refuse_equal_files;
+use crate::process::cli::map_files::format_of;
 use crate::process::cli::progress::TerminalProgress;
 use crate::process::cli::terminal::Terminal;
 use crate::process::cli::words::atlases;
@@ -37,15 +38,14 @@ impl AtlasCommand {
         let machine_file = Some(Path::new(&self.query.machine)).filter(|path| path.is_file());
         refuse_equal_files(&[("the machine", machine_file)], &[("--output", output)])?;
         // Before the computation: the extension may be unknown.
-        let file = output.map(|path| with_format("--output", path, ".json, .svg or .dxf")).transpose()?;
+        let format = output.map(|path| format_of("--output", path, ".json, .svg or .dxf")).transpose()?;
         let machine = machine(&self.query.machine)?;
         let body = AtlasBody { machine, ..self.query.into_body() };
         let progress = TerminalProgress::new();
-        let (machines, format) =
-            (MachineRegistry::default(), file.map_or(SliceFormat::Json, |(_, format)| format));
+        let (machines, format) = (MachineRegistry::default(), format.unwrap_or(SliceFormat::Json));
         let bytes = answer_atlas(&body, &machines, format, &progress).map_err(with_flags)?;
         drop(progress);
-        if let Some((path, _)) = file {
+        if let Some(path) = output {
             return std::fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display()));
         }
         let answer: Value = parse_body(&bytes).map_err(with_flags)?;

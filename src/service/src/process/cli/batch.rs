@@ -1,7 +1,7 @@
 //! `--batch` of `verne ik`, `verne fk`, `verne error-budget` and `verne contains`: answers the rows of a file while it
 //! reads them.
 
-mod summary;
+pub(crate) mod summary;
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -209,7 +209,7 @@ impl AnsweredRows {
 }
 
 /// The format of a file by its extension; that of standard input or output as stated, or CSV.
-fn format_of(flag: &str, path: &Path, stated: Option<Format>) -> Result<Format, String> {
+pub(crate) fn format_of(flag: &str, path: &Path, stated: Option<Format>) -> Result<Format, String> {
     if is_standard(path) {
         return Ok(stated.unwrap_or(Format::Csv));
     }
@@ -222,7 +222,7 @@ fn format_of(flag: &str, path: &Path, stated: Option<Format>) -> Result<Format, 
     })
 }
 
-fn format_parser() -> impl TypedValueParser<Value = Format> {
+pub(crate) fn format_parser() -> impl TypedValueParser<Value = Format> {
     let names = Format::ALL.map(Format::name);
     PossibleValuesParser::new(names).try_map(|name| Format::of_extension(&name).ok_or("unknown"))
 }

@@ -4,8 +4,6 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
-
 /// Whether a path means standard input or output.
 pub(crate) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
@@ -71,17 +69,6 @@ fn file(path: &Path, standard: &str) -> Option<PathBuf> {
         Some(directory.unwrap_or(Path::new(".")).canonicalize().ok()?.join(path.file_name()?))
     };
     existing.ok().or_else(created)
-}
-
-/// A path with the format that its extension names.
-pub(crate) fn with_format<'a, F: ValueEnum>(
-    flag: &str,
-    path: &'a Path,
-    known: &str,
-) -> Result<(&'a Path, F), String> {
-    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    let format = F::from_str(extension, true);
-    format.map(|format| (path, format)).map_err(|_| format!("{flag} {} must end in {known}", path.display()))
 }
 
 #[cfg(test)]

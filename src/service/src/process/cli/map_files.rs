@@ -4,13 +4,14 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+use clap::ValueEnum;
 use verne_mesh::Mesh;
 
 use crate::operations::map_table::MapTable;
 use crate::operations::mesh_files::{MeshDescription, write_mesh};
 use crate::operations::question_text::QuestionKind;
 use crate::process::cli::answer::with_flags;
-use crate::process::cli::files::{refuse_equal_files, with_format};
+use crate::process::cli::files::refuse_equal_files;
 use crate::wire::format::MeshFormat;
 use crate::wire::row_format::RowFormat;
 
@@ -29,9 +30,15 @@ impl<'a> MapFiles<'a> {
     ) -> Result<Self, String> {
         let machine_file = Some(Path::new(machine)).filter(|path| path.is_file());
         refuse_equal_files(&[("the machine", machine_file)], &[("--output", output), ("--cells", cells)])?;
-        let mesh = output.map(|path| with_format("--output", path, ".glb, .stl, .ply or .json"));
-        let cells = cells.map(|path| with_format("--cells", path, ".json, .csv, .ndjson or .arrow"));
-        Ok(Self { mesh: mesh.transpose()?, cells: cells.transpose()? })
+        let mesh = output
+            .map(|path| Ok::<_, String>((path, format_of("--output", path, ".glb, .stl, .ply or .json")?)))
+            .transpose()?;
+        let cells = cells
+            .map(|path| {
+                Ok::<_, String>((path, format_of("--cells", path, ".json, .csv, .ndjson or .arrow")?))
+            })
+            .transpose()?;
+        Ok(Self { mesh, cells })
     }
 
     /// Writes the mesh.
@@ -45,6 +52,12 @@ impl<'a> MapFiles<'a> {
     pub(crate) fn write_cells(&self, kind: QuestionKind, cells: &[u8]) -> Result<(), String> {
         self.cells.map_or(Ok(()), |(path, format)| write_cells(kind, cells, format, path))
     }
+}
+
+/// The format that the extension of a file names.
+pub(crate) fn format_of<F: ValueEnum>(flag: &str, path: &Path, known: &str) -> Result<F, String> {
+    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    F::from_str(extension, true).map_err(|_| format!("{flag} {} must end in {known}", path.display()))
 }
 
 /// Writes the points of a map of this kind, which are JSON, to a file in a format.

@@ -2,6 +2,7 @@
 //! service answers.
 
 pub(crate) mod atlases;
+pub(crate) mod calibration;
 pub(crate) mod error_budgets;
 pub(crate) mod jobs;
 pub(crate) mod machines;

@@ -76,6 +76,11 @@ impl Reserve {
         Self::near(setting, node, tool_length, self.reference)
     }
 
+    /// What is left of the worst margin, as a fraction of its range, or less; negative where a limit is broken.
+    pub(super) fn fraction(self) -> f64 {
+        if self.holds { self.way / WAY } else { -1.0 }
+    }
+
     /// The cost of a place with these limits.
     pub(super) fn place_cost(self, setting: &Setting<'_>, node: Option<&Node>) -> Cost {
         let [low, high] = setting.machine.limits().rotary.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);

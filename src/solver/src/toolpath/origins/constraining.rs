@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 
+use super::cut_windings::Windings;
 use super::membership::Membership;
 use crate::machine::Machine;
 use crate::pose::Point;
@@ -32,7 +33,7 @@ const HALVINGS: u32 = 24;
 pub(super) fn constraining_places(
     machine: &Machine,
     places: &PlannedPlaces,
-    admitted: &[[bool; 2]],
+    windings: &[Windings],
     interior: &[(Point, bool)],
     observer: &dyn Observer,
 ) -> Result<Vec<u32>, WorkspaceError> {
@@ -46,7 +47,7 @@ pub(super) fn constraining_places(
         let before = set.len();
         for (origin, other) in interior {
             check_cancelled(observer)?;
-            let boundary = boundary(machine, places, &set, admitted, *origin);
+            let boundary = boundary(machine, places, &set, windings, *origin);
             let problem = Problem {
                 machine,
                 places,
@@ -84,10 +85,10 @@ fn boundary(
     machine: &Machine,
     places: &PlannedPlaces,
     set: &[u32],
-    admitted: &[[bool; 2]],
+    windings: &[Windings],
     origin: Point,
 ) -> Vec<Point> {
-    let membership = Membership::new(machine, places, set, admitted);
+    let membership = Membership::new(machine, places, set, windings);
     (0..DIRECTIONS)
         .into_par_iter()
         .map(|number| {

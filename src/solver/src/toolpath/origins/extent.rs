@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::constraining::constraining_places;
+use super::cut_windings::Windings;
 use super::membership::Membership;
 use crate::machine::Machine;
 use crate::pose::Point;
@@ -38,7 +39,7 @@ pub struct OriginExtent {
 pub(super) fn extent(
     machine: &Machine,
     places: &PlannedPlaces,
-    admitted: &[[bool; 2]],
+    windings: &[Windings],
     observer: &dyn Observer,
 ) -> Result<OriginExtent, WorkspaceError> {
     let bounds = reach(machine, places);
@@ -48,8 +49,8 @@ pub(super) fn extent(
     })?;
     let interior: Vec<(Point, bool)> =
         interior.iter().map(|found| (found.set_up.origin, found.other)).collect();
-    let set = constraining_places(machine, places, admitted, &interior, observer)?;
-    let membership = Membership::new(machine, places, &set, admitted);
+    let set = constraining_places(machine, places, windings, &interior, observer)?;
+    let membership = Membership::new(machine, places, &set, windings);
     let mut around: Option<[Point; 2]> = None;
     for (origin, _) in interior {
         if !membership.contains(origin, &mut 0) {

@@ -1,43 +1,38 @@
 //! Whether an origin belongs to the region.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::cut_windings::Windings;
 use crate::machine::Machine;
 use crate::pose::Point;
-use crate::toolpath::placement::{Criteria, cut_margin};
+use crate::toolpath::placement::Criteria;
 use crate::toolpath::planned_places::PlannedPlaces;
 use crate::toolpath::set_up::SetUp;
 
 /// Places that are examined together.
 const BLOCK: usize = 32;
 
-/// Whether the range of the rotary axis admits each cut on the planned preimage and on the other.
-pub(super) fn admitted_cuts(machine: &Machine, places: &PlannedPlaces) -> Vec<[bool; 2]> {
-    let cuts = places.places.iter().map(|place| place.cut + 1).max().unwrap_or(0);
-    let Some(range) = machine.limits().rotary else { return vec![[true; 2]; cuts] };
-    let mut ends: Vec<Option<[f64; 2]>> = vec![None; cuts];
-    for place in &places.places {
-        let theta2 = -place.phi2;
-        let [low, high] = ends[place.cut].unwrap_or([theta2; 2]);
-        ends[place.cut] = Some([low.min(theta2), high.max(theta2)]);
-    }
-    let admitted = |ends: Option<[f64; 2]>| {
-        let Some([low, high]) = ends else { return [true; 2] };
-        let cut = [0.5 * (low + high), 0.5 * (high - low)];
-        [false, true].map(|other| cut_margin(range, cut, other) >= 0.0)
-    };
-    ends.into_iter().map(admitted).collect()
-}
-
 /// Examines origins with some places of a program.
+///
+/// An origin belongs to the region if every cut keeps the limits on a preimage and a winding such that each rapid
+/// between two cuts is possible. A rapid on which both stay follows its line, which is examined. A rapid on which
+/// either changes moves the joints straight: its ends alone are examined.
 pub(super) struct Membership<'a> {
     machine: &'a Machine,
     places: &'a PlannedPlaces,
     set: &'a [u32],
-    admitted: &'a [[bool; 2]],
-    /// The places of each cut.
-    cuts: BTreeMap<usize, Vec<u32>>,
+    windings: &'a [Windings],
+    /// The places of each cut, and of the rapid to it.
+    cuts: BTreeMap<usize, [Vec<u32>; 2]>,
     criteria: Criteria,
+}
+
+/// The cuts that the planned preimage does not serve, all of which the other one serves, and those to which it has no
+/// rapid along the line.
+#[derive(Default)]
+struct Unserved {
+    cuts: BTreeSet<usize>,
+    rapids: BTreeSet<usize>,
 }
 
 impl<'a> Membership<'a> {
@@ -45,63 +40,119 @@ impl<'a> Membership<'a> {
         machine: &'a Machine,
         places: &'a PlannedPlaces,
         set: &'a [u32],
-        admitted: &'a [[bool; 2]],
+        windings: &'a [Windings],
     ) -> Self {
-        let mut cuts: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+        let mut cuts: BTreeMap<usize, [Vec<u32>; 2]> = BTreeMap::new();
         for place in set {
-            cuts.entry(places.places[*place as usize].cut).or_default().push(*place);
+            let at = &places.places[*place as usize];
+            cuts.entry(at.cut).or_default()[usize::from(at.is_rapid)].push(*place);
         }
-        Self { machine, places, set, admitted, cuts, criteria: Criteria::new(machine, &[]) }
+        Self { machine, places, set, windings, cuts, criteria: Criteria::new(machine, &[]) }
     }
 
-    /// Whether every cut keeps the limits on one of its preimages. `hint` is the block of places that is examined
-    /// first: the one that has excluded an origin nearby.
+    /// Whether an origin belongs to the region. `hint` is the block of places that is examined first: the one that
+    /// has excluded an origin nearby.
     pub(super) fn contains(&self, origin: Point, hint: &mut usize) -> bool {
-        if self.admitted.contains(&[false; 2]) {
+        if self.windings.contains(&[0; 2]) {
             return false;
         }
         let set_up = SetUp { origin, ..self.places.set_up };
         let blocks = self.set.len().div_ceil(BLOCK);
-        // The cuts that are on the other preimage.
-        let mut changed: Vec<usize> = Vec::new();
+        let mut unserved = Unserved::default();
         for number in 0..blocks {
             let block = (number + *hint) % blocks;
             let places = &self.set[block * BLOCK..((block + 1) * BLOCK).min(self.set.len())];
-            let mut failing: Vec<usize> = Vec::new();
+            let mut cuts = BTreeSet::new();
             self.places.margins(self.machine, places, (&set_up, false), |i, margins| {
-                let cut = self.places.places[places[i] as usize].cut;
-                let holds = self.admitted[cut][0]
-                    && self.criteria.values(self.machine, margins).iter().all(|value| *value >= 0.0);
-                if !holds && failing.last() != Some(&cut) {
-                    failing.push(cut);
+                let place = &self.places.places[places[i] as usize];
+                let holds = self.criteria.values(self.machine, margins).iter().all(|value| *value >= 0.0);
+                if !holds && place.is_rapid {
+                    unserved.rapids.insert(place.cut);
+                } else if !holds || self.windings[place.cut][0] == 0 {
+                    cuts.insert(place.cut);
                 }
             });
-            for cut in failing {
-                if changed.contains(&cut) {
+            for cut in cuts {
+                if unserved.cuts.contains(&cut) {
                     continue;
                 }
-                if !self.holds_on_other(cut, &set_up) {
+                if !self.other_serves(cut, &set_up) {
                     *hint = block;
                     return false;
                 }
-                changed.push(cut);
+                unserved.cuts.insert(cut);
             }
+        }
+        self.has_rapids(&unserved, &set_up)
+    }
+
+    /// Whether some preimages that serve the cuts have rapids between them.
+    ///
+    /// A cut needs the other preimage only if the planned one does not serve it, or has no rapid to or from it: a
+    /// change of the preimage is always possible.
+    fn has_rapids(&self, unserved: &Unserved, set_up: &SetUp) -> bool {
+        if unserved.rapids.is_empty() && unserved.cuts.len() < 2 {
+            return true;
+        }
+        // On which preimages the cut before can be reached.
+        let (mut before, mut next) = ([true; 2], 0);
+        for cut in self.cuts.keys().copied() {
+            let is_unserved = unserved.cuts.contains(&cut);
+            let needs_other =
+                is_unserved || unserved.rapids.contains(&cut) || unserved.rapids.contains(&(cut + 1));
+            // No limit is near in the cuts between.
+            let is_free = cut != std::mem::replace(&mut next, cut + 1);
+            let mut reached = [false; 2];
+            for other in [false, true] {
+                let serves = if other {
+                    is_unserved || needs_other && self.other_serves(cut, set_up)
+                } else {
+                    !is_unserved
+                };
+                let [same, changed] = [before[usize::from(other)], before[usize::from(!other)]];
+                reached[usize::from(other)] = serves
+                    && (is_free
+                        || changed
+                        || same
+                            && (self.has_windings(cut, other)
+                                || self.has_line(cut, other, unserved, set_up)));
+            }
+            if reached == [false; 2] {
+                return false;
+            }
+            before = reached;
         }
         true
     }
 
+    /// Whether the winding can change on the rapid to a cut while the preimage stays.
+    fn has_windings(&self, cut: usize, other: bool) -> bool {
+        let windings = |cut: usize| self.windings[cut][usize::from(other)];
+        windings(cut) > 1 || cut > 0 && windings(cut - 1) > 1
+    }
+
+    /// Whether the rapid to a cut can follow its line.
+    fn has_line(&self, cut: usize, other: bool, unserved: &Unserved, set_up: &SetUp) -> bool {
+        if other {
+            self.cuts.get(&cut).is_none_or(|[_, rapid]| self.holds_on_other(rapid, set_up))
+        } else {
+            !unserved.rapids.contains(&cut)
+        }
+    }
+
     /// Whether a cut keeps the limits on its other preimage.
-    fn holds_on_other(&self, cut: usize, set_up: &SetUp) -> bool {
-        let Some(places) = self.cuts.get(&cut).filter(|_| self.admitted[cut][1]) else { return false };
-        for block in places.chunks(BLOCK) {
+    fn other_serves(&self, cut: usize, set_up: &SetUp) -> bool {
+        let admits = self.windings[cut][1] > 0;
+        admits && self.cuts.get(&cut).is_some_and(|[places, _]| self.holds_on_other(places, set_up))
+    }
+
+    fn holds_on_other(&self, places: &[u32], set_up: &SetUp) -> bool {
+        places.chunks(BLOCK).all(|block| {
             let mut holds = true;
             self.places.margins(self.machine, block, (set_up, true), |_, margins| {
                 holds &= self.criteria.values(self.machine, margins).iter().all(|value| *value >= 0.0);
             });
-            if !holds {
-                return false;
-            }
-        }
-        true
+            holds
+        })
     }
 }

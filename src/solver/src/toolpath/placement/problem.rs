@@ -133,7 +133,7 @@ impl Problem<'_> {
 
 /// The margin of the rotary axis, rad, on the best winding of a cut whose theta2 has this middle and this half width,
 /// on the planned preimage or on the other.
-pub(in crate::toolpath) fn cut_margin([low, high]: [f64; 2], [centre, half]: [f64; 2], other: bool) -> f64 {
+fn cut_margin([low, high]: [f64; 2], [centre, half]: [f64; 2], other: bool) -> f64 {
     let centre = centre + if other { PI } else { 0.0 };
     let centre = centre - TAU * ((centre - 0.5 * (low + high)) / TAU).round();
     (centre - half - low).min(high - centre - half)

@@ -32,7 +32,7 @@ pub(super) fn write_summary(tally: &RowTally, err: &mut impl Write) -> io::Resul
 }
 
 /// An error of the rows as a message. Columns are named as they are in the file.
-pub(super) fn message(file: &str, error: OperationError) -> String {
+pub(crate) fn message(file: &str, error: OperationError) -> String {
     match error {
         OperationError::Fields(faults) => {
             let fault = |FieldError { pointer, detail }: FieldError| {
