@@ -106,7 +106,7 @@ pub(crate) struct SpecialPointObject {
     pub at: Pair,
 }
 
-/// Kind of a special point: `cusp`, three solutions merge and the curve turns back; `crossing`, two curves cross; `corner`,
+/// Kind of a point: `cusp`, three solutions merge and the curve turns back; `crossing`, two curves cross; `corner`,
 /// curves end together or a curve has a corner; `tangency`, a curve touches another one and ends there; `isolated`,
 /// solutions merge at this point only; `self_motion`, the platform can move while all sliders stand: solutions form a
 /// curve, and the point has no number of solutions.
