@@ -99,7 +99,7 @@ fn an_atlas_is_a_table_of_areas() {
         let equal = regions.filter(|region| region["solutions"] == solutions);
         equal.map(|region| region["area"].as_f64().unwrap()).sum()
     };
-    for solutions in [0, 4] {
+    for solutions in [4, 6] {
         assert_eq!(words(&text, &solutions.to_string())[2], format!("{:.3}", area(solutions)), "{text}");
     }
 }

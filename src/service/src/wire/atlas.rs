@@ -29,7 +29,7 @@ pub(crate) struct AtlasObject {
     pub space: SpaceName,
     /// The machine.
     pub machine: MachineId,
-    /// What u and v are.
+    /// The meanings of u and v.
     #[schema(value_type = Vec<String>)]
     pub coordinates: [&'static str; 2],
     /// The part of the plane.
@@ -64,7 +64,7 @@ pub(crate) struct WindowObject {
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = AtlasCurve)]
 pub(crate) struct CurveObject {
-    /// What happens on it.
+    /// Its kind.
     pub kind: CurveKindName,
     /// Whether the last point joins the first.
     pub closed: bool,
@@ -73,7 +73,7 @@ pub(crate) struct CurveObject {
     pub points: Vec<Pair>,
 }
 
-/// What happens on a curve: `leg_1`, two angles of leg I merge; `leg_2` or `leg_3`, the leg is level and its solutions
+/// Kind of a curve: `leg_1`, two angles of leg I merge; `leg_2` or `leg_3`, the leg is level and its solutions
 /// above and below merge; `parallel`, det_P is zero and two forward solutions merge; `constraint`, in a linear delta
 /// leg I is level and the platform can begin to turn (solutions meet, but their number is the same on both sides).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
@@ -99,14 +99,14 @@ pub(crate) enum CurveKindName {
 #[derive(Clone, Copy, Debug, Serialize, ToSchema)]
 #[schema(as = AtlasPoint)]
 pub(crate) struct SpecialPointObject {
-    /// What it is.
+    /// Its kind.
     pub kind: PointKindName,
     /// [u, v], mm.
     #[schema(inline)]
     pub at: Pair,
 }
 
-/// What a point is: `cusp`, three solutions merge and the curve turns back; `crossing`, two curves cross; `corner`,
+/// Kind of a point: `cusp`, three solutions merge and the curve turns back; `crossing`, two curves cross; `corner`,
 /// curves end together or a curve has a corner; `tangency`, a curve touches another one and ends there; `isolated`,
 /// solutions merge at this point only; `self_motion`, the platform can move while all sliders stand: solutions form a
 /// curve, and the point has no number of solutions.
@@ -168,7 +168,7 @@ pub(crate) struct FaceObject {
 }
 
 impl PointKindName {
-    /// What it is, in words.
+    /// The kind in words.
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Cusp => "cusp",
@@ -190,7 +190,7 @@ impl SpaceName {
         }
     }
 
-    /// What u and v are.
+    /// The meanings of u and v.
     pub(crate) fn coordinates(self) -> [&'static str; 2] {
         match self {
             Self::Platform => ["x", "y"],

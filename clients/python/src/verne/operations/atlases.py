@@ -78,6 +78,4 @@ def _body(
 ) -> dict[str, Any]:
     u_min, u_max = (None, None) if u is None else u
     v_min, v_max = (None, None) if v is None else v
-    return given(
-        space=space, u_min=u_min, u_max=u_max, v_min=v_min, v_max=v_max, tolerance=tolerance, machine=machine
-    )
+    return given(space=space, u_min=u_min, u_max=u_max, v_min=v_min, v_max=v_max, tolerance=tolerance, machine=machine)
