@@ -139,7 +139,7 @@ fn nearest_to_start(
 ) -> Result<Option<State>, CalibrationError> {
     let (model, state) = (fit.model, &fitted.state);
     let triangle = fit.triangle(state, &fit.rates(state)?, &fitted.weighting);
-    let free = fit.information(&triangle, fit.unbounded(fitted, &triangle), fitted.steps)?;
+    let free = Fit::information(&triangle, fit.unbounded(fitted, &triangle), fitted.steps)?;
     let directions = free.null_space(model.unknowns.len());
     if directions.ncols() == 0 {
         return Ok(None);

@@ -31,7 +31,7 @@ pub(super) struct Fineness {
     pub(super) window: Rectangle,
 }
 
-impl<'a> Path<'a> {
+impl Path<'_> {
     /// A node at a configuration.
     pub(super) fn node(&self, q: Configuration) -> ArcNode {
         ArcNode { q, at: self.image(&q), direction: self.direction(&q), mark: None, deviation: 0.0 }

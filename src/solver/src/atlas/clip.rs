@@ -21,12 +21,14 @@ impl Arc<'_> {
         }
         pieces.push(piece);
         // The last piece of a closed arc continues in its first.
-        if self.closed && pieces.len() > 1 && window.contains(self.nodes[0].at) {
-            if let Some(mut last) = pieces.pop() {
-                last.pop();
-                last.append(&mut pieces[0]);
-                pieces[0] = last;
-            }
+        if self.closed
+            && pieces.len() > 1
+            && window.contains(self.nodes[0].at)
+            && let Some(mut last) = pieces.pop()
+        {
+            last.pop();
+            last.append(&mut pieces[0]);
+            pieces[0] = last;
         }
         let Self { kind, path, .. } = self;
         pieces
@@ -100,5 +102,5 @@ fn chord_inside(window: &Rectangle, [a, b]: [[f64; 2]; 2]) -> Option<f64> {
         let [x, y] = [(window.low[i] - a[i]) / run, (window.high[i] - a[i]) / run];
         (from, to) = (from.max(x.min(y)), to.min(x.max(y)));
     }
-    (from < to).then(|| 0.5 * (from + to))
+    (from < to).then_some(0.5 * (from + to))
 }

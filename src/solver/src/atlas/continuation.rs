@@ -112,7 +112,7 @@ impl System<'_> {
                 slopes[row][if column < skipped { column } else { column + 1 }]
             });
             let determinant = matrix.determinant();
-            if skipped % 2 == 0 { determinant } else { -determinant }
+            if skipped.is_multiple_of(2) { determinant } else { -determinant }
         };
         let tangent: Configuration = std::array::from_fn(minor);
         let length = norm(&tangent);

@@ -70,12 +70,11 @@ fn edges(arcs: &[Arc<'_>], grid: &Grid) -> Vec<Edge> {
                     return point;
                 }
                 let is_same = |known: &&GridPoint| (0..2).all(|i| (known[i] - point[i]).abs() <= SAME_END);
-                match known_ends.iter().find(is_same) {
-                    Some(known) => *known,
-                    None => {
-                        known_ends.push(point);
-                        point
-                    }
+                if let Some(known) = known_ends.iter().find(is_same) {
+                    *known
+                } else {
+                    known_ends.push(point);
+                    point
                 }
             })
             .collect();

@@ -55,6 +55,7 @@ impl Sub for Dual {
 
 impl Mul for Dual {
     type Output = Self;
+    #[allow(clippy::suspicious_arithmetic_impl, reason = "the derivative of a product is a sum")]
     fn mul(self, other: Self) -> Self {
         let slopes = std::array::from_fn(|i| self.slopes[i] * other.value + self.value * other.slopes[i]);
         Self { value: self.value * other.value, slopes }

@@ -94,13 +94,13 @@ pub(super) fn concluded(
     let state = &fitted.state;
     let rates = fit.rates(state)?;
     let all = (0..model.unknowns.len()).collect();
-    let of_measurements = fit.information(&model.triangle(state, &rates, |_, _| 1.0), all, fitted.steps)?;
+    let of_measurements = Fit::information(&model.triangle(state, &rates, |_, _| 1.0), all, fitted.steps)?;
     let residuals = model.residuals(state);
     let sigma = standard_deviation(fit, &residuals, of_measurements.rank());
     let weighting = Weighting { scale: sigma.unwrap_or(1.0), ..fitted.weighting };
     let triangle = fit.triangle(state, &rates, &weighting);
     let free = fit.unbounded(&fitted, &triangle);
-    let known = fit.information(&triangle, free.clone(), fitted.steps)?;
+    let known = Fit::information(&triangle, free.clone(), fitted.steps)?;
     let calibrated = described(machine, state).ok_or(CalibrationError::OutOfMode { pose: 0 })?;
     check_postures(&calibrated, fit, state)?;
     let unidentifiable = of_measurements.undetermined().into_iter();

@@ -123,7 +123,7 @@ impl Fit<'_> {
                 return Err(CalibrationError::Cancelled);
             }
             let triangle = self.triangle(&state, &self.rates(&state)?, &weighting);
-            let information = self.information(&triangle, self.free(&state, &triangle), steps)?;
+            let information = Self::information(&triangle, self.free(&state, &triangle), steps)?;
             let unit = information.greatest().powi(2);
             if information.decrement() <= self.tolerance(cost, &weighting) {
                 return Ok(Fitted { state, weighting, steps });
@@ -149,7 +149,7 @@ impl Fit<'_> {
             }
         }
         let triangle = self.triangle(&state, &self.rates(&state)?, &weighting);
-        let information = self.information(&triangle, self.free(&state, &triangle), MOST_STEPS)?;
+        let information = Self::information(&triangle, self.free(&state, &triangle), MOST_STEPS)?;
         Err(self.not_converged(&information, MOST_STEPS))
     }
 
@@ -171,7 +171,6 @@ impl Fit<'_> {
 
     /// What a factor tells about some unknowns.
     pub(super) fn information(
-        &self,
         triangle: &Triangle,
         unknowns: Vec<usize>,
         steps: usize,

@@ -124,7 +124,9 @@ impl Dxf {
 /// Writes a drawing. `draw` adds the entities.
 pub(crate) fn write(sheet: &Sheet<'_>, layers: &[Layer], draw: impl FnOnce(&mut Dxf)) -> String {
     let mut table = Dxf { text: String::new(), next_handle: FIRST_HANDLE };
-    layers.iter().for_each(|layer| table.layer(layer));
+    for layer in layers {
+        table.layer(layer);
+    }
     let mut body = Dxf { text: String::new(), next_handle: table.next_handle };
     body.section("ENTITIES");
     draw(&mut body);

@@ -22,7 +22,7 @@ pub(in crate::atlas) struct Faces {
 
 fn ends(edges: &[Edge], half_edge: usize) -> [GridPoint; 2] {
     let [a, b] = edges[half_edge / 2].ends;
-    if half_edge % 2 == 0 { [a, b] } else { [b, a] }
+    if half_edge.is_multiple_of(2) { [a, b] } else { [b, a] }
 }
 
 impl Faces {
