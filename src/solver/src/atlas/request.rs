@@ -157,7 +157,8 @@ impl AtlasRequest {
     /// use verne_solver::atlas::{AtlasRequest, Space};
     ///
     /// let request = AtlasRequest::new(&Machine::verne(), Space::Joints, None);
-    /// assert_eq!(request.tolerances(), [0.015, 150.0]);
+    /// let [finest, coarsest] = request.tolerances();
+    /// assert!((finest - 0.015).abs() < 1e-12 && (coarsest - 150.0).abs() < 1e-9);
     /// ```
     pub fn tolerances(&self) -> [f64; 2] {
         TOLERANCES.map(|part| part * self.window.side())

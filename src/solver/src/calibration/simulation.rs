@@ -45,7 +45,7 @@ pub enum Plan {
 /// let machine = ActualMachine::new(&Machine::verne(), 100.0);
 /// let rho = vec![[600.0, 500.0, 500.0], [650.0, 480.0, 520.0]];
 /// let Observed::Tips(tips) = simulated(&machine, rho, &Plan::Tips)?.observed else { panic!("tips") };
-/// assert!((tips[0][2] - 1460.0).abs() < 10.0);
+/// assert!((tips[0][2] - 1517.392).abs() < 1e-3);
 /// # Ok::<(), CalibrationError>(())
 /// ```
 pub fn simulated(
