@@ -37,15 +37,15 @@ pub(crate) struct CalibrationRequest {
     #[schema(minimum = 0, maximum = 1e7, default = 0.0)]
     pub tool_length: f64,
     /// Positions of the sliders that the control indicated, for each pose, mm.
-    #[schema(value_type = Vec<Triple>, min_items = 1, max_items = 20_000)]
+    #[schema(inline, value_type = Vec<Triple>, min_items = 1, max_items = 20_000)]
     pub rho: BoundedList<Triple>,
     /// `[theta1, theta2]` that the control indicated, for each pose, degrees. Only kind `part` has it.
     #[serde(default)]
-    #[schema(value_type = Option<Vec<Pair>>, nullable = false)]
+    #[schema(inline, value_type = Option<Vec<Pair>>, nullable = false)]
     pub table: Option<BoundedList<Pair>>,
     /// The tool end at each pose, mm. Only kinds `tips`, `tracker` and `part` have it.
     #[serde(default)]
-    #[schema(value_type = Option<Vec<Triple>>, nullable = false)]
+    #[schema(inline, value_type = Option<Vec<Triple>>, nullable = false)]
     pub points: Option<BoundedList<Triple>>,
     /// `[i, j, distance]`: the distance between the tool ends at the poses i and j, counted from 0, mm; or `[i, j]`
     /// without a measured value. Only kind `distances` has it.
@@ -71,7 +71,7 @@ pub(crate) struct CalibrationRequest {
     /// `[least, greatest]` value of parameters, by their names, mm or degrees. The value at the start must be between
     /// them.
     #[serde(default)]
-    #[schema(value_type = BTreeMap<String, Pair>)]
+    #[schema(inline, value_type = BTreeMap<String, Pair>)]
     pub bounds: BTreeMap<ParameterName, Pair>,
     /// Standard deviation of each measured number, mm. Without it, it follows from the residuals.
     #[serde(default)]

@@ -46,6 +46,9 @@ impl Chooser<'_> {
     /// it to the state at the end, or else while they move straight.
     fn breaks_limit(&self, rapid: Rapid<'_>, from: &State, to: &State) -> bool {
         let (Some(start), Some(end)) = (from.node, to.node) else { return false };
+        if from.reserve.fraction() < 0.0 || to.reserve.fraction() < 0.0 {
+            return false;
+        }
         if from.h[1] == to.h[0]
             && !self.joint_rapids
             && let Some(breaks) = self.breaks_on_line(rapid, from, &end)
