@@ -42,10 +42,11 @@ impl<'de> Deserialize<'de> for ParameterName {
 
 impl PartialSchema for ParameterName {
     fn schema() -> RefOr<Schema> {
-        let names = Parameter::ALL.map(Parameter::name);
+        let names = Parameter::ALL.map(Parameter::name).join("|");
+        // Not an enumeration: generators of clients that write its names in capitals cannot tell R1 from r1.
         ObjectBuilder::new()
             .schema_type(Type::String)
-            .enum_values(Some(names))
+            .pattern(Some(format!("^({names})$")))
             .description(Some(
                 "Name of a parameter: e1 = D1 - d1 and e2 = D2 - d2; R1, r1, R2, r4, L1, L2, L3; the sliders' zero \
                  offsets o1, o2, o3; the length of the tool; and the table's da, dt, axes and zero offsets.",
